@@ -1,0 +1,136 @@
+//! The geometric level of the paper's Fig. 2 in one call.
+
+use serde::{Deserialize, Serialize};
+
+use crate::adjacency::AdjacencyGraph;
+use crate::annotation::{self, CellFaces, EdgeAnnotation, FaceAnnotation};
+use crate::arrangement::{self, Subdivision};
+use crate::categorization::{self, CategoryMap};
+use crate::features;
+use crate::grid::{GridFrame, OccupancyGrid};
+use crate::orientation::{self, Orientations};
+use crate::radiography::{self, Line, Radiogram};
+use crate::segmentation::{self, RegionMap};
+use crate::spec::{AnalysisOptions, AnalysisSpec};
+use crate::watch::{Stage, Stopped, Watch};
+
+/// Version of the algorithms: part of the address of a stored analysis, raised whenever results change.
+pub const ALGORITHM_VERSION: u32 = 1;
+
+/// What the geometric level finds in a map. Immutable; addressed by grid, options and [`ALGORITHM_VERSION`].
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Analysis {
+    /// Pose and resolution of the grid.
+    pub frame: GridFrame,
+    /// Columns of the grid.
+    pub width: usize,
+    /// Rows of the grid.
+    pub height: usize,
+    /// The options, whole.
+    pub options: AnalysisOptions,
+    /// Cell -> category.
+    pub categories: CategoryMap,
+    /// Dominant orientations of the whole map.
+    pub orientations: Orientations,
+    /// Cell -> region, with the orientations of each.
+    pub regions: RegionMap,
+    /// Projections along the orientations of each region.
+    pub radiograms: Vec<Radiogram>,
+    /// Lines, by id.
+    pub lines: Vec<Line>,
+    /// Vertices, edges, faces.
+    pub subdivision: Subdivision,
+    /// The dual of the subdivision.
+    pub graph: AdjacencyGraph,
+    /// What is known of each face, by face id (entry 0, the unbounded face, is empty).
+    pub faces: Vec<FaceAnnotation>,
+    /// What is known of each edge, by edge id.
+    pub edges: Vec<EdgeAnnotation>,
+    /// What the user should know about this result.
+    pub diagnostics: Vec<Diagnostic>,
+}
+
+/// A remark on a result that is valid but may surprise.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Diagnostic {
+    /// Stable, for programs: `no-free-cells`, `no-orientation`, `no-lines`, ...
+    pub code: String,
+    /// For people: what it is, and how to mend it.
+    pub message: String,
+}
+
+impl Diagnostic {
+    /// A remark with a stable code.
+    #[must_use]
+    pub fn new(code: &str, message: impl Into<String>) -> Self {
+        Self { code: code.to_owned(), message: message.into() }
+    }
+}
+
+/// Runs every stage on a grid.
+///
+/// Never fails but by being stopped: a map without structure gives one face and a [`Diagnostic`].
+///
+/// # Errors
+/// [`Stopped`] when the watch says so.
+pub fn analyze(grid: &OccupancyGrid, spec: &AnalysisSpec, watch: &Watch<'_>) -> Result<Analysis, Stopped> {
+    let options = spec.options();
+    let features = watch.stage(Stage::Features, || features::extract(grid, &options.categorization, watch))?;
+    let categories = watch.stage(Stage::Categorization, || {
+        categorization::categorize(grid, &features, &options.categorization, options.seed, watch)
+    })?;
+    drop(features);
+    let orientations =
+        watch.stage(Stage::Orientation, || orientation::dominant_orientations(grid, &options.orientation, watch))?;
+    let regions = watch.stage(Stage::Regions, || segmentation::segment(grid, &orientations, options, watch))?;
+    let (radiograms, lines) =
+        watch.stage(Stage::Radiography, || radiography::lines(grid, &regions, &options.decomposition, watch))?;
+    let subdivision = watch.stage(Stage::Arrangement, || {
+        let segments = arrangement::source_segments(grid, &regions, &lines);
+        arrangement::arrange(&segments, watch)
+    })?;
+    let graph = AdjacencyGraph::dual(&subdivision);
+    let (faces, edges) = watch.stage(Stage::Annotation, || {
+        let cells = CellFaces::rasterize(&subdivision, grid.width(), grid.height(), grid.resolution());
+        annotation::annotate(grid, &categories, &regions, &subdivision, &cells, &options.annotation, watch)
+    })?;
+    let mut analysis = Analysis {
+        frame: *grid.frame(),
+        width: grid.width(),
+        height: grid.height(),
+        options: options.clone(),
+        categories,
+        orientations,
+        regions,
+        radiograms,
+        lines,
+        subdivision,
+        graph,
+        faces,
+        edges,
+        diagnostics: Vec::new(),
+    };
+    analysis.diagnostics = diagnose(grid, &analysis);
+    Ok(analysis)
+}
+
+/// Says what a user should know about a degenerate map.
+fn diagnose(grid: &OccupancyGrid, analysis: &Analysis) -> Vec<Diagnostic> {
+    use crate::grid::Occupancy::{Free, Occupied};
+    let mut diagnostics = Vec::new();
+    let mut say = |code: &str, message: &str| diagnostics.push(Diagnostic::new(code, message));
+    if grid.known_bounds().is_none() {
+        say("all-unknown", "no cell of the map is known: check the thresholds and the unknown value of the map");
+    }
+    if grid.count(Free) == 0 {
+        say("no-free-cells", "no cell is free, so there is no place to categorize: check `negate` and the thresholds");
+    }
+    if grid.count(Occupied) == 0 {
+        say("no-occupied-cells", "no cell is occupied, so no structure can be found: check the thresholds");
+    } else if analysis.orientations.angles.is_empty() {
+        say("no-orientation", "no dominant orientation stands out: the map is one face per region");
+    } else if analysis.lines.is_empty() {
+        say("no-lines", "no line stands out along the dominant orientations: the map is one face per region");
+    }
+    diagnostics
+}

@@ -1,0 +1,106 @@
+//! Annotation: what the cells say about faces and edges. (to be written)
+use crate::arrangement::{FaceId, Subdivision};
+use crate::categorization::CategoryMap;
+use crate::grid::OccupancyGrid;
+use crate::segmentation::RegionMap;
+use crate::spec::AnnotationOptions;
+use crate::watch::{Stopped, Watch};
+use serde::{Deserialize, Serialize};
+
+/// The membership function M(f), inverted: the face of every cell (by its centre).
+#[derive(Debug, Clone, PartialEq)]
+pub struct CellFaces {
+    width: usize,
+    faces: Vec<FaceId>,
+}
+
+impl CellFaces {
+    /// Finds the face of every cell centre of a `width` x `height` grid.
+    #[must_use]
+    pub fn rasterize(subdivision: &Subdivision, width: usize, height: usize, resolution: f64) -> Self {
+        let _ = (subdivision, width, height, resolution);
+        todo!()
+    }
+
+    /// The face of a cell; [`FaceId::OUTER`] outside the decomposed part of the map.
+    #[must_use]
+    pub fn at(&self, column: usize, row: usize) -> FaceId {
+        self.faces[row * self.width + column]
+    }
+
+    /// The faces of all cells, row-major, lowest row first.
+    #[must_use]
+    pub fn as_slice(&self) -> &[FaceId] {
+        &self.faces
+    }
+}
+
+/// How sure the geometry of a face or edge is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Evidence {
+    /// Cells of the map show it.
+    Observed,
+    /// It follows from its surroundings only (a line continued through open or unknown space).
+    Interpolated,
+}
+
+/// What the cells say about a face.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct FaceAnnotation {
+    /// Category in force: a cluster, or `occupied` / `unknown` of [`CategoryMap`].
+    pub category: u8,
+    /// Share of each cluster among the categorized cells of the face (sums to 1, or all 0 without such cells).
+    pub category_shares: Vec<f32>,
+    /// Cells whose centre lies in the face.
+    pub cells: usize,
+    /// Share of its cells that are free.
+    pub free_fraction: f64,
+    /// Share of its cells that are occupied.
+    pub occupied_fraction: f64,
+    /// Share of its cells that are unknown (1 for a face without cells).
+    pub unknown_fraction: f64,
+    /// Area, square metres.
+    pub area: f64,
+    /// Long side over short side of the smallest-area oriented box around it, at least 1.
+    pub elongation: f64,
+    /// Direction of the long side of that box, radians in `[-pi/2, pi/2)`.
+    pub heading: f64,
+    /// Long and short side of that box, metres.
+    pub extent: [f64; 2],
+    /// Region it lies in.
+    pub region: u8,
+    /// Share of the winning category among the votes, 0 to 1.
+    pub confidence: f64,
+    /// Whether cells show it.
+    pub evidence: Evidence,
+}
+
+/// What the cells say about an edge.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct EdgeAnnotation {
+    /// Share of its length along which an occupied cell lies within the support width.
+    pub support: f64,
+    /// Share of its length along which free cells lie on both sides and none occupied: where one could pass.
+    pub open: f64,
+    /// Whether cells show it.
+    pub evidence: Evidence,
+    /// 0 (nothing is known along it) to 1 (all of it is known).
+    pub confidence: f64,
+}
+
+/// Votes the categories into the faces and measures faces and edges.
+///
+/// # Errors
+/// [`Stopped`] when the watch says so.
+pub fn annotate(
+    grid: &OccupancyGrid,
+    categories: &CategoryMap,
+    regions: &RegionMap,
+    subdivision: &Subdivision,
+    cells: &CellFaces,
+    options: &AnnotationOptions,
+    watch: &Watch<'_>,
+) -> Result<(Vec<FaceAnnotation>, Vec<EdgeAnnotation>), Stopped> {
+    let _ = (grid, categories, regions, subdivision, cells, options, watch);
+    todo!()
+}

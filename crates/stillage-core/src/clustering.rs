@@ -1,0 +1,1 @@
+//! k-means, scaling. (to be written)

@@ -1,0 +1,59 @@
+//! From a robot's occupancy grid to a semantic map: the pure computation behind stillage.
+//!
+//! The method is that of S. Gholami Shahbandi, B. Åstrand and R. Philippsen, *Semi-supervised semantic
+//! labeling of adaptive cell decomposition maps in well-structured environments* (ECMR 2015,
+//! doi 10.1109/ECMR.2015.7324207). Its Fig. 2 is this crate, top to bottom:
+//!
+//! ```text
+//! grid ── raycast ── features ── categorization ──────────────┐      geometric level, no human input:
+//!   └──── orientation ── segmentation ── radiography          │      [`analyze`]
+//!                              └── arrangement ── adjacency ──┴── annotation ── Analysis
+//!                                                                                  │
+//!         rule set + assignment (one human decision per category) ── semantics ────┴── SemanticMap
+//!                                                                  layout, routing ──┘    human level: [`semantics::apply`]
+//! ```
+//!
+//! Nothing here touches a file, a socket, a clock or a thread pool of its own: parallel work runs on the rayon pool
+//! of the caller. The same grid and spec give the same [`Analysis`] on any number of threads.
+//!
+//! Lengths are metres and angles are radians, counter-clockwise, unless a name says otherwise. Geometry lives in the
+//! *grid frame*: metres from the lower left corner of the grid, x along the columns, y up along the rows.
+//! [`grid::GridFrame`] carries it into the map frame (origin and yaw).
+
+pub mod geometry;
+pub mod grid;
+
+pub mod features;
+pub mod raycast;
+
+pub mod clustering;
+pub mod linalg;
+pub mod signal;
+
+pub mod categorization;
+pub mod orientation;
+pub mod segmentation;
+
+pub mod radiography;
+
+pub mod arrangement;
+
+pub mod adjacency;
+
+pub mod annotation;
+
+pub mod analysis;
+
+pub mod semantics;
+
+pub mod layout;
+pub mod routing;
+
+pub mod spec;
+pub mod watch;
+
+pub use analysis::{Analysis, analyze};
+pub use geometry::{Point, Vector};
+pub use grid::{GridFrame, Occupancy, OccupancyGrid};
+pub use spec::{AnalysisOptions, AnalysisSpec};
+pub use watch::{Stage, StopFlag, Stopped, Watch};

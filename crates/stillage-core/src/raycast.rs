@@ -1,0 +1,1 @@
+//! All cells x all beams, streamed. (to be written)

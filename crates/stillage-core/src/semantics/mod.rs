@@ -1,0 +1,137 @@
+//! The human level: labels, rule sets, cogency and connectivity. (to be completed)
+
+mod rule_set;
+
+pub use rule_set::{
+    Cogency, CogencyRule, Connectivity, Functionality, Label, LabelId, RuleSet, RuleSetDraft, RuleSetProblem,
+};
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+
+use crate::analysis::Analysis;
+use crate::arrangement::{EdgeId, FaceId};
+
+/// The human decision: one label per category, and exceptions per face.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields, rename_all = "camelCase")]
+pub struct Assignment {
+    /// Label id by category. Categories that are not named are the rule set's unidentified label.
+    pub assignment: BTreeMap<u8, String>,
+    /// Label id of single faces, stronger than the category's.
+    pub overrides: BTreeMap<u32, String>,
+}
+
+/// An assignment that cannot be applied: one problem per entry.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("{pointer}: {message}")]
+pub struct AssignmentProblem {
+    /// JSON pointer into the assignment.
+    pub pointer: String,
+    /// What is wrong and what would be right.
+    pub message: String,
+}
+
+/// A proposed label for a category.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Suggestion {
+    /// Category.
+    pub category: u8,
+    /// Proposed label.
+    pub label: LabelId,
+    /// 0 to 1.
+    pub confidence: f64,
+    /// Why, for people.
+    pub reason: String,
+    /// What the proposal rests on.
+    pub evidence: CategoryEvidence,
+}
+
+/// Aggregates over the faces of one category (area-weighted means).
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct CategoryEvidence {
+    /// Number of faces.
+    pub faces: usize,
+    /// Their area, square metres.
+    pub area: f64,
+    /// Share of their cells that are free.
+    pub free_fraction: f64,
+    /// Share of their cells that are occupied.
+    pub occupied_fraction: f64,
+    /// Share of their cells that are unknown.
+    pub unknown_fraction: f64,
+    /// Long over short side.
+    pub elongation: f64,
+    /// Median face area, square metres.
+    pub median_area: f64,
+    /// Share of the length of their edges that is open (passable on both sides).
+    pub open_fraction: f64,
+}
+
+/// Faces of one label that are mutually open, merged: a corridor, a junction, an office, a block of storage.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Place {
+    /// Its label.
+    pub label: LabelId,
+    /// Its faces, ascending.
+    pub faces: Vec<FaceId>,
+    /// Area, square metres.
+    pub area: f64,
+}
+
+/// The semantic map: an analysis read under a rule set and an assignment.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SemanticMap {
+    /// The rule set in force.
+    pub rule_set: RuleSet,
+    /// Label of each face, by face id (entry 0 is the unidentified label).
+    pub labels: Vec<LabelId>,
+    /// How sure that label is, 0 to 1, by face id.
+    pub confidences: Vec<f64>,
+    /// C(e) by edge id.
+    pub cogency: Vec<Cogency>,
+    /// C(l) by edge id; `None` on the outer boundary, where there is no link.
+    pub connectivity: Vec<Option<Connectivity>>,
+    /// Edges whose cogency and physical support disagree, by edge id.
+    pub disagreements: Vec<bool>,
+    /// Place of each face, by face id (`None` for the unbounded face).
+    pub face_places: Vec<Option<u32>>,
+    /// Merged faces.
+    pub places: Vec<Place>,
+}
+
+impl SemanticMap {
+    /// The label of a face.
+    #[must_use]
+    pub fn label(&self, face: FaceId) -> &Label {
+        self.rule_set.label(self.labels[face.index()])
+    }
+
+    /// Whether a robot may drive over a link: connected, and both faces drivable.
+    #[must_use]
+    pub fn is_drivable_link(&self, edge: EdgeId, sides: [FaceId; 2]) -> bool {
+        self.connectivity[edge.index()] == Some(Connectivity::Connected)
+            && sides.iter().all(|&face| self.label(face).is_drivable())
+    }
+}
+
+/// Proposes a label for every category of an analysis (clusters, `occupied`, `unknown`), ascending.
+#[must_use]
+pub fn suggest(analysis: &Analysis, rule_set: &RuleSet) -> Vec<Suggestion> {
+    let _ = (analysis, rule_set);
+    todo!()
+}
+
+/// Reads an analysis under a rule set and an assignment. Pure; milliseconds.
+///
+/// # Errors
+/// A problem for every category, face or label of the assignment that does not exist.
+pub fn apply(
+    analysis: &Analysis,
+    rule_set: &RuleSet,
+    assignment: &Assignment,
+) -> Result<SemanticMap, Vec<AssignmentProblem>> {
+    let _ = (analysis, rule_set, assignment);
+    todo!()
+}

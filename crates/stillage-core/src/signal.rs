@@ -1,0 +1,1 @@
+//! Windows, peaks, wavelets. (to be written)

@@ -1,0 +1,132 @@
+//! How a long computation is stopped and how it tells where it is.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// The stages of [`crate::analyze`], in their order.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Stage {
+    /// Beams from every free cell, reduced to features.
+    Features,
+    /// Clustering of the features into place categories.
+    Categorization,
+    /// Dominant orientations of the whole map.
+    Orientation,
+    /// Texture regions and their own orientations.
+    Regions,
+    /// Projections along the orientations, and lines.
+    Radiography,
+    /// Subdivision into faces and its dual graph.
+    Arrangement,
+    /// Categories, occupancy and evidence of faces and edges.
+    Annotation,
+}
+
+impl Stage {
+    /// Every stage, in order.
+    pub const ALL: [Self; 7] = [
+        Self::Features,
+        Self::Categorization,
+        Self::Orientation,
+        Self::Regions,
+        Self::Radiography,
+        Self::Arrangement,
+        Self::Annotation,
+    ];
+
+    /// The name used in reports and job states.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Features => "features",
+            Self::Categorization => "categorization",
+            Self::Orientation => "orientation",
+            Self::Regions => "regions",
+            Self::Radiography => "radiography",
+            Self::Arrangement => "arrangement",
+            Self::Annotation => "annotation",
+        }
+    }
+}
+
+/// The computation was asked to stop.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[error("the computation was stopped")]
+pub struct Stopped;
+
+/// A flag that any thread may raise; clones share it.
+#[derive(Debug, Clone, Default)]
+pub struct StopFlag(Arc<AtomicBool>);
+
+impl StopFlag {
+    /// Asks every computation that watches this flag to stop.
+    pub fn raise(&self) {
+        self.0.store(true, Ordering::Relaxed);
+    }
+
+    /// Whether the flag is up.
+    #[must_use]
+    pub fn is_raised(&self) -> bool {
+        self.0.load(Ordering::Relaxed)
+    }
+}
+
+/// Told of the progress of a computation, from any of its threads.
+pub trait Observer: Sync {
+    /// `stage` is done to `fraction` (0 when it begins, 1 when it ends).
+    fn progress(&self, stage: Stage, fraction: f64);
+}
+
+/// What a computation carries along: a stop flag to ask and an observer to tell.
+#[derive(Clone, Copy)]
+pub struct Watch<'a> {
+    stop: Option<&'a StopFlag>,
+    observer: Option<&'a dyn Observer>,
+}
+
+impl<'a> Watch<'a> {
+    /// Watches both.
+    #[must_use]
+    pub fn new(stop: &'a StopFlag, observer: &'a dyn Observer) -> Self {
+        Self { stop: Some(stop), observer: Some(observer) }
+    }
+
+    /// Never stops, tells nobody.
+    #[must_use]
+    pub const fn unwatched() -> Self {
+        Self { stop: None, observer: None }
+    }
+
+    /// Fails once the stop flag is raised. Ask at least every 50 ms of work.
+    ///
+    /// # Errors
+    /// [`Stopped`] once the flag is up.
+    pub fn check(&self) -> Result<(), Stopped> {
+        if self.stop.is_some_and(StopFlag::is_raised) { Err(Stopped) } else { Ok(()) }
+    }
+
+    /// Reports progress within a stage.
+    pub fn progress(&self, stage: Stage, fraction: f64) {
+        if let Some(observer) = self.observer {
+            observer.progress(stage, fraction);
+        }
+    }
+
+    /// Runs one stage between its two progress reports.
+    ///
+    /// # Errors
+    /// [`Stopped`] when the flag was up before the stage began, or whatever the stage itself answers.
+    pub fn stage<T>(&self, stage: Stage, run: impl FnOnce() -> Result<T, Stopped>) -> Result<T, Stopped> {
+        self.check()?;
+        self.progress(stage, 0.0);
+        let result = run()?;
+        self.progress(stage, 1.0);
+        Ok(result)
+    }
+}
+
+impl std::fmt::Debug for Watch<'_> {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        formatter.debug_struct("Watch").field("stop", &self.stop).finish_non_exhaustive()
+    }
+}

@@ -1,0 +1,6 @@
+//! The command line. (to be written)
+/// Runs the command line.
+#[must_use]
+pub fn run() -> std::process::ExitCode {
+    todo!()
+}

@@ -1,0 +1,57 @@
+//! Everything that can be configured, read once at the start.
+
+use std::path::PathBuf;
+use std::time::Duration;
+
+use crate::ingest::Limits;
+
+/// Configuration of a running service.
+#[derive(Debug, Clone)]
+pub struct Config {
+    /// Folder of the database and the blobs.
+    pub data: PathBuf,
+    /// Limits on uploaded maps.
+    pub limits: Limits,
+    /// Jobs that run at the same time.
+    pub job_slots: usize,
+    /// Threads of the compute pool (shared by all jobs).
+    pub compute_threads: usize,
+    /// How long a claim lasts without a heartbeat.
+    pub lease: Duration,
+    /// How often a running job reports and asks whether it was cancelled.
+    pub heartbeat: Duration,
+    /// How often a job that failed by a fault of the infrastructure is tried in all.
+    pub max_attempts: u32,
+    /// Jobs that may wait; further uploads are answered 503.
+    pub max_queued_jobs: u64,
+    /// Free space below which uploads are answered 507, bytes.
+    pub min_free_bytes: u64,
+    /// Memory that one job may need by estimate, bytes.
+    pub max_job_bytes: u64,
+    /// Analysed maps kept in memory.
+    pub cached_maps: usize,
+    /// How long running jobs may go on after a request to stop, before they are put back.
+    pub shutdown_grace: Duration,
+}
+
+impl Config {
+    /// The defaults, with the data in a folder.
+    #[must_use]
+    pub fn new(data: impl Into<PathBuf>) -> Self {
+        let cores = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+        Self {
+            data: data.into(),
+            limits: Limits::default(),
+            job_slots: 1,
+            compute_threads: cores,
+            lease: Duration::from_secs(30),
+            heartbeat: Duration::from_millis(250),
+            max_attempts: 5,
+            max_queued_jobs: 1_000,
+            min_free_bytes: 256 << 20,
+            max_job_bytes: 8 << 30,
+            cached_maps: 8,
+            shutdown_grace: Duration::from_secs(25),
+        }
+    }
+}

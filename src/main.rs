@@ -1,0 +1,5 @@
+//! The `stillage` command.
+
+fn main() -> std::process::ExitCode {
+    stillage::cli::run()
+}
