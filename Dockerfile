@@ -1,7 +1,9 @@
 # syntax=docker/dockerfile:1
 
-# Build: the toolchain named in rust-toolchain.toml, the locked dependencies, one binary.
-FROM rust:1.95-bookworm AS build
+# Build: the image's toolchain, the locked dependencies, one binary.
+FROM rust:1.95.0-bookworm AS build
+# The image brings exactly this toolchain; do not let rust-toolchain.toml fetch another.
+ENV RUSTUP_TOOLCHAIN=1.95.0
 WORKDIR /stillage
 COPY . .
 RUN cargo build --release --locked --bin stillage
