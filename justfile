@@ -1,0 +1,27 @@
+# `just` lists the recipes.
+_default:
+    @just --list
+
+# Serve on loopback with a temporary store and an example map.
+demo:
+    cargo run --release -- demo
+
+# Everything the README's test command runs.
+test:
+    cargo test --workspace
+
+# Format, lint, documentation, licences.
+lint:
+    cargo fmt --all --check
+    cargo clippy --workspace --all-targets -- -D warnings
+    RUSTDOCFLAGS="-D warnings" cargo doc --workspace --no-deps
+    cargo deny check bans licenses sources
+
+# Re-bless golden data: expected texts, golden files and the OpenAPI document.
+bless:
+    UPDATE_EXPECT=1 cargo test --workspace
+    cargo run -- openapi --out openapi/openapi.json
+
+# What continuous integration runs.
+ci:
+    bash .ci/run
