@@ -92,7 +92,8 @@ impl RequestTag {
     fn read(text: &str) -> Option<Self> {
         let (weak, quoted) = text.strip_prefix("W/").map_or((false, text), |rest| (true, rest));
         let opaque = quoted.strip_prefix('"')?.strip_suffix('"')?;
-        let plain = opaque.rsplit_once('-').filter(|(_, coding)| CODINGS.contains(coding)).map_or(opaque, |pair| pair.0);
+        let plain =
+            opaque.rsplit_once('-').filter(|(_, coding)| CODINGS.contains(coding)).map_or(opaque, |pair| pair.0);
         Some(Self { tag: EntityTag(plain.to_owned()), weak, text: text.to_owned() })
     }
 }

@@ -52,10 +52,7 @@ pub struct Document(pub Bytes);
     responses((status = 200, description = "The OpenAPI 3.1 document", body = serde_json::Value,
         content_type = "application/vnd.oai.openapi+json;version=3.1",
         headers(("ETag" = String, description = "Changes with the document")))))]
-pub async fn openapi(
-    axum::Extension(document): axum::Extension<Document>,
-    if_none_match: IfNoneMatch,
-) -> Response {
+pub async fn openapi(axum::Extension(document): axum::Extension<Document>, if_none_match: IfNoneMatch) -> Response {
     let tag = EntityTag::of_content(&[&blake3::hash(&document.0).to_hex()]);
     tag.answer(&if_none_match, || ([(axum::http::header::CONTENT_TYPE, OPENAPI)], document.0).into_response())
 }

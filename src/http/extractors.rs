@@ -33,7 +33,7 @@ impl<S: Send + Sync, T: DeserializeOwned + Send> FromRequestParts<S> for Path<T>
 /// The id of a map, analysis or job.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
 #[serde(try_from = "String", into = "String")]
-#[schema(value_type = String, format = Uuid, example = "019ab3c2-5d10-7c41-9a53-0242ac120002")]
+#[schema(value_type = String, format = "uuid", example = "019ab3c2-5d10-7c41-9a53-0242ac120002")]
 pub struct Id(pub Uuid);
 
 impl TryFrom<String> for Id {
@@ -184,7 +184,10 @@ pub fn parse_json<T: DeserializeOwned>(pointer: &str, bytes: &[u8]) -> Result<T,
         Ok(axum::Json(value)) => Ok(value),
         Err(JsonRejection::JsonDataError(error)) => {
             let (path, message) = path_and_message(&error);
-            Err(Problem::invalid(format!("{pointer}{}", path.as_deref().map(json_pointer).unwrap_or_default()), message))
+            Err(Problem::invalid(
+                format!("{pointer}{}", path.as_deref().map(json_pointer).unwrap_or_default()),
+                message,
+            ))
         }
         Err(error) => Err(Problem::at(ProblemType::BadRequest, pointer, path_and_message(&error).1)),
     }
@@ -192,7 +195,8 @@ pub fn parse_json<T: DeserializeOwned>(pointer: &str, bytes: &[u8]) -> Result<T,
 
 /// Splits the message of a deserialization error: axum keeps track of the path and puts it in front.
 fn path_and_message(rejection: &(dyn Error + 'static)) -> (Option<String>, String) {
-    let innermost = std::iter::successors(rejection.source(), |&cause| cause.source().filter(|_| cause.is::<axum::Error>()));
+    let innermost =
+        std::iter::successors(rejection.source(), |&cause| cause.source().filter(|_| cause.is::<axum::Error>()));
     let text = innermost.last().map_or_else(|| rejection.to_string(), ToString::to_string);
     match text.split_once(": ") {
         Some((path, message)) if is_path(path) => (Some(path.to_owned()), message.to_owned()),
@@ -255,10 +259,12 @@ mod tests {
 
     #[test]
     fn errors_in_json_carry_a_pointer() {
-        expect_test::expect![[r#"422 Unprocessable Entity /options/labels/1/a~1b: invalid type: string "x", expected u8 at line 1 column 26"#]]
+        expect_test::expect![[r#"422 Unprocessable Entity /options/labels/1/a~1b: invalid type: string "x", expected u8 at line 1 column 24"#]]
             .assert_eq(&refusal(r#"{"labels":[{},{"a/b":"x"}]}"#));
-        expect_test::expect!["422 Unprocessable Entity /options/color: unknown field `color`, expected `labels` at line 1 column 8"]
-            .assert_eq(&refusal(r#"{"color":1}"#));
+        expect_test::expect![
+            "422 Unprocessable Entity /options/color: unknown field `color`, expected `labels` at line 1 column 8"
+        ]
+        .assert_eq(&refusal(r#"{"color":1}"#));
         expect_test::expect!["422 Unprocessable Entity /options: missing field `labels` at line 1 column 2"]
             .assert_eq(&refusal("{}"));
         expect_test::expect!["400 Bad Request /options: EOF while parsing an object at line 1 column 1"]

@@ -53,7 +53,8 @@ pub async fn other_origins(request: Request, next: Next) -> Response {
         return Problem::new(ProblemType::CrossOrigin, detail).into_response();
     }
     let mut response = next.run(request).await;
-    let fixed = |name: &'static str, value: &'static str| (HeaderName::from_static(name), HeaderValue::from_static(value));
+    let fixed =
+        |name: &'static str, value: &'static str| (HeaderName::from_static(name), HeaderValue::from_static(value));
     if is_options && response.status() == StatusCode::METHOD_NOT_ALLOWED {
         let allow = response.headers_mut().remove(header::ALLOW);
         response = StatusCode::NO_CONTENT.into_response();
@@ -195,7 +196,11 @@ mod tests {
 
     fn request(headers: &[(&'static str, &'static str)]) -> Request {
         let builder = Request::builder().uri("/v1/maps");
-        headers.iter().fold(builder, |builder, (name, value)| builder.header(*name, *value)).body(Body::empty()).expect("is a request")
+        headers
+            .iter()
+            .fold(builder, |builder, (name, value)| builder.header(*name, *value))
+            .body(Body::empty())
+            .expect("is a request")
     }
 
     #[test]

@@ -157,8 +157,9 @@ pub struct JobQuery {
     #[param(value_type = Option<Vec<JobStatus>>, style = Form, explode = false)]
     status: Option<States>,
     /// Type of the jobs: all are `process`.
-    #[param(inline)]
-    r#type: Option<JobType>,
+    #[serde(rename = "type")]
+    #[param(inline, rename = "type")]
+    _type: Option<JobType>,
     /// Most entries of the answer.
     #[serde(default)]
     #[param(value_type = Option<u32>, minimum = 1, maximum = 1000, default = 100)]
@@ -212,11 +213,7 @@ pub struct JobList {
 #[utoipa::path(get, path = "/v1/jobs", tag = "jobs", operation_id = "listJobs", params(JobQuery),
     responses((status = 200, description = "A page of jobs", body = JobList,
         headers(("Link" = Option<String>, description = "The next page")))))]
-pub async fn list(
-    State(app): State<Arc<App>>,
-    base: Base,
-    Query(query): Query<JobQuery>,
-) -> Result<Response, Problem> {
+pub async fn list(State(app): State<Arc<App>>, base: Base, Query(query): Query<JobQuery>) -> Result<Response, Problem> {
     let limit = query.limit.0;
     let (states, text) = query.status.map(|status| (status.states, status.text)).unwrap_or_default();
     let filter = JobFilter { states, map: None, limit: limit + 1, after: query.after.map(|id| id.0) };
@@ -233,11 +230,7 @@ pub async fn list(
 /// A job
 #[utoipa::path(get, path = "/v1/jobs/{jobId}", tag = "jobs", operation_id = "getJob", params(JobPath),
     responses((status = 200, description = "The job", body = JobView)))]
-pub async fn get(
-    State(app): State<Arc<App>>,
-    base: Base,
-    Path(path): Path<JobPath>,
-) -> Result<Response, Problem> {
+pub async fn get(State(app): State<Arc<App>>, base: Base, Path(path): Path<JobPath>) -> Result<Response, Problem> {
     let job = app.job(path.job_id.0).await?;
     Ok(([(header::CACHE_CONTROL, "no-store")], Json(JobView::new(&base, job))).into_response())
 }

@@ -23,7 +23,7 @@ pub const OPENAPI: &str = "application/vnd.oai.openapi+json;version=3.1";
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, ToSchema)]
 pub struct Link {
     /// Where it leads.
-    #[schema(format = Uri)]
+    #[schema(format = "uri")]
     pub href: String,
     /// How the target relates to this resource.
     #[schema(example = "self")]

@@ -144,11 +144,7 @@ pub async fn create(
 #[utoipa::path(get, path = "/v1/maps", tag = "maps", operation_id = "listMaps", params(Paging),
     responses((status = 200, description = "A page of maps", body = MapList,
         headers(("Link" = Option<String>, description = "The next page")))))]
-pub async fn list(
-    State(app): State<Arc<App>>,
-    base: Base,
-    Query(paging): Query<Paging>,
-) -> Result<Response, Problem> {
+pub async fn list(State(app): State<Arc<App>>, base: Base, Query(paging): Query<Paging>) -> Result<Response, Problem> {
     let limit = paging.limit.0;
     let (maps, more) = cut(app.maps(limit + 1, paging.after.map(|id| id.0)).await?, limit);
     let next = maps.last().filter(|_| more).map(|last| format!("/v1/maps?limit={limit}&after={}", last.id));

@@ -62,7 +62,10 @@ impl Accept {
             return 1.0;
         }
         let ranges = self.0.iter().map(|range| (range.closeness(media_type), range.quality));
-        ranges.filter(|(closeness, _)| *closeness > 0).max_by_key(|(closeness, _)| *closeness).map_or(0.0, |best| best.1)
+        ranges
+            .filter(|(closeness, _)| *closeness > 0)
+            .max_by_key(|(closeness, _)| *closeness)
+            .map_or(0.0, |best| best.1)
     }
 
     /// Whether a media type is accepted.

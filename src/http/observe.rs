@@ -68,12 +68,18 @@ impl std::fmt::Debug for Metrics {
 }
 
 /// Middleware: gives the request its id, logs it and counts it.
-pub async fn observe(State(metrics): State<Metrics>, path: Option<MatchedPath>, request: Request, next: Next) -> Response {
+pub async fn observe(
+    State(metrics): State<Metrics>,
+    path: Option<MatchedPath>,
+    request: Request,
+    next: Next,
+) -> Response {
     let began = Instant::now();
     let id = request_id(&request);
     let method = request.method().clone();
     let route = path.as_ref().map_or("unmatched", MatchedPath::as_str);
-    let span = tracing::info_span!("request", %method, path = request.uri().path(), id = id.to_str().unwrap_or_default());
+    let span =
+        tracing::info_span!("request", %method, path = request.uri().path(), id = id.to_str().unwrap_or_default());
     let mut response = next.run(request).instrument(span.clone()).await;
     let (status, seconds) = (response.status().as_u16(), began.elapsed().as_secs_f64());
     span.in_scope(|| tracing::debug!(status, seconds, "answered"));
@@ -87,11 +93,15 @@ pub async fn observe(State(metrics): State<Metrics>, path: Option<MatchedPath>, 
 /// The client's own id where it is a plain one, or a new one.
 fn request_id(request: &Request) -> HeaderValue {
     let plain = |id: &&HeaderValue| {
-        (1..=64).contains(&id.len()) && id.as_bytes().iter().all(|&byte| byte.is_ascii_alphanumeric() || b"-_.".contains(&byte))
+        (1..=64).contains(&id.len())
+            && id.as_bytes().iter().all(|&byte| byte.is_ascii_alphanumeric() || b"-_.".contains(&byte))
     };
-    request.headers().get(REQUEST_ID).filter(plain).cloned().unwrap_or_else(|| {
-        HeaderValue::try_from(Uuid::now_v7().to_string()).expect("a UUID is plain text")
-    })
+    request
+        .headers()
+        .get(REQUEST_ID)
+        .filter(plain)
+        .cloned()
+        .unwrap_or_else(|| HeaderValue::try_from(Uuid::now_v7().to_string()).expect("a UUID is plain text"))
 }
 
 /// Metrics
@@ -119,7 +129,10 @@ mod tests {
         metrics.count_request("/v1/maps/{mapId}", "GET", 200, 0.003);
         metrics.count_request("/v1/maps/{mapId}", "GET", 200, 0.2);
         let text = metrics.handle.render();
-        assert!(text.contains(r#"http_requests_total{route="/v1/maps/{mapId}",method="GET",status="200"} 2"#), "{text}");
+        assert!(
+            text.contains(r#"http_requests_total{route="/v1/maps/{mapId}",method="GET",status="200"} 2"#),
+            "{text}"
+        );
         assert!(text.contains(r#"method="GET",le="0.005"} 1"#), "{text}");
     }
 

@@ -195,13 +195,13 @@ impl Problem {
     }
 
     /// The kind of the problem.
-    #[must_use]
+    #[cfg(test)]
     pub const fn kind(&self) -> ProblemType {
         self.kind
     }
 
     /// What is wrong, piece by piece.
-    #[must_use]
+    #[cfg(test)]
     pub fn errors(&self) -> &[ProblemItem] {
         &self.errors
     }
@@ -224,7 +224,7 @@ impl Problem {
 #[schema(as = Problem)]
 pub struct ProblemDocument {
     /// Stable URI of the kind of problem, relative to the service. It can be fetched.
-    #[schema(format = UriReference, example = "/problems/not-found")]
+    #[schema(format = "uri-reference", example = "/problems/not-found")]
     r#type: String,
     /// The kind, for people.
     #[schema(example = "There is no such resource")]
@@ -236,7 +236,7 @@ pub struct ProblemDocument {
     #[schema(example = "there is no map 019ab3c2-0000-7000-8000-000000000000")]
     detail: String,
     /// The path of the request.
-    #[schema(format = UriReference, example = "/v1/maps/019ab3c2-0000-7000-8000-000000000000")]
+    #[schema(format = "uri-reference", example = "/v1/maps/019ab3c2-0000-7000-8000-000000000000")]
     instance: String,
     /// What is wrong, piece by piece, where that is known.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -268,11 +268,8 @@ impl From<AppError> for Problem {
                 },
             ),
             AppError::Invalid { fields, .. } => {
-                let item = |FieldProblem { pointer, detail }| ProblemItem {
-                    pointer: Some(pointer),
-                    parameter: None,
-                    detail,
-                };
+                let item =
+                    |FieldProblem { pointer, detail }| ProblemItem { pointer: Some(pointer), parameter: None, detail };
                 Self { errors: fields.into_iter().map(item).collect(), ..Self::new(ProblemType::Invalid, detail) }
             }
             AppError::Ingest(error) => {

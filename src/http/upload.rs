@@ -172,6 +172,8 @@ fn idempotency_key(headers: &HeaderMap) -> Result<Option<String>, Problem> {
     let Some(key) = headers.get("idempotency-key") else { return Ok(None) };
     match key.to_str() {
         Ok(key) if (1..=255).contains(&key.len()) => Ok(Some(key.to_owned())),
-        _ => Err(Problem::new(ProblemType::BadRequest, "Idempotency-Key must have 1 to 255 printable ASCII characters")),
+        _ => {
+            Err(Problem::new(ProblemType::BadRequest, "Idempotency-Key must have 1 to 255 printable ASCII characters"))
+        }
     }
 }

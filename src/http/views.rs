@@ -94,7 +94,9 @@ impl GeoreferenceView {
     /// 422 for numbers that are no place on Earth; the pointers start at `pointer`.
     pub fn check(self, pointer: &str) -> Result<Option<Georeference>, Problem> {
         // Web Mercator ends at 85.05 degrees.
-        for (name, value, limit) in [("lon", self.lon, 180.0), ("lat", self.lat, 85.0), ("heading", self.heading, 360.0)] {
+        for (name, value, limit) in
+            [("lon", self.lon, 180.0), ("lat", self.lat, 85.0), ("heading", self.heading, 360.0)]
+        {
             if !(-limit..=limit).contains(&value) {
                 let detail = format!("{value} is outside -{limit} to {limit}");
                 return Err(Problem::invalid(format!("{pointer}/{name}"), detail));
