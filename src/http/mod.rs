@@ -37,6 +37,7 @@ use axum::{Extension, extract::Request, middleware::Next, response::Response};
 use tower::ServiceBuilder;
 use tower_http::catch_panic::CatchPanicLayer;
 use tower_http::compression::CompressionLayer;
+use tower_http::limit::RequestBodyLimitLayer;
 use utoipa_axum::router::{OpenApiRouter, UtoipaMethodRouterExt};
 use utoipa_axum::routes;
 
@@ -47,6 +48,8 @@ const BODY_BYTES: usize = 8 << 20;
 
 /// The list of routes.
 fn routes(upload_bytes: usize) -> OpenApiRouter<Arc<App>> {
+    // Refuses by the declared length before anything is read, and while reading where none was declared.
+    let upload_limit = ServiceBuilder::new().layer(RequestBodyLimitLayer::new(upload_bytes)).layer(DefaultBodyLimit::disable());
     OpenApiRouter::with_openapi(openapi::head())
         .routes(routes!(docs::landing))
         .routes(routes!(docs::openapi))
@@ -54,7 +57,7 @@ fn routes(upload_bytes: usize) -> OpenApiRouter<Arc<App>> {
         .routes(routes!(health::live))
         .routes(routes!(health::ready))
         .routes(routes!(observe::metrics))
-        .routes(routes!(maps::list, maps::create).layer(DefaultBodyLimit::max(upload_bytes)))
+        .routes(routes!(maps::list, maps::create).layer(upload_limit))
         .routes(routes!(maps::get, maps::update, maps::delete))
         .routes(routes!(analyses::list, analyses::create))
         .routes(routes!(analyses::diagnostics))

@@ -97,15 +97,13 @@ pub async fn negotiate(request: Request, next: Next) -> Response {
     if !is_read || !response.status().is_success() {
         return response;
     }
-    response.headers_mut().append(header::VARY, HeaderValue::from_static("accept"));
     let media_type = response.headers().get(header::CONTENT_TYPE).and_then(|value| value.to_str().ok());
-    match media_type {
-        Some(media_type) if !accept.accepts(media_type) => {
-            let detail = format!("the resource is {media_type}, which the Accept header leaves out");
-            Problem::new(ProblemType::NotAcceptable, detail).into_response()
-        }
-        _ => response,
+    if let Some(media_type) = media_type.filter(|media_type| !accept.accepts(media_type)) {
+        let detail = format!("the resource is {media_type}, which the Accept header leaves out");
+        response = Problem::new(ProblemType::NotAcceptable, detail).into_response();
     }
+    response.headers_mut().append(header::VARY, HeaderValue::from_static("accept"));
+    response
 }
 
 #[cfg(test)]
