@@ -10,9 +10,14 @@ pub mod ingest;
 pub mod geojson;
 pub mod render;
 
+pub mod records;
+
+mod fail_point;
+
 pub mod store;
 
 pub mod jobs;
+pub mod stage_clock;
 
 pub mod app;
 

@@ -1,0 +1,124 @@
+//! What each stage of an analysis costs, and how far it is.
+
+use std::sync::Mutex;
+use std::time::{Duration, Instant};
+
+use rustix::time::{ClockId, clock_gettime};
+use stillage_core::watch::{Observer, Stage};
+
+use crate::records::StageReport;
+
+/// Share of each stage in the time of a whole analysis, percent, for one progress bar over all of them. The features
+/// (beams from every free cell) are most of the work.
+const SHARES: [(Stage, f64); 7] = [
+    (Stage::Features, 50.0),
+    (Stage::Categorization, 15.0),
+    (Stage::Orientation, 5.0),
+    (Stage::Regions, 15.0),
+    (Stage::Radiography, 5.0),
+    (Stage::Arrangement, 5.0),
+    (Stage::Annotation, 5.0),
+];
+
+/// An observer with a clock: wall time and CPU time of the process, by stage.
+///
+/// CPU time is that of the whole process, so it includes what else ran at the time.
+#[derive(Debug, Default)]
+pub struct StageClock(Mutex<Times>);
+
+#[derive(Debug, Default)]
+struct Times {
+    finished: Vec<StageReport>,
+    running: Option<Running>,
+}
+
+#[derive(Debug)]
+struct Running {
+    stage: Stage,
+    fraction: f64,
+    wall: Instant,
+    cpu: Duration,
+}
+
+impl StageClock {
+    /// A clock before its first stage.
+    #[must_use]
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// The stages that ended, in their order.
+    #[must_use]
+    pub fn reports(&self) -> Vec<StageReport> {
+        self.times().finished.clone()
+    }
+
+    /// The stage that runs, if one does.
+    #[must_use]
+    pub fn stage(&self) -> Option<Stage> {
+        self.times().running.as_ref().map(|running| running.stage)
+    }
+
+    /// How much of the whole analysis is done, 0 to 100.
+    #[must_use]
+    pub fn percent(&self) -> u8 {
+        let times = self.times();
+        let share =
+            |stage: &str| SHARES.iter().find(|(known, _)| known.name() == stage).map_or(0.0, |(_, share)| *share);
+        let finished: f64 = times.finished.iter().map(|report| share(&report.name)).sum();
+        let running = times.running.as_ref().map_or(0.0, |running| share(running.stage.name()) * running.fraction);
+        (finished + running).clamp(0.0, 100.0) as u8
+    }
+
+    fn times(&self) -> std::sync::MutexGuard<'_, Times> {
+        // The times are whole after every statement, so a panic elsewhere does not spoil them.
+        self.0.lock().unwrap_or_else(std::sync::PoisonError::into_inner)
+    }
+}
+
+impl Observer for StageClock {
+    fn progress(&self, stage: Stage, fraction: f64) {
+        let mut times = self.times();
+        if times.running.as_ref().is_none_or(|running| running.stage != stage) {
+            times.running = Some(Running { stage, fraction: 0.0, wall: Instant::now(), cpu: cpu_time() });
+        }
+        let Some(running) = times.running.as_mut() else { return };
+        running.fraction = running.fraction.max(fraction);
+        if fraction >= 1.0 {
+            let report = StageReport {
+                name: stage.name().to_owned(),
+                wall_s: running.wall.elapsed().as_secs_f64(),
+                cpu_s: cpu_time().saturating_sub(running.cpu).as_secs_f64(),
+            };
+            times.finished.push(report);
+            times.running = None;
+        }
+    }
+}
+
+/// CPU time of the process so far, all threads.
+fn cpu_time() -> Duration {
+    Duration::try_from(clock_gettime(ClockId::ProcessCPUTime)).unwrap_or_default()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_stage_is_reported_when_it_ends() {
+        let clock = StageClock::new();
+        clock.progress(Stage::Features, 0.0);
+        clock.progress(Stage::Features, 0.5);
+        assert_eq!((clock.stage(), clock.percent(), clock.reports().len()), (Some(Stage::Features), 25, 0));
+        clock.progress(Stage::Features, 1.0);
+        assert_eq!((clock.stage(), clock.percent()), (None, 50));
+        assert_eq!(clock.reports()[0].name, "features");
+    }
+
+    #[test]
+    fn the_shares_make_a_whole_in_the_order_of_the_stages() {
+        assert_eq!(SHARES.map(|(stage, _)| stage), Stage::ALL);
+        assert!((SHARES.iter().map(|(_, share)| share).sum::<f64>() - 100.0).abs() < 1e-9);
+    }
+}
