@@ -1,6 +1,7 @@
 //! The command line.
 
 pub mod migrate;
+pub mod openapi;
 pub mod serve;
 
 use std::io::Write;
