@@ -20,6 +20,7 @@ struct Cli {
 enum Command {
     Serve(serve::ServeArgs),
     Migrate(migrate::MigrateArgs),
+    Openapi(openapi::OpenapiArgs),
 }
 
 /// Runs the command line.
@@ -28,6 +29,7 @@ pub fn run() -> ExitCode {
     let result: Result<(), Box<dyn std::error::Error>> = match Cli::parse().command {
         Command::Serve(args) => serve::run(&args).map_err(Into::into),
         Command::Migrate(args) => migrate::run(&args).map_err(Into::into),
+        Command::Openapi(args) => openapi::run(&args).map_err(Into::into),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,
