@@ -49,7 +49,8 @@ const BODY_BYTES: usize = 8 << 20;
 /// The list of routes.
 fn routes(upload_bytes: usize) -> OpenApiRouter<Arc<App>> {
     // Refuses by the declared length before anything is read, and while reading where none was declared.
-    let upload_limit = ServiceBuilder::new().layer(RequestBodyLimitLayer::new(upload_bytes)).layer(DefaultBodyLimit::disable());
+    let upload_limit =
+        ServiceBuilder::new().layer(RequestBodyLimitLayer::new(upload_bytes)).layer(DefaultBodyLimit::disable());
     OpenApiRouter::with_openapi(openapi::head())
         .routes(routes!(docs::landing))
         .routes(routes!(docs::openapi))
