@@ -1,5 +1,6 @@
 //! The human level: labels, rule sets, cogency and connectivity. (to be completed)
 
+mod draft;
 mod rule_set;
 
 pub use rule_set::{
