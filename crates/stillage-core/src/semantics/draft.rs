@@ -139,12 +139,18 @@ mod tests {
 
     #[test]
     fn a_label_without_functionality_is_needed() {
-        check(|draft| draft.labels.truncate(3), &expect![[r#"
+        check(
+            |draft| draft.labels.truncate(3),
+            &expect![[r#"
             /labels: a label without functionality is needed for places that nobody named
-        "#]]);
-        check(|draft| draft.labels.clear(), &expect![[r#"
+        "#]],
+        );
+        check(
+            |draft| draft.labels.clear(),
+            &expect![[r#"
             /labels: a label without functionality is needed for places that nobody named
-        "#]]);
+        "#]],
+        );
     }
 
     #[test]
@@ -156,16 +162,22 @@ mod tests {
             }
         };
         check(|draft| grow(draft, 32), &expect!["valid"]);
-        check(|draft| grow(draft, 33), &expect![[r#"
+        check(
+            |draft| grow(draft, 33),
+            &expect![[r#"
             /labels: 33 labels are more than 32
-        "#]]);
+        "#]],
+        );
     }
 
     #[test]
     fn names_may_be_written_in_any_script() {
         check(|draft| draft.labels[0].name = "通路".repeat(50), &expect!["valid"]);
-        check(|draft| draft.labels[0].name = "通路".repeat(51), &expect![[r#"
+        check(
+            |draft| draft.labels[0].name = "通路".repeat(51),
+            &expect![[r#"
             /labels/0/name: a name has 1 to 100 characters
-        "#]]);
+        "#]],
+        );
     }
 }

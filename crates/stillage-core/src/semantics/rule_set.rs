@@ -246,9 +246,9 @@ fn derived_cogency(first: &Label, second: &Label, unidentified: &Label) -> Cogen
     let lists = |one: &Label, other: &Label| one.connects_to.contains(&other.id);
     let gives_storage =
         |one: &Label, other: &Label| one.is_drivable() && one.has(Functionality::StorageAccess) && other.is_storage();
-    if is_nowhere(first) || is_nowhere(second) {
-        Cogency::Cogent
-    } else if first.id != second.id && !(lists(first, second) && lists(second, first)) {
+    let nowhere = is_nowhere(first) || is_nowhere(second);
+    let apart = first.id != second.id && !(lists(first, second) && lists(second, first));
+    if nowhere || apart {
         Cogency::Cogent
     } else if gives_storage(first, second) || gives_storage(second, first) {
         Cogency::StorageAccess
@@ -307,22 +307,28 @@ mod tests {
 
     #[test]
     fn table_two_gives_the_cogency_of_the_paper() {
-        check_against_the_paper(&RuleSet::warehouse(), &expect![[r#"
+        check_against_the_paper(
+            &RuleSet::warehouse(),
+            &expect![[r#"
             co|co Invalid        co|ju Invalid        co|pc StorageAccess  co|un Cogent
             ju|co Invalid        ju|ju Invalid        ju|pc Cogent         ju|un Cogent
             pc|co StorageAccess  pc|ju Cogent         pc|pc Invalid        pc|un Cogent
             un|co Cogent         un|ju Cogent         un|pc Cogent         un|un Cogent
-        "#]]);
+        "#]],
+        );
     }
 
     #[test]
     fn table_four_gives_the_cogency_of_the_paper() {
-        check_against_the_paper(&RuleSet::office(), &expect![[r#"
+        check_against_the_paper(
+            &RuleSet::office(),
+            &expect![[r#"
             co|co Invalid        co|ju Invalid        co|of Invalid        co|un Cogent
             ju|co Invalid        ju|ju Invalid        ju|of Invalid        ju|un Cogent
             of|co Invalid        of|ju Invalid        of|of Invalid        of|un Cogent
             un|co Cogent         un|ju Cogent         un|of Cogent         un|un Cogent
-        "#]]);
+        "#]],
+        );
     }
 
     #[test]
