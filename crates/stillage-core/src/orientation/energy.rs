@@ -214,6 +214,12 @@ impl EnergyScan {
         self.energies[step] - self.background[step]
     }
 
+    /// Mean energy over all directions.
+    #[must_use]
+    pub fn mean_energy(&self) -> f64 {
+        self.energies.iter().sum::<f64>() / self.energies.len() as f64
+    }
+
     /// Contrast of two perpendicular directions together, for every step of a quarter turn from `-pi/2`.
     #[must_use]
     pub fn pair_contrasts(&self) -> Vec<f64> {
