@@ -268,3 +268,82 @@ fn relax(distances: &mut [u16], width: usize, cell: usize, column: usize, row: O
     }
     distances[cell] = nearest;
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::spec::FeatureProfile;
+    use expect_test::expect;
+    use proptest::prelude::*;
+
+    fn options(beams: usize, range_m: f64) -> CategorizationOptions {
+        let max_range_m = Some(range_m);
+        CategorizationOptions { profile: FeatureProfile::Halmstad2017, beams, max_range_m, ..Default::default() }
+    }
+
+    fn lengths(caster: &Caster, cell: usize) -> Vec<f64> {
+        let mut lengths = vec![0.0; caster.directions.len()];
+        caster.cast(cell, &mut lengths);
+        lengths
+    }
+
+    /// The recipe to the letter: look at every sample.
+    fn sample_by_sample(grid: &OccupancyGrid, caster: &Caster, cell: usize) -> Vec<f64> {
+        let (column, row) = ((cell % grid.width()) as f64, (cell / grid.width()) as f64);
+        let at = |start: f64, step: f64, end: usize| ((start + step + 1e-6) as i64).clamp(0, end as i64 - 1);
+        let length = |direction: &Vector| {
+            let stops = |sample: &i64| {
+                let length = *sample as f64;
+                let column = at(column, length * direction.x, grid.width());
+                let row = at(row, length * direction.y, grid.height());
+                *sample == caster.samples || grid.at(column, row) != Occupancy::Free
+            };
+            ((1..).find(stops).expect("the last sample stops") - 1) as f64
+        };
+        caster.directions.iter().map(length).collect()
+    }
+
+    #[test]
+    fn a_beam_counts_the_free_samples_before_a_wall() {
+        let picture = "
+            .......
+            .....#.
+            .......
+            ...x..#
+            .......
+            ##.....
+            ..#....
+            ";
+        let grid = OccupancyGrid::from_ascii(&picture.replace('x', "."), 1.0);
+        let caster = Caster::new(&grid, &options(8, 5.0));
+        // A free border is walked along until the range is up.
+        assert_eq!(lengths(&caster, 3 * 7 + 3), [2.0, 2.0, 4.0, 4.0, 4.0, 1.0, 4.0, 4.0]);
+    }
+
+    #[test]
+    fn unusual_cells_have_features_without_holes() {
+        let enclosed = OccupancyGrid::from_ascii("###\n#.#\n###", 0.02);
+        let open = OccupancyGrid::from_ascii("...\n...\n...", 0.02);
+        let line = |grid: &OccupancyGrid| {
+            let caster = Caster::new(grid, &options(360, 0.1));
+            caster.features(&lengths(&caster, 4)).map(|value| format!("{value:.3}")).join(" ")
+        };
+        expect!["2.472 4.314 0.056 0.743 0.768 3.536 16.281 0.000 2.373 19.583 10.493 1.866 11.155 20.986 6.379 3.290 44.622"].assert_eq(&line(&enclosed));
+        expect!["40.000 0.000 0.000 0.000 50.263 25.132 12.567 0.000 0.000 141.421 141.421 1.000 0.000 141.421 141.421 1.000 0.000"].assert_eq(&line(&open));
+    }
+
+    proptest! {
+        #[test]
+        fn jumps_change_no_result(
+            rows in proptest::collection::vec("[.]{3,25}[.#]{0,5}[.]{0,9}", 1..30),
+            beams in 8_usize..90,
+            range in 1.0..40.0,
+            at in 0.0..1.0,
+        ) {
+            let grid = OccupancyGrid::from_ascii(&rows.join("\n"), 1.0);
+            let caster = Caster::new(&grid, &options(beams, range));
+            let cell = (at * grid.cells().len() as f64) as usize;
+            prop_assert_eq!(lengths(&caster, cell), sample_by_sample(&grid, &caster, cell));
+        }
+    }
+}
