@@ -16,8 +16,9 @@ mod fail_point;
 
 pub mod store;
 
-pub mod jobs;
 pub mod stage_clock;
+
+pub mod jobs;
 
 pub mod app;
 

@@ -50,7 +50,7 @@ fn picture(grid: &OccupancyGrid) -> String {
 }
 
 /// The answer to each case, a line each.
-fn check<'a>(cases: impl IntoIterator<Item = (&'a str, Result<DecodedMap, IngestError>)>, expected: Expect) {
+fn check<'a>(cases: impl IntoIterator<Item = (&'a str, Result<DecodedMap, IngestError>)>, expected: &Expect) {
     let mut report = String::new();
     for (name, answer) in cases {
         match answer {
@@ -128,7 +128,7 @@ fn lossy_jpeg_keeps_the_verdicts() {
     assert_eq!([cell(0, 1), cell(1, 1), cell(2, 1)], [Occupancy::Occupied, Occupancy::Unknown, Occupancy::Free]);
     check(
         [("cut off", read(jpeg[..jpeg.len() - 10].to_vec(), &usual))],
-        expect![[r#"
+        &expect![[r#"
             cut off: Invalid /image: the JPEG image is cut off: upload it again
         "#]],
     );
@@ -268,7 +268,7 @@ fn headers_that_lie_are_refused_before_anything_is_allocated() {
             ("TIFF, too many cells", read(lying_tiff(30_000, 30_000), USUAL)),
             ("TIFF, within limits", read(lying_tiff(9_000, 9_000), USUAL)),
         ],
-        expect![[r#"
+        &expect![[r#"
             PNG, 2^31 squared: TooLarge /image: the PNG image is larger than the limits allow (Image size exceeds limit)
             PNG, too many cells: TooLarge /image: the map has 400000000 cells, the most is 100000000: crop it, or use a coarser resolution
             PNG, within limits: Invalid /image: the PNG image is broken (unexpected end of file): save or upload it again
@@ -306,7 +306,7 @@ fn what_is_no_whole_image_is_refused() {
             ("PGM, maximum 0", read(b"P5 3 2 0\nabcdef".to_vec(), USUAL)),
             ("PGM ASCII, a word", read(b"P2 1 1 255 abc".to_vec(), USUAL)),
         ],
-        expect![[r#"
+        &expect![[r#"
             empty: Invalid /image: the image is empty
             text: UnsupportedFormat /image: this is no image of a known format: PNG, PGM (and its kin), BMP, TIFF, JPEG and WebP are read
             GIF: UnsupportedFormat /image: Gif images are not read: save it as PNG
@@ -363,7 +363,7 @@ fn odd_files_of_the_wild_are_read() {
             ("resolution in quotes", read(grey_png(), &USUAL.replace("0.05", "\"0.05\""))),
             ("unknown key", read(grey_png(), &format!("{USUAL}map_type: occupancy\n"))),
         ],
-        expect![[r#"
+        &expect![[r#"
             plain: read
             CRLF: read
             byte order mark: read
@@ -424,7 +424,7 @@ fn metadata_that_means_no_map_is_refused_with_a_remedy() {
             ("broken YAML", read(grey_png(), "image: [a\n")),
             ("broken JSON", read(grey_png(), r#"{"image": "a", "resolution": 1e999}"#)),
         ],
-        expect![[r#"
+        &expect![[r#"
             empty: Invalid /metadata: the metadata is empty: it needs the keys of a map_server YAML file
             a list: Invalid /metadata: expected keys with values, found a list
             several maps: Invalid /metadata/maps: this file lists several maps: upload each of them on its own, with its own metadata
@@ -476,7 +476,7 @@ fn documents_made_to_exhaust_are_refused() {
                 decode(&source, &GridOptions::default(), &Limits::default())
             }),
         ],
-        expect![[r#"
+        &expect![[r#"
             deep: Invalid /metadata: the YAML cannot be read: recursion limit exceeded at line 1, column 24
             very deep: Invalid /metadata: the YAML cannot be read: recursion limit exceeded at line 1, column 24
             very deep JSON: Invalid /metadata: the JSON cannot be read: recursion limit exceeded at line 1 column 137
@@ -552,7 +552,7 @@ fn messages_that_contradict_themselves_are_refused() {
             ("tilted", with("\"orientation\": {\"x\": 0", "\"orientation\": {\"x\": 0.5")),
             ("a position without y", with("\"y\": 2, ", "")),
         ],
-        expect![[r#"
+        &expect![[r#"
             no JSON: Invalid : this is no OccupancyGrid message: expected a JSON object with `info` and `data`
             a list: Invalid : this is no OccupancyGrid message: expected a JSON object with `info` and `data`
             empty: Invalid /info: `info` is missing

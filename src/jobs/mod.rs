@@ -11,6 +11,7 @@
 
 mod compute;
 mod memory;
+mod progress;
 mod retry;
 mod running;
 #[cfg(test)]

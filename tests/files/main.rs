@@ -3,6 +3,14 @@
 //! The maps lie beside the repository in `../shared/maps` (`STILLAGE_SHARED` names another place). Where they are
 //! missing the tests say so and pass, except under `CI=true`.
 
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    clippy::print_stdout,
+    clippy::needless_pass_by_value,
+    reason = "a test that unwraps says what it expects well enough"
+)]
+
 mod maps;
 mod wild_metadata;
 

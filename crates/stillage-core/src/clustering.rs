@@ -1,1 +1,0 @@
-//! k-means, scaling. (to be written)
