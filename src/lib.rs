@@ -14,6 +14,8 @@ pub mod store;
 
 pub mod jobs;
 
+pub mod stage_clock;
+
 pub mod app;
 
 pub mod http;

@@ -61,7 +61,12 @@ impl PrincipalComponents {
     #[must_use]
     pub fn project(&self, points: &[f32]) -> Vec<f32> {
         let along = |point: &[f32], axis: &[f64]| {
-            point.iter().zip(&self.mean).zip(axis).map(|((&value, mean), weight)| (f64::from(value) - mean) * weight).sum()
+            point
+                .iter()
+                .zip(&self.mean)
+                .zip(axis)
+                .map(|((&value, mean), weight)| (f64::from(value) - mean) * weight)
+                .sum()
         };
         points
             .chunks_exact(self.mean.len().max(1))

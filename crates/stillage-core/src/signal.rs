@@ -62,7 +62,10 @@ pub fn convolve(values: &[f64], kernel: &[f64], boundary: Boundary) -> Vec<f64> 
             Boundary::Circular => values[(index + count - reach % count) % count],
         })
         .collect();
-    extended.windows(kernel.len()).map(|window| window.iter().zip(kernel).map(|(value, weight)| value * weight).sum()).collect()
+    extended
+        .windows(kernel.len())
+        .map(|window| window.iter().zip(kernel).map(|(value, weight)| value * weight).sum())
+        .collect()
 }
 
 /// A local maximum of a signal.
@@ -182,8 +185,11 @@ pub fn ridge_peaks(values: &[f64], boundary: Boundary, spec: &RidgeSpec) -> Vec<
     let mut ridges: Vec<Ridge> = Vec::new();
     for &width in spec.widths.iter().rev() {
         let coefficients = convolve(values, &ricker(width), boundary);
-        let maxima: Vec<usize> =
-            local_maxima(&coefficients, boundary).iter().filter(|peak| peak.height > 0.0).map(|peak| peak.bin).collect();
+        let maxima: Vec<usize> = local_maxima(&coefficients, boundary)
+            .iter()
+            .filter(|peak| peak.height > 0.0)
+            .map(|peak| peak.bin)
+            .collect();
         // A maximum moves by less than a quarter of the width from one scale to the next (Du et al., 2006).
         let reach = (width / 4.0).max(1.0);
         follow(&mut ridges, &maxima, reach, values.len(), boundary, spec.max_gap);
@@ -196,14 +202,7 @@ pub fn ridge_peaks(values: &[f64], boundary: Boundary, spec: &RidgeSpec) -> Vec<
 }
 
 /// Continues each live ridge with its nearest maximum within reach; the other maxima begin ridges of their own.
-fn follow(
-    ridges: &mut Vec<Ridge>,
-    maxima: &[usize],
-    reach: f64,
-    length: usize,
-    boundary: Boundary,
-    max_gap: usize,
-) {
+fn follow(ridges: &mut Vec<Ridge>, maxima: &[usize], reach: f64, length: usize, boundary: Boundary, max_gap: usize) {
     let mut taken = vec![false; maxima.len()];
     for ridge in ridges.iter_mut().filter(|ridge| ridge.gap <= max_gap) {
         let nearest = maxima

@@ -32,7 +32,8 @@ impl Hall {
             return None;
         }
         let wall = along.abs() > length - 0.2 || across.abs() > width - 0.2;
-        let in_rack = along.abs() < length - 3.0 && (across + width - 2.0).rem_euclid(4.0) < 1.1 && across < width - 2.0;
+        let in_rack =
+            along.abs() < length - 3.0 && (across + width - 2.0).rem_euclid(4.0) < 1.1 && across < width - 2.0;
         let on_face = {
             let depth = (across + width - 2.0).rem_euclid(4.0);
             depth < 0.1 || depth > 1.0

@@ -86,7 +86,8 @@ struct Kernels {
 impl Kernels {
     fn new(sigma: f64) -> Self {
         let reach = (3.0 * sigma).ceil() as i32;
-        let bell: Vec<f64> = (-reach..=reach).map(|offset| (-0.5 * (f64::from(offset) / sigma).powi(2)).exp()).collect();
+        let bell: Vec<f64> =
+            (-reach..=reach).map(|offset| (-0.5 * (f64::from(offset) / sigma).powi(2)).exp()).collect();
         let sum: f64 = bell.iter().sum();
         let smooth = bell.iter().map(|weight| (weight / sum) as f32).collect();
         let slope = (-reach..=reach)

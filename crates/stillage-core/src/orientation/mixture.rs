@@ -200,7 +200,13 @@ mod tests {
         let mut rounded: Vec<(i64, i64, i64)> = found
             .components
             .iter()
-            .map(|it| (it.mean.to_degrees().round() as i64, it.deviation.to_degrees().round() as i64, (it.weight * 10.0).round() as i64))
+            .map(|it| {
+                (
+                    it.mean.to_degrees().round() as i64,
+                    it.deviation.to_degrees().round() as i64,
+                    (it.weight * 10.0).round() as i64,
+                )
+            })
             .collect();
         rounded.sort_unstable();
         assert_eq!(rounded, [(-89, 2, 5), (20, 3, 3)]);

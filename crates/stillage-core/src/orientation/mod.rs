@@ -92,8 +92,11 @@ where
     P: Fn(usize, usize) -> Option<usize> + Sync,
 {
     let histograms = gradient::weighted_histograms(grid, count, &part_of, options, watch)?;
-    let samples =
-        if options.refine { OccupiedSample::of_parts(grid, count, &part_of, energy::SAMPLE_CELLS, watch)? } else { Vec::new() };
+    let samples = if options.refine {
+        OccupiedSample::of_parts(grid, count, &part_of, energy::SAMPLE_CELLS, watch)?
+    } else {
+        Vec::new()
+    };
     let mut parts = Vec::with_capacity(count);
     for (index, histogram) in histograms.into_iter().enumerate() {
         watch.check()?;

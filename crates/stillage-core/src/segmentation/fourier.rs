@@ -129,7 +129,11 @@ mod tests {
         let fourier = Fourier::at_least(16, 16);
         let spectrum = fourier.forward(&picture, 16);
         let at = |wanted_x: f32, wanted_y: f32| {
-            fourier.filtered_magnitude(&spectrum, |fx, fy| f32::from(u8::from(fx == wanted_x && fy == wanted_y)), [1, 1])[0]
+            fourier.filtered_magnitude(
+                &spectrum,
+                |fx, fy| f32::from(u8::from(fx == wanted_x && fy == wanted_y)),
+                [1, 1],
+            )[0]
         };
         assert!((at(0.25, 0.0) - 0.5).abs() < 1e-5);
         assert!(at(0.0, 0.25) < 1e-5);

@@ -12,13 +12,13 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::clustering::{self, KMeansSpec};
+use crate::clustering::{KMeansOptions, ScaledRows, k_means};
 use crate::geometry::{OrientedBox, Point};
 use crate::grid::{Occupancy, OccupancyGrid};
 use crate::linalg::PrincipalComponents;
 use crate::orientation::energy::OccupiedSample;
 use crate::orientation::{self, Orientations};
-use crate::spec::{AnalysisOptions, RegionMethod, RegionOptions};
+use crate::spec::{AnalysisOptions, RegionMethod, RegionOptions, Scaling};
 use crate::watch::{Stopped, Watch};
 
 mod fourier;
@@ -111,17 +111,18 @@ fn by_texture(
     let points = KnownTiles::new(tiles, &texture);
     watch.check()?;
     if options.count.is_some() {
-        let clusters = tiles.majority(&points.clusters(tiles, most, seed));
+        let clusters = tiles.majority(&points.clusters(tiles, most, seed, watch)?);
         return Ok(tiles.settle(&clusters, options.min_share, false));
     }
     let sample = OccupiedSample::of_parts(grid, 1, |_, _| Some(0), patterns::SAMPLE_CELLS, watch)?.swap_remove(0);
     let mut best: Option<Division> = None;
     for count in 2..=most {
         watch.check()?;
-        let clusters = tiles.majority(&points.clusters(tiles, count, seed));
+        let clusters = tiles.majority(&points.clusters(tiles, count, seed, watch)?);
         let division = patterns::divide(tiles, &clusters, count, &sample, watch)?;
         let is_better = |best: &Division| {
-            (division.count, division.sharpness).partial_cmp(&(best.count, best.sharpness)) == Some(std::cmp::Ordering::Greater)
+            (division.count, division.sharpness).partial_cmp(&(best.count, best.sharpness))
+                == Some(std::cmp::Ordering::Greater)
         };
         if best.as_ref().is_none_or(is_better) {
             best = Some(division);
@@ -151,14 +152,15 @@ impl KnownTiles {
     }
 
     /// Cluster of every tile, [`RegionMap::NONE`] where nothing is known.
-    fn clusters(&self, tiles: &Tiles, count: usize, seed: u64) -> Vec<u8> {
-        let spec = KMeansSpec { k: count, seed, restarts: RESTARTS, max_iterations: MAX_ITERATIONS };
-        let found = clustering::k_means(&self.points, self.dimensions, spec);
+    fn clusters(&self, tiles: &Tiles, count: usize, seed: u64, watch: &Watch<'_>) -> Result<Vec<u8>, Stopped> {
+        let options = KMeansOptions { k: count, seed, restarts: RESTARTS, max_iterations: MAX_ITERATIONS };
+        let rows = ScaledRows::new(&self.points, self.dimensions, Scaling::None);
+        let found = k_means(&rows, &options, watch)?;
         let mut clusters = vec![RegionMap::NONE; tiles.known.len()];
         for (tile, label) in tiles.known_tiles().zip(found.labels) {
-            clusters[tile] = label as u8;
+            clusters[tile] = label;
         }
-        clusters
+        Ok(clusters)
     }
 }
 
@@ -186,8 +188,13 @@ fn describe(
     watch: &Watch<'_>,
 ) -> Result<RegionMap, Stopped> {
     let count = labels.iter().filter(|&&label| label != RegionMap::NONE).max().map_or(0, |&last| usize::from(last) + 1);
-    let mut map =
-        RegionMap { tile_cells: tiles.tile_cells, columns: tiles.columns, rows: tiles.rows, tiles: labels, regions: vec![] };
+    let mut map = RegionMap {
+        tile_cells: tiles.tile_cells,
+        columns: tiles.columns,
+        rows: tiles.rows,
+        tiles: labels,
+        regions: vec![],
+    };
     let mut own = vec![Orientations::default(); count];
     if count > 1 {
         let region_of = |column: usize, row: usize| map.region_of_cell(column, row).map(usize::from);

@@ -122,7 +122,8 @@ impl Tiles {
                 }
             }
             let own = labels[tile];
-            let better = |best: u8, label: u8| if votes[usize::from(label)] > votes[usize::from(best)] { label } else { best };
+            let better =
+                |best: u8, label: u8| if votes[usize::from(label)] > votes[usize::from(best)] { label } else { best };
             (0..NONE).fold(own, better)
         };
         (0..labels.len()).map(|tile| if labels[tile] == NONE { NONE } else { vote(tile) }).collect()
@@ -223,15 +224,19 @@ mod tests {
     /// Reads labels from digits, one tile per character, first line on top; anything else is unknown.
     fn tiles(picture: &str) -> (Tiles, Vec<u8>) {
         let rows: Vec<&str> = picture.split_whitespace().rev().collect();
-        let labels: Vec<u8> =
-            rows.iter().flat_map(|row| row.bytes()).map(|byte| if byte.is_ascii_digit() { byte - b'0' } else { NONE }).collect();
+        let labels: Vec<u8> = rows
+            .iter()
+            .flat_map(|row| row.bytes())
+            .map(|byte| if byte.is_ascii_digit() { byte - b'0' } else { NONE })
+            .collect();
         let known = labels.iter().map(|&label| u32::from(label != NONE)).collect();
         (Tiles { tile_cells: 1, columns: rows[0].len(), rows: rows.len(), known }, labels)
     }
 
     fn picture(tiles: &Tiles, labels: &[u8]) -> String {
         let character = |&label: &u8| if label == NONE { '-' } else { char::from(b'0' + label) };
-        let rows: Vec<String> = labels.chunks(tiles.columns).rev().map(|row| row.iter().map(character).collect()).collect();
+        let rows: Vec<String> =
+            labels.chunks(tiles.columns).rev().map(|row| row.iter().map(character).collect()).collect();
         rows.join("\n")
     }
 
@@ -275,13 +280,16 @@ mod tests {
     fn a_mean_over_known_tiles_ignores_the_others() {
         let (tiles, _) = tiles("00-0");
         let smooth = tiles.smoothed(&[2.0, 2.0, 99.0, 2.0], 1.5);
-        assert!(smooth.iter().zip([2.0, 2.0, 0.0, 2.0]).all(|(value, wanted): (&f32, f32)| (value - wanted).abs() < 1e-5));
+        assert!(
+            smooth.iter().zip([2.0, 2.0, 0.0, 2.0]).all(|(value, wanted): (&f32, f32)| (value - wanted).abs() < 1e-5)
+        );
     }
 
     #[test]
     fn more_pieces_than_numbers_still_settle() {
         let columns = 40;
-        let labels: Vec<u8> = (0..columns * columns).map(|tile| ((tile / columns + tile % columns) % 2) as u8).collect();
+        let labels: Vec<u8> =
+            (0..columns * columns).map(|tile| ((tile / columns + tile % columns) % 2) as u8).collect();
         let tiles = Tiles { tile_cells: 1, columns, rows: columns, known: vec![1; labels.len()] };
         let settled = tiles.settle(&labels, 0.0, true);
         assert_eq!(settled.iter().copied().max(), Some(NONE - 1));

@@ -1,1 +1,0 @@
-//! All cells x all beams, streamed. (to be written)

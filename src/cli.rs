@@ -1,6 +1,0 @@
-//! The command line. (to be written)
-/// Runs the command line.
-#[must_use]
-pub fn run() -> std::process::ExitCode {
-    todo!()
-}

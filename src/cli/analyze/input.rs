@@ -1,0 +1,122 @@
+//! The files that `stillage analyze` reads.
+
+use std::fmt::Display;
+use std::path::{Path, PathBuf};
+
+use serde::de::DeserializeOwned;
+use stillage_core::semantics::{Assignment, RuleSet, RuleSetDraft};
+use stillage_core::{AnalysisOptions, AnalysisSpec};
+
+use crate::cli::Failure;
+use crate::ingest::{self, IngestError, MapSource};
+
+/// Reads a map: a metadata file with the image it names, or a message.
+pub(super) fn map(path: &Path) -> Result<MapSource, Failure> {
+    let bytes = read(path)?;
+    if is_message(&bytes) {
+        return Ok(MapSource::Message(bytes));
+    }
+    if image::guess_format(&bytes).is_ok() {
+        let message =
+            format!("{} is an image: name the YAML file beside it, which says its resolution", path.display());
+        return Err(Failure::Input(message));
+    }
+    let entry = ingest::image_entry(&bytes).map_err(|error| refused(path, &error))?;
+    let image = read(&image_path(path, &entry))?;
+    Ok(MapSource::Image { image, metadata: bytes })
+}
+
+/// Whether a file is an `OccupancyGrid` message: a JSON object that has the message's own keys.
+fn is_message(bytes: &[u8]) -> bool {
+    let start = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes).trim_ascii_start();
+    let has = |key: &[u8]| start.windows(key.len()).any(|window| window == key);
+    start.starts_with(b"{") && has(b"\"info\"") && has(b"\"data\"")
+}
+
+/// Where the image lies: beside the metadata unless the entry is absolute; `~/` is the home folder. A path of another
+/// machine is looked for by its file name beside the metadata.
+fn image_path(metadata: &Path, entry: &str) -> PathBuf {
+    let folder = metadata.parent().unwrap_or(Path::new(""));
+    let home = || std::env::home_dir().unwrap_or_default();
+    let stated = entry.strip_prefix("~/").map_or_else(|| folder.join(entry), |rest| home().join(rest));
+    let beside = Path::new(entry).file_name().map(|name| folder.join(name));
+    match beside {
+        Some(beside) if !stated.is_file() && beside.is_file() => beside,
+        _ => stated,
+    }
+}
+
+/// The name of a map: that of its file.
+pub(super) fn map_name(path: &Path) -> String {
+    path.file_stem().map_or_else(|| "map".to_owned(), |stem| stem.to_string_lossy().into_owned())
+}
+
+/// The options in a file, or the defaults.
+pub(super) fn options(path: Option<&Path>) -> Result<AnalysisSpec, Failure> {
+    let Some(path) = path else { return Ok(AnalysisSpec::default()) };
+    let options: AnalysisOptions = read_json(path)?;
+    options.check().map_err(|problems| Failure::Input(format!("{}: {}", path.display(), list(&problems))))
+}
+
+/// The rule set with a name, or in a file.
+pub(super) fn rule_set(name: &str) -> Result<RuleSet, Failure> {
+    match name {
+        "warehouse" => Ok(RuleSet::warehouse()),
+        "office" => Ok(RuleSet::office()),
+        file if Path::new(file).is_file() => {
+            let draft: RuleSetDraft = read_json(Path::new(file))?;
+            draft.check().map_err(|problems| Failure::Input(format!("{file}: {}", list(&problems))))
+        }
+        other => {
+            Err(Failure::Input(format!("there is no rule set {other}: name `warehouse`, `office`, or a JSON file")))
+        }
+    }
+}
+
+/// The assignment in a file.
+pub(super) fn assignment(path: &Path) -> Result<Assignment, Failure> {
+    read_json(path)
+}
+
+/// A refusal of the ingest, about a file.
+pub(super) fn refused(path: &Path, error: &IngestError) -> Failure {
+    Failure::Input(format!("{} cannot be read as a map, at `{}`: {error}", path.display(), error.pointer))
+}
+
+/// Several problems in one sentence.
+pub(super) fn list(problems: &[impl Display]) -> String {
+    let texts: Vec<String> = problems.iter().map(ToString::to_string).collect();
+    texts.join("; ")
+}
+
+fn read(path: &Path) -> Result<Vec<u8>, Failure> {
+    std::fs::read(path).map_err(|error| Failure::Input(format!("{} cannot be opened: {error}", path.display())))
+}
+
+fn read_json<T: DeserializeOwned>(path: &Path) -> Result<T, Failure> {
+    serde_json::from_slice(&read(path)?)
+        .map_err(|error| Failure::Input(format!("{} is not the JSON that is expected: {error}", path.display())))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_image_lies_beside_the_metadata() {
+        let folder = tempfile::tempdir().unwrap();
+        let metadata = folder.path().join("map.yaml");
+        std::fs::write(folder.path().join("map.pgm"), b"P5 1 1 255 a").unwrap();
+        let found = |entry: &str| image_path(&metadata, entry);
+        assert_eq!(found("map.pgm"), folder.path().join("map.pgm"));
+        assert_eq!(found("/home/giraff/maps/map.pgm"), folder.path().join("map.pgm"));
+        assert_eq!(found("sub/other.pgm"), folder.path().join("sub/other.pgm"));
+    }
+
+    #[test]
+    fn messages_are_told_from_metadata() {
+        assert!(is_message(br#" {"info": {"width": 1}, "data": [0]}"#));
+        assert!(!is_message(br#"{"image": "map.png"}"#));
+        assert!(!is_message(b"image: info\ndata: 1\n"));
+    }
+}

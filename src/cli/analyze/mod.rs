@@ -1,0 +1,118 @@
+//! `stillage analyze`: a map file in, a folder of layers and pictures out, without a server.
+
+mod input;
+mod output;
+mod progress;
+
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
+
+use stillage_core::analysis::{ALGORITHM_VERSION, Diagnostic};
+use stillage_core::annotation::CellFaces;
+use stillage_core::layout::{self, Location};
+use stillage_core::semantics::{self, Assignment, RuleSet, SemanticMap, Suggestion};
+use stillage_core::watch::{StopFlag, Watch};
+use stillage_core::{Analysis, OccupancyGrid, Stage};
+
+use super::Failure;
+use crate::ingest::{self, DecodedMap, Limits};
+use crate::stage_clock::StageClock;
+use progress::Progress;
+
+/// Arguments of `stillage analyze`.
+#[derive(Debug, clap::Args)]
+pub(super) struct Arguments {
+    /// The map: a `map_server` YAML file with its image beside it, or a nav_msgs/OccupancyGrid message as JSON.
+    #[arg(value_name = "MAP")]
+    map: PathBuf,
+    /// Folder for the results; `<map name>.stillage` in the current folder when absent.
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Labels and their rules: `warehouse`, `office`, or a JSON file.
+    #[arg(long, value_name = "ID|FILE", default_value = "warehouse")]
+    rule_set: String,
+    /// JSON file with options of the analysis; absent fields keep their defaults.
+    #[arg(long, value_name = "FILE")]
+    options: Option<PathBuf>,
+    /// JSON file with one label per category (`{"assignment": {"0": "co"}}`); the suggested labels when absent.
+    #[arg(long, value_name = "FILE")]
+    assignment: Option<PathBuf>,
+    /// Threads to compute with; all cores when absent.
+    #[arg(long, value_name = "N")]
+    threads: Option<NonZeroUsize>,
+}
+
+/// Everything that is found, ready to be written.
+struct Findings {
+    name: String,
+    grid: OccupancyGrid,
+    cells: CellFaces,
+    analysis: Analysis,
+    suggestions: Vec<Suggestion>,
+    assignment: Assignment,
+    semantic: SemanticMap,
+    locations: Vec<Location>,
+    /// Remarks of the ingest and the analysis.
+    diagnostics: Vec<Diagnostic>,
+}
+
+/// Runs the command.
+pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    // Everything small is read first: a typing error should not cost an analysis.
+    let spec = input::options(arguments.options.as_deref())?;
+    let rule_set = input::rule_set(&arguments.rule_set)?;
+    let assignment = arguments.assignment.as_deref().map(input::assignment).transpose()?;
+    let source = input::map(&arguments.map)?;
+    let name = input::map_name(&arguments.map);
+    let folder = arguments.out.clone().unwrap_or_else(|| PathBuf::from(format!("{name}.stillage")));
+    output::check(&folder)?;
+
+    let progress = Progress::new();
+    let clock = StageClock::new(|stage: Stage, fraction| progress.show(stage, fraction));
+    let decoded = clock.time("ingest", || ingest::decode(&source, &spec.options().grid, &Limits::default()));
+    let DecodedMap { grid, warnings } = decoded.map_err(|error| input::refused(&arguments.map, &error))?;
+    drop(source);
+    for warning in &warnings {
+        progress.say(&format!("warning: {}", warning.message));
+    }
+    let stop = StopFlag::default();
+    let mut pool = rayon::ThreadPoolBuilder::new();
+    if let Some(threads) = arguments.threads {
+        pool = pool.num_threads(threads.get());
+    }
+    let pool = pool.build().map_err(|error| Failure::Internal(format!("no threads to compute with: {error}")))?;
+    let analysis = pool
+        .install(|| stillage_core::analyze(&grid, &spec, &Watch::new(&stop, &clock)))
+        .map_err(|error| Failure::Internal(error.to_string()))?;
+    let findings = clock.time("semantics", || read_semantics(name, grid, analysis, warnings, &rule_set, assignment))?;
+    progress.finish();
+    output::write(&folder, &findings, &clock.reports())?;
+    println!("{}", folder.display());
+    Ok(())
+}
+
+/// Applies the human level, or the suggestion in its place.
+fn read_semantics(
+    name: String,
+    grid: OccupancyGrid,
+    analysis: Analysis,
+    mut diagnostics: Vec<Diagnostic>,
+    rule_set: &RuleSet,
+    assignment: Option<Assignment>,
+) -> Result<Findings, Failure> {
+    let suggestions = semantics::suggest(&analysis, rule_set);
+    let assignment = assignment.unwrap_or_else(|| suggested(&suggestions, rule_set));
+    let semantic = semantics::apply(&analysis, rule_set, &assignment).map_err(|problems| {
+        Failure::Input(format!("the assignment does not fit this map: {}", input::list(&problems)))
+    })?;
+    let locations = layout::locations(&analysis, &semantic);
+    let cells = CellFaces::rasterize(&analysis.subdivision, grid.width(), grid.height(), grid.resolution());
+    diagnostics.extend(analysis.diagnostics.iter().cloned());
+    Ok(Findings { name, grid, cells, analysis, suggestions, assignment, semantic, locations, diagnostics })
+}
+
+/// The suggestions as if a person had assigned them.
+fn suggested(suggestions: &[Suggestion], rule_set: &RuleSet) -> Assignment {
+    let label = |suggestion: &Suggestion| (suggestion.category, rule_set.label(suggestion.label).id.clone());
+    Assignment { assignment: suggestions.iter().map(label).collect(), ..Assignment::default() }
+}

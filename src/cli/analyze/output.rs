@@ -1,0 +1,129 @@
+//! The folder that `stillage analyze` writes.
+//!
+//! Everything is written into a temporary folder beside the target first; then the folder takes its name, or its
+//! files replace those of an earlier run one by one. Nobody ever sees half a file.
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+use serde_json::{Value, json};
+use stillage_core::Occupancy;
+
+use super::{ALGORITHM_VERSION, Findings};
+use crate::app::StageReport;
+use crate::cli::Failure;
+use crate::geojson::{Collection, MapView, Transform, feature_collection, features, locations_csv};
+use crate::render;
+use crate::stage_clock::peak_rss_mib;
+
+/// Checks that the folder can be written, before the long work.
+pub(super) fn check(folder: &Path) -> Result<(), Failure> {
+    if folder.exists() && !folder.is_dir() {
+        return Err(Failure::Input(format!("{} is a file: name a folder with --out", folder.display())));
+    }
+    std::fs::create_dir_all(parent(folder)).map_err(|error| {
+        Failure::Input(format!("{} cannot be made ({error}): name another folder with --out", folder.display()))
+    })
+}
+
+/// Writes everything that was found.
+pub(super) fn write(folder: &Path, findings: &Findings, stages: &[StageReport]) -> Result<(), Failure> {
+    let failed = |error: io::Error| Failure::Internal(format!("{} cannot be written: {error}", folder.display()));
+    let temporary = tempfile::Builder::new().prefix(".stillage-").tempdir_in(parent(folder)).map_err(failed)?;
+    for (name, bytes) in files(findings, stages) {
+        std::fs::write(temporary.path().join(name), bytes).map_err(failed)?;
+    }
+    publish(temporary, folder).map_err(failed)
+}
+
+/// Gives the temporary folder its name, or moves its files into the folder that has it.
+fn publish(temporary: tempfile::TempDir, folder: &Path) -> io::Result<()> {
+    if !folder.exists() {
+        // Temporary folders are private; results are as open as any other file.
+        open_to_others(temporary.path())?;
+        return std::fs::rename(temporary.keep(), folder);
+    }
+    for entry in std::fs::read_dir(temporary.path())? {
+        let entry = entry?;
+        std::fs::rename(entry.path(), folder.join(entry.file_name()))?;
+    }
+    temporary.close()
+}
+
+#[cfg(unix)]
+fn open_to_others(folder: &Path) -> io::Result<()> {
+    use std::os::unix::fs::PermissionsExt;
+    std::fs::set_permissions(folder, std::fs::Permissions::from_mode(0o755))
+}
+
+#[cfg(not(unix))]
+fn open_to_others(_: &Path) -> io::Result<()> {
+    Ok(())
+}
+
+fn parent(folder: &Path) -> &Path {
+    folder.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."))
+}
+
+/// Name and content of each file.
+fn files(findings: &Findings, stages: &[StageReport]) -> Vec<(PathBuf, Vec<u8>)> {
+    let Findings { grid, cells, analysis, semantic, .. } = findings;
+    let view = MapView { analysis, semantic, locations: &findings.locations, georeference: None };
+    let layer = |collection: Collection| {
+        let bytes = feature_collection(&features(&view, collection), &Transform::map_frame());
+        (PathBuf::from(format!("{}.geojson", collection.id())), bytes)
+    };
+    let mut files: Vec<(PathBuf, Vec<u8>)> = Collection::ALL.into_iter().map(layer).collect();
+    files.push(("image.png".into(), render::image(grid)));
+    files.push(("categories.png".into(), render::categories(analysis)));
+    files.push(("regions.png".into(), render::regions(analysis, grid)));
+    files.push(("semantic.png".into(), render::semantic(grid, cells, analysis, semantic)));
+    files.push(("locations.csv".into(), locations_csv(&view)));
+    files.push(("report.json".into(), format!("{:#}\n", report(findings, stages)).into_bytes()));
+    files
+}
+
+/// What was done, what it cost and what came out.
+fn report(findings: &Findings, stages: &[StageReport]) -> Value {
+    let Findings { grid, analysis, semantic, .. } = findings;
+    let frame = grid.frame();
+    let rule_set = &semantic.rule_set;
+    let suggestion = |suggestion: &super::Suggestion| {
+        json!({
+            "category": suggestion.category,
+            "label": rule_set.label(suggestion.label).id,
+            "confidence": suggestion.confidence,
+            "reason": suggestion.reason,
+        })
+    };
+    json!({
+        "map": {
+            "name": findings.name,
+            "width": grid.width(),
+            "height": grid.height(),
+            "resolution": frame.resolution,
+            "origin": [frame.origin.x, frame.origin.y, frame.yaw],
+        },
+        "algorithmVersion": ALGORITHM_VERSION,
+        "options": analysis.options,
+        "stages": stages,
+        "peakRssMiB": peak_rss_mib(),
+        "cells": grid.cells().len(),
+        "freeCells": grid.count(Occupancy::Free),
+        "occupiedCells": grid.count(Occupancy::Occupied),
+        "unknownCells": grid.count(Occupancy::Unknown),
+        "counts": {
+            "lines": analysis.lines.len(),
+            "faces": analysis.subdivision.faces().len(),
+            "edges": analysis.subdivision.edge_count(),
+            "vertices": analysis.subdivision.vertex_count(),
+            "regions": analysis.regions.regions.len(),
+            "places": semantic.places.len(),
+            "locations": findings.locations.len(),
+        },
+        "diagnostics": findings.diagnostics,
+        "ruleSet": rule_set.draft(),
+        "assignment": findings.assignment,
+        "suggestions": findings.suggestions.iter().map(suggestion).collect::<Vec<_>>(),
+    })
+}
