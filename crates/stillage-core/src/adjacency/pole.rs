@@ -76,7 +76,9 @@ impl Polygon<'_> {
     }
 
     fn sides(&self) -> impl Iterator<Item = (Point, Point)> + '_ {
-        self.rings.iter().flat_map(|ring| ring.iter().zip(ring.iter().cycle().skip(1)).map(|(&start, &end)| (start, end)))
+        self.rings
+            .iter()
+            .flat_map(|ring| ring.iter().zip(ring.iter().cycle().skip(1)).map(|(&start, &end)| (start, end)))
     }
 
     /// Lower left and upper right corner of the box around it.
@@ -117,9 +119,8 @@ impl Polygon<'_> {
         let above = self.corners().map(|corner| corner.y).filter(|&y| y > middle).fold(high.y, f64::min);
         let level = f64::midpoint(below, above);
         let crossed = self.sides().filter(|(start, end)| (start.y > level) != (end.y > level));
-        let mut crossings: Vec<f64> = crossed
-            .map(|(start, end)| start.x + (level - start.y) / (end.y - start.y) * (end.x - start.x))
-            .collect();
+        let mut crossings: Vec<f64> =
+            crossed.map(|(start, end)| start.x + (level - start.y) / (end.y - start.y) * (end.x - start.x)).collect();
         crossings.sort_unstable_by(f64::total_cmp);
         let widest = crossings
             .as_chunks::<2>()
