@@ -1,0 +1,4 @@
+//! The API as a client sees it: real requests against the real service in a temporary folder, without a socket.
+
+mod client;
+mod protocol;
