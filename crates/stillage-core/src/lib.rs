@@ -52,6 +52,9 @@ pub mod routing;
 pub mod spec;
 pub mod watch;
 
+#[cfg(test)]
+mod test_maps;
+
 pub use analysis::{Analysis, analyze};
 pub use geometry::{Point, Vector};
 pub use grid::{GridFrame, Occupancy, OccupancyGrid};

@@ -1,5 +1,7 @@
 //! The doubly connected edge list: topology in `half_edges` and `cycles`, positions beside it.
 
+use std::collections::BTreeMap;
+
 use serde::{Deserialize, Serialize};
 
 use super::ids::{EdgeId, FaceId, HalfEdgeId, VertexId};
@@ -29,10 +31,13 @@ pub struct HalfEdge {
 
 /// The subdivision S = (vertices, edges, faces) of the paper (II-B), with N(e) and M(f).
 ///
-/// Ids are canonical: vertices ascend by (y, x), edges by their vertices, faces by their first vertex; face 0 is the
-/// unbounded one.
+/// Ids are canonical: vertices ascend by (y, x), edges by their vertices (the lower first), faces by the first half-edge
+/// of their outer cycle, and with it by their first vertex; face 0 is the unbounded one. Every edge separates two
+/// different faces.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Subdivision {
+    /// Step of the lattice that the vertices lie on, metres; a power of two.
+    pub(super) step: f64,
     /// Positions by vertex, grid frame, metres.
     pub(super) positions: Vec<Point>,
     /// Half-edges; 2e and 2e + 1 are the two directions of edge e.
@@ -151,11 +156,17 @@ impl Subdivision {
     }
 
     /// The rings of a face: the outer one counter-clockwise, then the holes clockwise; first points not repeated.
+    ///
+    /// Rings are simple: a cycle that comes through a vertex twice (a hole that touches the outline, say) is taken
+    /// apart there, as GeoJSON and OGC Simple Features want it.
     #[must_use]
     pub fn rings(&self, face: FaceId) -> Vec<Vec<Point>> {
-        let ring =
-            |&start: &HalfEdgeId| self.cycle(start).map(|half| self.position(self.half_edge(half).origin)).collect();
-        self.cycles(face).iter().map(ring).collect()
+        let vertices = |&start: &HalfEdgeId| self.cycle(start).map(|half| self.half_edge(half).origin).collect();
+        let simple = self.cycles(face).iter().flat_map(|start| split_at_repeats(vertices(start)));
+        let mut rings: Vec<Vec<Point>> =
+            simple.map(|ring| ring.into_iter().map(|vertex| self.position(vertex)).collect()).collect();
+        rings.sort_by_key(|ring| ring_area(ring) < 0.0);
+        rings
     }
 
     /// Area of a bounded face, square metres.
@@ -163,4 +174,29 @@ impl Subdivision {
     pub fn area(&self, face: FaceId) -> f64 {
         self.rings(face).iter().map(|ring| ring_area(ring)).sum()
     }
+}
+
+/// Takes a closed way apart where it comes through a vertex again.
+fn split_at_repeats(cycle: Vec<VertexId>) -> Vec<Vec<VertexId>> {
+    let mut sorted = cycle.clone();
+    sorted.sort_unstable();
+    if sorted.windows(2).all(|pair| pair[0] != pair[1]) {
+        return vec![cycle];
+    }
+    let mut rings = Vec::new();
+    let mut way: Vec<VertexId> = Vec::new();
+    let mut place_in_way = BTreeMap::new();
+    for vertex in cycle {
+        if let Some(&place) = place_in_way.get(&vertex) {
+            let ring = way.split_off(place);
+            for visited in &ring {
+                place_in_way.remove(visited);
+            }
+            rings.push(ring);
+        }
+        place_in_way.insert(vertex, way.len());
+        way.push(vertex);
+    }
+    rings.push(way);
+    rings
 }

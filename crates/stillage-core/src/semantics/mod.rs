@@ -1,16 +1,23 @@
-//! The human level: labels, rule sets, cogency and connectivity. (to be completed)
+//! The human level: labels, rule sets, cogency and connectivity.
+//!
+//! A [`RuleSet`] says what labels there are and what edges between them mean; an [`Assignment`] names the categories
+//! of an analysis; [`apply`] reads the one under the other; [`suggest`] proposes an assignment.
 
+mod apply;
+mod draft;
 mod rule_set;
+mod suggestion;
 
+pub use apply::apply;
 pub use rule_set::{
     Cogency, CogencyRule, Connectivity, Functionality, Label, LabelId, RuleSet, RuleSetDraft, RuleSetProblem,
 };
+pub use suggestion::suggest;
 
 use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use crate::analysis::Analysis;
 use crate::arrangement::{EdgeId, FaceId};
 
 /// The human decision: one label per category, and exceptions per face.
@@ -67,6 +74,10 @@ pub struct CategoryEvidence {
     pub median_area: f64,
     /// Share of the length of their edges that is open (passable on both sides).
     pub open_fraction: f64,
+    /// Share of the length of their edges with an obstacle along it, or without a free face behind it.
+    pub lined_fraction: f64,
+    /// Share of their area that no chain of unexplored faces joins with the outside of the map.
+    pub enclosed_fraction: f64,
 }
 
 /// Faces of one label that are mutually open, merged: a corridor, a junction, an office, a block of storage.
@@ -95,7 +106,7 @@ pub struct SemanticMap {
     pub connectivity: Vec<Option<Connectivity>>,
     /// Edges whose cogency and physical support disagree, by edge id.
     pub disagreements: Vec<bool>,
-    /// Place of each face, by face id (`None` for the unbounded face).
+    /// Place of each face, by face id (`None` for the unbounded and for unidentified faces).
     pub face_places: Vec<Option<u32>>,
     /// Merged faces.
     pub places: Vec<Place>,
@@ -114,24 +125,4 @@ impl SemanticMap {
         self.connectivity[edge.index()] == Some(Connectivity::Connected)
             && sides.iter().all(|&face| self.label(face).is_drivable())
     }
-}
-
-/// Proposes a label for every category of an analysis (clusters, `occupied`, `unknown`), ascending.
-#[must_use]
-pub fn suggest(analysis: &Analysis, rule_set: &RuleSet) -> Vec<Suggestion> {
-    let _ = (analysis, rule_set);
-    todo!()
-}
-
-/// Reads an analysis under a rule set and an assignment. Pure; milliseconds.
-///
-/// # Errors
-/// A problem for every category, face or label of the assignment that does not exist.
-pub fn apply(
-    analysis: &Analysis,
-    rule_set: &RuleSet,
-    assignment: &Assignment,
-) -> Result<SemanticMap, Vec<AssignmentProblem>> {
-    let _ = (analysis, rule_set, assignment);
-    todo!()
 }

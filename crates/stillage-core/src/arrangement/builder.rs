@@ -1,0 +1,196 @@
+//! From noded pieces to the doubly connected edge list.
+//!
+//! Method: sort the half-edges around every vertex, link each to the next one around its face, walk the cycles (M. de
+//! Berg et al., *Computational Geometry*, 3rd ed., 2.2-2.3). A piece with the same cycle on both sides bounds nothing:
+//! it dangles, or is the only bridge between two parts. Such pieces are dropped, so that every edge separates two faces
+//! and every link of the dual joins two nodes. The paper's author drops loose ends too, but once and no bridges.
+//!
+//! Each connected component has one clockwise cycle, its outline; the first edge to the left of the component's lowest
+//! vertex tells which face it lies in. Cost: O(E log E) and, for C components, O(E + C sqrt E) on usual maps; exact.
+
+use std::cmp::Ordering;
+
+use super::ids::{EdgeId, FaceId, HalfEdgeId, VertexId};
+use super::lattice::{LatticePoint, LatticeSegment, cross};
+use super::noding::Piece;
+use super::subdivision::{HalfEdge, Subdivision};
+use crate::watch::{Stopped, Watch};
+
+/// Builds the subdivision of noded, sorted pieces; `step` is the lattice step in metres.
+pub(super) fn build(mut pieces: Vec<Piece>, step: f64, watch: &Watch<'_>) -> Result<Subdivision, Stopped> {
+    drop_pieces_that_bound_nothing(&mut pieces);
+    watch.check()?;
+    let links = Links::between(&pieces);
+    let walk = Walk::along(&links);
+    watch.check()?;
+    let faces = Faces::of(&pieces, &links, &walk);
+    let half_edge = |half: usize| HalfEdge {
+        origin: links.origins[half],
+        next: links.next[half],
+        previous: links.previous[half],
+        face: faces.by_cycle[walk.cycle_of[half] as usize],
+    };
+    Ok(Subdivision {
+        step,
+        positions: links.vertices.iter().map(|vertex| vertex.position(step)).collect(),
+        half_edges: (0..links.origins.len()).map(half_edge).collect(),
+        sources: pieces.iter().map(|piece| piece.source).collect(),
+        cycles: faces.cycles,
+    })
+}
+
+/// Drops dangling chains, trees and bridges. One pass is enough: what is left lies on closed ways without them.
+fn drop_pieces_that_bound_nothing(pieces: &mut Vec<Piece>) {
+    let walk = Walk::along(&Links::between(pieces));
+    let mut sides = walk.cycle_of.chunks_exact(2);
+    pieces.retain(|_| sides.next().is_some_and(|cycles| cycles[0] != cycles[1]));
+}
+
+/// How the half-edges of the pieces follow one another. Piece `e` has the half-edges 2e (up) and 2e + 1 (down).
+struct Links {
+    vertices: Vec<LatticePoint>,
+    origins: Vec<VertexId>,
+    next: Vec<HalfEdgeId>,
+    previous: Vec<HalfEdgeId>,
+}
+
+impl Links {
+    fn between(pieces: &[Piece]) -> Self {
+        let mut vertices: Vec<_> = pieces.iter().flat_map(|piece| [piece.segment.low, piece.segment.high]).collect();
+        vertices.sort_unstable();
+        vertices.dedup();
+        let id_of = |point| VertexId(vertices.partition_point(|&vertex| vertex < point) as u32);
+        let origins: Vec<_> =
+            pieces.iter().flat_map(|piece| [id_of(piece.segment.low), id_of(piece.segment.high)]).collect();
+
+        // All half-edges in the order of their origin, and counter-clockwise around it.
+        let mut spokes: Vec<_> = (0..origins.len() as u32).map(HalfEdgeId).collect();
+        let spoke_direction = |half: HalfEdgeId| pieces[half.edge().index()].segment.direction();
+        spokes.sort_unstable_by(|&first, &second| {
+            let origin = |half: HalfEdgeId| origins[half.index()];
+            // Upward half-edges leave at angles in [0, pi), downward ones in [pi, 2 pi); within either, the sign of
+            // the cross product decides, and that is the same for a direction and its reverse.
+            let by_place = (origin(first), first.0 & 1).cmp(&(origin(second), second.0 & 1));
+            by_place.then_with(|| 0.cmp(&cross(spoke_direction(first), spoke_direction(second))))
+        });
+
+        let mut next = vec![HalfEdgeId(0); origins.len()];
+        let mut previous = next.clone();
+        for around in spokes.chunk_by(|first, second| origins[first.index()] == origins[second.index()]) {
+            // Coming in along the twin of a spoke, the next edge of the face on the left is the clockwise neighbour.
+            let clockwise = std::iter::once(&around[around.len() - 1]).chain(around);
+            for (&spoke, &neighbor) in around.iter().zip(clockwise) {
+                next[spoke.twin().index()] = neighbor;
+                previous[neighbor.index()] = spoke.twin();
+            }
+        }
+        Self { vertices, origins, next, previous }
+    }
+}
+
+/// The cycles that the half-edges form, numbered by their least half-edge.
+struct Walk {
+    cycle_of: Vec<u32>,
+    starts: Vec<HalfEdgeId>,
+}
+
+impl Walk {
+    fn along(links: &Links) -> Self {
+        const UNSEEN: u32 = u32::MAX;
+        let mut cycle_of = vec![UNSEEN; links.next.len()];
+        let mut starts = Vec::new();
+        for start in 0..links.next.len() {
+            let mut at = start;
+            while cycle_of[at] == UNSEEN {
+                cycle_of[at] = starts.len() as u32;
+                at = links.next[at].index();
+            }
+            if cycle_of[start] == starts.len() as u32 {
+                starts.push(HalfEdgeId(start as u32));
+            }
+        }
+        Self { cycle_of, starts }
+    }
+}
+
+/// Which face each cycle bounds, and the cycles of each face.
+struct Faces {
+    by_cycle: Vec<FaceId>,
+    cycles: Vec<Vec<HalfEdgeId>>,
+}
+
+impl Faces {
+    fn of(pieces: &[Piece], links: &Links, walk: &Walk) -> Self {
+        let mut by_cycle = vec![FaceId::OUTER; walk.starts.len()];
+        let mut cycles = vec![Vec::new()];
+        let mut outlines = Vec::new();
+        for (cycle, &start) in walk.starts.iter().enumerate() {
+            if doubled_area(links, start) > 0 {
+                by_cycle[cycle] = FaceId(cycles.len() as u32);
+                cycles.push(vec![start]);
+            } else {
+                outlines.push(cycle);
+            }
+        }
+        // Starts ascend, so outlines ascend by their lowest vertex, and what lies left of one is already placed.
+        let lowest: Vec<_> =
+            outlines.iter().map(|&cycle| pieces[walk.starts[cycle].edge().index()].segment.low).collect();
+        for (&cycle, edge) in outlines.iter().zip(first_edges_to_the_left(pieces, &lowest)) {
+            let face = edge.map_or(FaceId::OUTER, |edge| {
+                // Going down, the left hand points to the right of the picture.
+                by_cycle[walk.cycle_of[edge.forward().twin().index()] as usize]
+            });
+            by_cycle[cycle] = face;
+            cycles[face.index()].push(walk.starts[cycle]);
+        }
+        Self { by_cycle, cycles }
+    }
+}
+
+/// Twice the signed area of a cycle in lattice units.
+fn doubled_area(links: &Links, start: HalfEdgeId) -> i128 {
+    let vertex = |half: HalfEdgeId| links.vertices[links.origins[half.index()].index()];
+    let anchor = vertex(start);
+    let mut area = 0;
+    let mut at = start;
+    loop {
+        let next = links.next[at.index()];
+        area += i128::from(cross(anchor.to(vertex(at)), anchor.to(vertex(next))));
+        if next == start {
+            return area;
+        }
+        at = next;
+    }
+}
+
+/// For each point, ascending by (y, x): the first piece that a ray to the left meets, just above the point's height.
+fn first_edges_to_the_left(pieces: &[Piece], points: &[LatticePoint]) -> Vec<Option<EdgeId>> {
+    let mut nearest: Vec<Option<usize>> = vec![None; points.len()];
+    for (number, piece) in pieces.iter().enumerate() {
+        let segment = piece.segment;
+        // Half-open in y: a piece counts at its low end, not at its high end, and level pieces never.
+        let from = points.partition_point(|point| point.y < segment.low.y);
+        let to = points.partition_point(|point| point.y < segment.high.y);
+        for (point, nearest) in points[from..to].iter().zip(&mut nearest[from..to]) {
+            let is_left = segment.side(*point) < 0;
+            let is_nearer = |best: usize| order_at(segment, pieces[best].segment, point.y) == Ordering::Greater;
+            if is_left && nearest.is_none_or(is_nearer) {
+                *nearest = Some(number);
+            }
+        }
+    }
+    nearest.into_iter().map(|found| found.map(|number| EdgeId(number as u32))).collect()
+}
+
+/// Order of two segments along the level line at `y`, or just above it where they meet there.
+fn order_at(first: LatticeSegment, second: LatticeSegment, y: i64) -> Ordering {
+    // x at the level is numerator / dy.
+    let numerator = |segment: LatticeSegment| {
+        let (dx, dy) = segment.direction();
+        segment.low.x * dy + (y - segment.low.y) * dx
+    };
+    let (first_dy, second_dy) = (first.direction().1, second.direction().1);
+    let first_x = i128::from(numerator(first)) * i128::from(second_dy);
+    let second_x = i128::from(numerator(second)) * i128::from(first_dy);
+    first_x.cmp(&second_x).then_with(|| cross(first.direction(), second.direction()).cmp(&0))
+}

@@ -1,0 +1,148 @@
+//! How one location is reached: its access edges, its frame, and where a robot stands before it.
+//!
+//! Source: the storage-access edges of the paper's section II-C; the frame and the approach are ours.
+//! Cost: O(edges of the face and of the face it is reached from). Limits: the approach knows the faces, not the
+//! cells: whether its cell is free is for the route to say.
+
+use super::ApproachPose;
+use crate::analysis::Analysis;
+use crate::arrangement::{EdgeId, FaceId, HalfEdgeId};
+use crate::geometry::{OrientedBox, Point, Vector, direction, ring_area};
+use crate::semantics::{Cogency, SemanticMap};
+
+/// Where a robot stands before an access edge, metres: half the length of a pallet truck without its forks, about
+/// 0.6 to 1.0 m. Less in a face that is not twice as wide.
+const STANDING_DISTANCE: f64 = 0.8;
+
+/// What the geometry says of one location.
+#[derive(Debug, Clone)]
+pub(super) struct Access {
+    /// The storage face.
+    pub face: FaceId,
+    /// Its centroid.
+    pub center: Point,
+    /// Extent along the best access edge, metres.
+    pub width: f64,
+    /// Extent across it, metres.
+    pub depth: f64,
+    /// Direction into the location, radians.
+    pub heading: f64,
+    /// All access edges, the best first.
+    pub edges: Vec<EdgeId>,
+    /// More about the best one.
+    pub best: Option<BestAccess>,
+}
+
+/// The access edge that decides the frame of a location.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct BestAccess {
+    /// The drivable face before it.
+    pub from: FaceId,
+    /// Its middle.
+    pub middle: Point,
+    /// Where a robot stands.
+    pub approach: ApproachPose,
+}
+
+impl Access {
+    /// Finds the access of a storage face.
+    pub fn of(face: FaceId, analysis: &Analysis, semantic: &SemanticMap) -> Self {
+        let halves = access_half_edges(face, analysis, semantic);
+        let annotation = &analysis.faces[face.index()];
+        let rings = analysis.subdivision.rings(face);
+        let front = halves.first().map(|&half| Front::of(half, analysis));
+        // Without a front, goods are taken to lie along the place: in at the short side.
+        let inward = front.as_ref().map_or_else(|| direction(annotation.heading), |front| front.inward);
+        let heading = inward.y.atan2(inward.x);
+        let outline = rings.first().into_iter().flatten().copied();
+        let half_extents = OrientedBox::around(outline, heading).map_or([0.0; 2], |extent| extent.half_extents);
+        Self {
+            face,
+            center: centroid(&rings),
+            width: 2.0 * half_extents[1],
+            depth: 2.0 * half_extents[0],
+            heading,
+            edges: halves.iter().map(|half| half.edge()).collect(),
+            best: front.map(|front| front.access(heading, analysis)),
+        }
+    }
+}
+
+/// The half-edges of a face over which it is reached, the best first: where most of the length lets goods through.
+fn access_half_edges(face: FaceId, analysis: &Analysis, semantic: &SemanticMap) -> Vec<HalfEdgeId> {
+    let subdivision = &analysis.subdivision;
+    let gives_access = |half: &HalfEdgeId| {
+        let before = subdivision.half_edge(half.twin()).face;
+        semantic.cogency[half.edge().index()] == Cogency::StorageAccess && semantic.label(before).is_drivable()
+    };
+    // Open length counts whole, unknown length half, obstructed length nothing.
+    let passable = |half: HalfEdgeId| {
+        let annotation = &analysis.edges[half.edge().index()];
+        subdivision.length(half.edge()) * (1.0 + annotation.open - annotation.support) / 2.0
+    };
+    let length = |half: HalfEdgeId| subdivision.length(half.edge());
+    let mut halves: Vec<HalfEdgeId> = subdivision.boundary(face).filter(gives_access).collect();
+    halves.sort_by(|&first, &second| {
+        let by_passable = passable(second).total_cmp(&passable(first));
+        by_passable.then(length(second).total_cmp(&length(first))).then(first.cmp(&second))
+    });
+    halves
+}
+
+/// The best access edge in the making.
+struct Front {
+    from: FaceId,
+    middle: Point,
+    /// Unit vector into the location.
+    inward: Vector,
+}
+
+impl Front {
+    fn of(half: HalfEdgeId, analysis: &Analysis) -> Self {
+        let subdivision = &analysis.subdivision;
+        let start = subdivision.position(subdivision.half_edge(half).origin);
+        let end = subdivision.position(subdivision.target(half));
+        let along = end - start;
+        // The location lies on the left of its half-edge.
+        let inward = Vector::new(-along.y, along.x).try_normalize(0.0).unwrap_or_else(Vector::x);
+        Self { from: subdivision.half_edge(half.twin()).face, middle: nalgebra::center(&start, &end), inward }
+    }
+
+    fn access(self, heading: f64, analysis: &Analysis) -> BestAccess {
+        let outward = -self.inward;
+        let room = room_ahead(self.middle, outward, self.from, analysis);
+        let position = self.middle + outward * STANDING_DISTANCE.min(room / 2.0);
+        BestAccess { from: self.from, middle: self.middle, approach: ApproachPose { position, heading } }
+    }
+}
+
+/// How far a face reaches from a point of its boundary, metres.
+fn room_ahead(from: Point, ahead: Vector, face: FaceId, analysis: &Analysis) -> f64 {
+    // Edges closer than this hold the point itself; the narrowest line distance an analysis may ask for is 10 mm.
+    const NEXT_TO_NOTHING: f64 = 1e-6;
+    let subdivision = &analysis.subdivision;
+    let hits = subdivision.boundary(face).filter_map(|half| {
+        let [start, end] = subdivision.segment(half.edge());
+        let (along, offset) = (end - start, start - from);
+        let turn = ahead.perp(&along);
+        let (distance, share) = (offset.perp(&along) / turn, offset.perp(&ahead) / turn);
+        // Parallel edges give no number, and no hit.
+        (distance > NEXT_TO_NOTHING && (0.0..=1.0).contains(&share)).then_some(distance)
+    });
+    let room = hits.fold(f64::INFINITY, f64::min);
+    if room.is_finite() { room } else { 0.0 }
+}
+
+/// Centroid of a polygon with holes; the first point where it has no area.
+fn centroid(rings: &[Vec<Point>]) -> Point {
+    let Some(&anchor) = rings.iter().flatten().next() else { return Point::origin() };
+    let (mut moment, mut area) = (Vector::zeros(), 0.0);
+    for ring in rings {
+        area += ring_area(ring);
+        for (index, &start) in ring.iter().enumerate() {
+            let (start, end) = (start - anchor, ring[(index + 1) % ring.len()] - anchor);
+            moment += (start + end) * (start.perp(&end) / 6.0);
+        }
+    }
+    if area > 0.0 { anchor + moment / area } else { anchor }
+}

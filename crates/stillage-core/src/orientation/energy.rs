@@ -1,0 +1,296 @@
+//! Radiogram energy: how sharply a map is aligned along a direction.
+//!
+//! Project the occupied cells on the normal of the direction, count them per bin of one cell, and add up the squares:
+//! the sum is largest where walls and racks fall into few bins. What counts is the *contrast*: the energy above the
+//! running median of the neighbouring directions. Source: the criterion of the accuracy study behind this project
+//! (worst error of 31 maps 0.07 degrees and nothing missed or invented, against 0.25 degrees at the median and three
+//! regions missed for gradient histograms); the same idea finds the skew of scanned pages (W. Postl, *Detection of
+//! linear oblique structures and skew scan in digitized documents*, ICPR 1986).
+//!
+//! Cells are points jittered inside their cell, else the pixel grid itself would be the best alignment. The jitter and
+//! the choice of a sample are hashes of the cell's index: the same on every run and any number of threads.
+//!
+//! Cost: O(cells + sample x angles). Limits: the energy of a direction falls about as 1 / error, so a scan in steps of
+//! 0.25 degrees sees every alignment, but one in much wider steps would not.
+
+use rayon::prelude::*;
+
+use crate::geometry::{fold_half_turn, line_angle_between};
+use crate::grid::{Occupancy, OccupancyGrid};
+use crate::signal::{self, Boundary};
+use crate::watch::{Stopped, Watch};
+
+/// About how many cells a sample holds (accuracy study: more change nothing).
+pub const SAMPLE_CELLS: usize = 120_000;
+/// Directions of a scan over half a turn: steps of 0.25 degrees (accuracy study).
+const SCAN_ANGLES: usize = 720;
+const SCAN_STEP_DEG: f64 = 180.0 / SCAN_ANGLES as f64;
+/// Half the width of the running median, scan steps: 15 degrees in all (accuracy study).
+const MEDIAN_REACH: usize = 30;
+/// Distance that the maxima of a scan keep, scan steps: 3 degrees (accuracy study).
+const PEAK_DISTANCE: f64 = 12.0;
+/// How far an orientation may move when it is refined, scan steps: 1.5 degrees.
+const REFINE_REACH: isize = 6;
+/// Steps of the search near the best angle of the scan, degrees.
+const FINE_STEPS_DEG: [f64; 2] = [0.05, 0.0125];
+
+/// Occupied cells of a part of a grid, jittered.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct OccupiedSample {
+    /// In cells: `f32` holds them to 0.004 cells on the largest grids.
+    points: Vec<[f32; 2]>,
+}
+
+impl OccupiedSample {
+    /// Samples about `most` occupied cells of each of `count` parts of a grid.
+    ///
+    /// `part_of` names the part of a cell by column and row.
+    ///
+    /// # Errors
+    /// [`Stopped`] when the watch says so.
+    pub fn of_parts(
+        grid: &OccupancyGrid,
+        count: usize,
+        part_of: impl Fn(usize, usize) -> Option<usize>,
+        most: usize,
+        watch: &Watch<'_>,
+    ) -> Result<Vec<Self>, Stopped> {
+        let mut cells = vec![0_usize; count];
+        for_each_occupied(grid, watch, |column, row| {
+            if let Some(part) = part_of(column, row) {
+                cells[part] += 1;
+            }
+        })?;
+        let shares: Vec<f64> = cells.iter().map(|&cells| most as f64 / cells.max(1) as f64).collect();
+        let mut samples = vec![Self::default(); count];
+        for_each_occupied(grid, watch, |column, row| {
+            let Some(part) = part_of(column, row) else { return };
+            let hash = mix((row * grid.width() + column) as u64);
+            if unit(mix(hash)) < shares[part] {
+                samples[part].points.push([column as f32 + unit(hash) as f32, row as f32 + unit(hash << 32) as f32]);
+            }
+        })?;
+        Ok(samples)
+    }
+
+    /// Splits the sample among `count` parts, named by the column and row of a cell.
+    #[must_use]
+    pub fn split(&self, count: usize, part_of: impl Fn(usize, usize) -> Option<usize>) -> Vec<Self> {
+        let mut parts = vec![Self::default(); count];
+        for &[x, y] in &self.points {
+            if let Some(part) = part_of(x as usize, y as usize) {
+                parts[part].points.push([x, y]);
+            }
+        }
+        parts
+    }
+
+    /// Adds the cells of another part.
+    pub fn append(&mut self, other: &Self) {
+        self.points.extend_from_slice(&other.points);
+    }
+
+    /// Number of cells in the sample.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.points.len()
+    }
+
+    /// Whether no cell is occupied.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.points.is_empty()
+    }
+
+    /// Sum of squared bins of the projection along each angle, divided by the number of cells; 0 without cells.
+    ///
+    /// # Errors
+    /// [`Stopped`] when the watch says so.
+    pub fn energies(&self, angles: &[f64], watch: &Watch<'_>) -> Result<Vec<f64>, Stopped> {
+        let bounds = self.bounds();
+        angles
+            .par_iter()
+            .map(|&angle| {
+                watch.check()?;
+                Ok(self.energy(angle, bounds))
+            })
+            .collect()
+    }
+
+    /// Least and greatest coordinates.
+    fn bounds(&self) -> [[f32; 2]; 2] {
+        self.points.iter().fold([[f32::INFINITY; 2], [f32::NEG_INFINITY; 2]], |[low, high], point| {
+            [[low[0].min(point[0]), low[1].min(point[1])], [high[0].max(point[0]), high[1].max(point[1])]]
+        })
+    }
+
+    fn energy(&self, angle: f64, [[left, bottom], [right, top]]: [[f32; 2]; 2]) -> f64 {
+        if self.is_empty() {
+            return 0.0;
+        }
+        let (sine, cosine) = angle.sin_cos();
+        let normal = [-sine as f32, cosine as f32];
+        let offset = |[x, y]: [f32; 2]| normal[0] * x + normal[1] * y;
+        let corners = [[left, bottom], [right, bottom], [left, top], [right, top]].map(offset);
+        // A bin to spare on either side for what rounding does at the corners.
+        let low = corners.iter().copied().fold(f32::INFINITY, f32::min) - 1.0;
+        let high = corners.iter().copied().fold(f32::NEG_INFINITY, f32::max);
+        let mut bins = vec![0_u32; (high - low) as usize + 2];
+        for &point in &self.points {
+            bins[(offset(point) - low) as usize] += 1;
+        }
+        let squares: u64 = bins.iter().map(|&cells| u64::from(cells).pow(2)).sum();
+        squares as f64 / self.len() as f64
+    }
+}
+
+fn for_each_occupied(
+    grid: &OccupancyGrid,
+    watch: &Watch<'_>,
+    mut visit: impl FnMut(usize, usize),
+) -> Result<(), Stopped> {
+    for row in 0..grid.height() {
+        watch.check()?;
+        for (column, &cell) in grid.row(row).iter().enumerate() {
+            if cell == Occupancy::Occupied {
+                visit(column, row);
+            }
+        }
+    }
+    Ok(())
+}
+
+/// The finalizer of SplitMix64 (G. L. Steele, D. Lea and C. H. Flood, OOPSLA 2014, doi 10.1145/2660193.2660195).
+fn mix(value: u64) -> u64 {
+    let value = value.wrapping_add(0x9E37_79B9_7F4A_7C15);
+    let value = (value ^ (value >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+    let value = (value ^ (value >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+    value ^ (value >> 31)
+}
+
+/// A number in `[0, 1)` from the upper half of a hash.
+fn unit(hash: u64) -> f64 {
+    (hash >> 32) as f64 / 4_294_967_296.0
+}
+
+/// The energies over all directions and what they stand out from.
+#[derive(Debug, Clone, PartialEq)]
+pub struct EnergyScan {
+    energies: Vec<f64>,
+    background: Vec<f64>,
+}
+
+/// A direction and how far its energy stands out.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Alignment {
+    /// Direction of lines, radians in `[-pi/2, pi/2)`.
+    pub angle: f64,
+    /// Energy above that of the neighbouring directions.
+    pub contrast: f64,
+}
+
+impl EnergyScan {
+    /// Scans half a turn.
+    ///
+    /// # Errors
+    /// [`Stopped`] when the watch says so.
+    pub fn new(sample: &OccupiedSample, watch: &Watch<'_>) -> Result<Self, Stopped> {
+        let angles: Vec<f64> = (0..SCAN_ANGLES as isize).map(scan_angle).collect();
+        let energies = sample.energies(&angles, watch)?;
+        let background = (0..SCAN_ANGLES)
+            .map(|index| {
+                let mut near: Vec<f64> = (0..=2 * MEDIAN_REACH)
+                    .map(|offset| energies[(index + SCAN_ANGLES + offset - MEDIAN_REACH) % SCAN_ANGLES])
+                    .collect();
+                *near.select_nth_unstable_by(MEDIAN_REACH, f64::total_cmp).1
+            })
+            .collect();
+        Ok(Self { energies, background })
+    }
+
+    /// Energy above the background at a step of the scan, counted around the circle.
+    fn contrast(&self, step: isize) -> f64 {
+        let step = step.rem_euclid(SCAN_ANGLES as isize) as usize;
+        self.energies[step] - self.background[step]
+    }
+
+    /// Mean energy over all directions.
+    #[must_use]
+    pub fn mean_energy(&self) -> f64 {
+        self.energies.iter().sum::<f64>() / self.energies.len() as f64
+    }
+
+    /// Contrast of two perpendicular directions together, for every step of a quarter turn from `-pi/2`.
+    #[must_use]
+    pub fn pair_contrasts(&self) -> Vec<f64> {
+        let quarter = SCAN_ANGLES as isize / 2;
+        (0..quarter).map(|step| self.contrast(step) + self.contrast(step + quarter)).collect()
+    }
+
+    /// Highest pair contrast within a degree of a direction or its perpendicular.
+    #[must_use]
+    pub fn pair_contrast_near(&self, angle: f64) -> f64 {
+        let pairs = self.pair_contrasts();
+        let center = scan_step(angle);
+        let near = (-4..=4).map(|offset| pairs[(center + offset).rem_euclid(pairs.len() as isize) as usize]);
+        near.fold(f64::NEG_INFINITY, f64::max)
+    }
+
+    /// The maxima of the pair contrast that reach `share` of the highest: both directions of each, strongest pair first.
+    #[must_use]
+    pub fn pair_peaks(&self, share: f64) -> Vec<f64> {
+        let pairs = self.pair_contrasts();
+        let maxima = signal::local_maxima(&pairs, Boundary::Circular);
+        let peaks = signal::keep_apart(maxima, PEAK_DISTANCE, pairs.len(), Boundary::Circular);
+        let highest = peaks.first().map_or(0.0, |peak| peak.height);
+        let standing_out = peaks.into_iter().filter(|peak| peak.height > 0.0 && peak.height >= share * highest);
+        standing_out.flat_map(|peak| [0, pairs.len()].map(|turn| scan_angle((peak.bin + turn) as isize))).collect()
+    }
+
+    /// Moves a direction to the nearby maximum of the energy.
+    ///
+    /// # Errors
+    /// [`Stopped`] when the watch says so.
+    pub fn refine(&self, sample: &OccupiedSample, angle: f64, watch: &Watch<'_>) -> Result<Alignment, Stopped> {
+        let start = scan_step(angle);
+        let steps: Vec<isize> = (start - REFINE_REACH..=start + REFINE_REACH).collect();
+        let contrasts: Vec<f64> = steps.iter().map(|&step| self.contrast(step)).collect();
+        let best = highest(&contrasts);
+        if best == 0 || best + 1 == steps.len() {
+            // The foot of something further away, which is a peak of its own.
+            return Ok(Alignment { angle: fold_half_turn(angle), contrast: self.contrast(start) });
+        }
+        let background = self.background[steps[best].rem_euclid(SCAN_ANGLES as isize) as usize];
+        let (mut center, mut energy, mut reach) = (scan_angle(steps[best]), 0.0, SCAN_STEP_DEG);
+        for step in FINE_STEPS_DEG {
+            let count = (reach / step).round() as i32;
+            let angles: Vec<f64> = (-count..=count).map(|at| center + (f64::from(at) * step).to_radians()).collect();
+            let energies = sample.energies(&angles, watch)?;
+            let best = highest(&energies);
+            (center, energy, reach) = (angles[best], energies[best], step);
+        }
+        Ok(Alignment { angle: fold_half_turn(center), contrast: energy - background })
+    }
+}
+
+/// The direction at a step of the scan, counted around the circle.
+fn scan_angle(step: isize) -> f64 {
+    fold_half_turn((step as f64 * SCAN_STEP_DEG - 90.0).to_radians())
+}
+
+/// The step of the scan that is nearest to a direction.
+fn scan_step(angle: f64) -> isize {
+    ((angle.to_degrees() + 90.0) / SCAN_STEP_DEG).round() as isize
+}
+
+/// Index of the largest value, the first of equals.
+fn highest(values: &[f64]) -> usize {
+    (1..values.len()).fold(0, |best, index| if values[index] > values[best] { index } else { best })
+}
+
+/// Smallest angle between two pairs of perpendicular directions, in `[0, pi/4]`.
+#[must_use]
+pub fn pair_angle_between(first: f64, second: f64) -> f64 {
+    let angle = line_angle_between(first, second);
+    angle.min(std::f64::consts::FRAC_PI_2 - angle)
+}

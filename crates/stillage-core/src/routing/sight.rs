@@ -1,0 +1,204 @@
+//! Straight ways over cells: line of sight, string pulling, and the faces a path crosses.
+//!
+//! Source: the traversal of Amanatides and Woo (*A Fast Voxel Traversal Algorithm for Ray Tracing*, 1987), with the
+//! share of the way computed anew at every border, so that errors do not add up; a way through a corner needs both
+//! cells beside it. String pulling is greedy: the farthest point in sight, found by doubling and halving, there and
+//! back until it no longer shortens the path.
+//! Cost: O(n log n) for a path of n cells. Limits: sight along the path is taken to end once it is lost, so a bay
+//! behind a pillar may keep a bend that a longer look would straighten.
+
+use super::passage::Passage;
+use crate::arrangement::{EdgeId, FaceId};
+use crate::geometry::Point;
+
+/// Most rounds of pulling: each end of the string twice; later ones move a path by less than a cell.
+const ROUNDS: usize = 4;
+/// A round that gains less than this share of the length is the last.
+const LEAST_GAIN: f64 = 1e-6;
+/// Borders crossed within this share of the way are crossed in one point.
+const SAME_POINT: f64 = 1e-9;
+
+/// One cell further on a straight way.
+enum Step {
+    /// Over a side.
+    Side(usize),
+    /// Through a corner, between two cells.
+    Corner { beside: [usize; 2], to: usize },
+}
+
+/// The cells along a straight way, after the first.
+struct Walk {
+    width: usize,
+    from: [f64; 2],
+    way: [f64; 2],
+    cell: [usize; 2],
+    last: [usize; 2],
+}
+
+impl Walk {
+    /// From point to point of the grid, both inside it.
+    fn new(passage: &Passage<'_>, from: Point, to: Point) -> Self {
+        let scale = |point: Point| [point.x / passage.resolution(), point.y / passage.resolution()];
+        let (from, to) = (scale(from), scale(to));
+        let cell = |point: [f64; 2]| point.map(|value| value.floor() as usize);
+        let way = [to[0] - from[0], to[1] - from[1]];
+        Self { width: passage.width(), from, way, cell: cell(from), last: cell(to) }
+    }
+
+    fn at(&self) -> usize {
+        self.cell[1] * self.width + self.cell[0]
+    }
+
+    /// Share of the way up to the next border across an axis; infinite once the last column or row is reached.
+    fn border(&self, axis: usize) -> f64 {
+        let (cell, last) = (self.cell[axis], self.last[axis]);
+        if cell == last {
+            return f64::INFINITY;
+        }
+        let border = if last > cell { cell + 1 } else { cell };
+        (border as f64 - self.from[axis]) / self.way[axis]
+    }
+
+    fn advance(&mut self, axis: usize) {
+        let cell = &mut self.cell[axis];
+        *cell = if self.last[axis] > *cell { *cell + 1 } else { *cell - 1 };
+    }
+}
+
+impl Iterator for Walk {
+    type Item = Step;
+
+    fn next(&mut self) -> Option<Step> {
+        if self.cell == self.last {
+            return None;
+        }
+        let (across, up) = (self.border(0), self.border(1));
+        if (across - up).abs() <= SAME_POINT {
+            let start = self.cell;
+            self.advance(0);
+            let first = self.at();
+            self.cell = start;
+            self.advance(1);
+            let second = self.at();
+            self.advance(0);
+            return Some(Step::Corner { beside: [first, second], to: self.at() });
+        }
+        self.advance(usize::from(up < across));
+        Some(Step::Side(self.at()))
+    }
+}
+
+/// Whether the straight way between two points of passable cells is a path.
+fn sees(passage: &Passage<'_>, from: Point, to: Point) -> bool {
+    let mut walk = Walk::new(passage, from, to);
+    let mut cell = walk.at();
+    walk.all(|step| {
+        let (allowed, to) = match step {
+            Step::Side(to) => (passage.allows(cell, to), to),
+            Step::Corner { beside, to } => (passage.allows_corner(cell, beside, to), to),
+        };
+        cell = to;
+        allowed
+    })
+}
+
+/// Length of a path, metres.
+pub(super) fn length(path: &[Point]) -> f64 {
+    path.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum()
+}
+
+/// Straightens a path whose consecutive points see each other; its ends stay.
+pub(super) fn pull_tight(passage: &Passage<'_>, points: Vec<Point>) -> Vec<Point> {
+    let mut path = pull(passage, points);
+    for _ in 1..ROUNDS {
+        let mut points = resample(&path, passage.resolution());
+        points.reverse();
+        let mut pulled = pull(passage, &points);
+        let gained = length(&path) - length(&pulled);
+        if gained <= LEAST_GAIN * length(&path) {
+            break;
+        }
+        pulled.reverse();
+        path = pulled;
+    }
+    path
+}
+
+/// Keeps the points where sight from the one kept before ends.
+fn pull(passage: &Passage<'_>, points: &[Point]) -> Vec<Point> {
+    let mut kept: Vec<Point> = points.first().copied().into_iter().collect();
+    let mut at = 0;
+    while at + 1 < points.len() {
+        at = farthest_in_sight(passage, points, at);
+        kept.push(points[at]);
+    }
+    kept
+}
+
+/// The last point in sight of one, on the premise that the next one is.
+fn farthest_in_sight(passage: &Passage<'_>, points: &[Point], from: usize) -> usize {
+    let last = points.len() - 1;
+    let (mut seen, mut stride) = (from + 1, 1);
+    while seen < last && sees(passage, points[from], points[(seen + stride).min(last)]) {
+        seen = (seen + stride).min(last);
+        stride *= 2;
+    }
+    // Sight is lost between `seen` and one stride on.
+    let mut hidden = (seen + stride).min(last + 1);
+    while seen + 1 < hidden {
+        let middle = usize::midpoint(seen, hidden);
+        if sees(passage, points[from], points[middle]) {
+            seen = middle;
+        } else {
+            hidden = middle;
+        }
+    }
+    seen
+}
+
+/// The corners of a path with points between them, at most one `spacing` apart.
+fn resample(path: &[Point], spacing: f64) -> Vec<Point> {
+    let mut points = Vec::new();
+    for pair in path.windows(2) {
+        let way = pair[1] - pair[0];
+        let pieces = (way.norm() / spacing).ceil().max(1.0) as usize;
+        points.extend((0..pieces).map(|piece| pair[0] + way * (piece as f64 / pieces as f64)));
+    }
+    points.extend(path.last());
+    points
+}
+
+/// The faces a path crosses, and the edges between them, in order.
+pub(super) fn faces_along(passage: &Passage<'_>, path: &[Point]) -> (Vec<FaceId>, Vec<EdgeId>) {
+    let Some(first) = path.windows(2).next() else { return Default::default() };
+    let (mut faces, mut edges) = (vec![passage.face(Walk::new(passage, first[0], first[1]).at())], Vec::new());
+    let mut cross = |from: usize, to: usize| {
+        for (edge, face) in passage.crossings(from, to).unwrap_or_default() {
+            edges.push(edge);
+            faces.push(face);
+        }
+    };
+    for pair in path.windows(2) {
+        let walk = Walk::new(passage, pair[0], pair[1]);
+        let mut cell = walk.at();
+        for step in walk {
+            match step {
+                Step::Side(to) => {
+                    cross(cell, to);
+                    cell = to;
+                }
+                // Not around the corner where one edge parts the two cells.
+                Step::Corner { to, .. } if passage.allows(cell, to) => {
+                    cross(cell, to);
+                    cell = to;
+                }
+                Step::Corner { beside: [side, _], to } => {
+                    cross(cell, side);
+                    cross(side, to);
+                    cell = to;
+                }
+            }
+        }
+    }
+    (faces, edges)
+}

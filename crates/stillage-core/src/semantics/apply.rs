@@ -1,0 +1,210 @@
+//! An analysis read under a rule set and an assignment: labels, cogency, connectivity, places.
+//!
+//! Source: the paper, section II-C and Fig. 7: C(e) from the labels of N(e), C(l) from C(D(l)).
+//! Departures: edges on the outer boundary are cogent and have no link; edges whose cogency contradicts the cells
+//! along them are flagged; faces of one label that are mutually open are merged into places.
+//! Cost: O(faces + edges), a few milliseconds for 7,000 faces. Limits: none beyond those of the analysis.
+
+use super::{Assignment, AssignmentProblem, Cogency, Connectivity, LabelId, Place, RuleSet, SemanticMap};
+use crate::analysis::Analysis;
+use crate::annotation::{EdgeAnnotation, FaceAnnotation};
+use crate::arrangement::FaceId;
+
+/// Share of the length of an edge beyond which the cells along it outvote its cogency: the majority, as everywhere in
+/// the paper's annotation ("winner takes all").
+const MAJORITY: f64 = 0.5;
+
+/// Reads an analysis under a rule set and an assignment. Pure; milliseconds.
+///
+/// # Errors
+/// A problem for every category, face or label of the assignment that does not exist.
+pub fn apply(
+    analysis: &Analysis,
+    rule_set: &RuleSet,
+    assignment: &Assignment,
+) -> Result<SemanticMap, Vec<AssignmentProblem>> {
+    let decision = Decision::read(analysis, rule_set, assignment)?;
+    let labels: Vec<LabelId> =
+        (0..analysis.faces.len()).map(|face| decision.label(face, &analysis.faces[face])).collect();
+    let confidences = (0..labels.len()).map(|face| decision.confidence(face, &analysis.faces[face])).collect();
+
+    let sides = |edge| analysis.subdivision.sides(edge);
+    let is_outer = |edge| sides(edge).contains(&FaceId::OUTER);
+    let edges = || analysis.subdivision.edges();
+    let cogency: Vec<Cogency> = edges()
+        .map(|edge| {
+            let [left, right] = sides(edge);
+            if is_outer(edge) { Cogency::Cogent } else { rule_set.cogency(labels[left.index()], labels[right.index()]) }
+        })
+        .collect();
+    let connectivity: Vec<Option<Connectivity>> =
+        edges().map(|edge| (!is_outer(edge)).then(|| cogency[edge.index()].into())).collect();
+    let disagreements =
+        cogency.iter().zip(&analysis.edges).map(|(&cogency, edge)| contradicts(cogency, edge)).collect();
+    let (face_places, places) = merge_places(analysis, rule_set, &labels, &connectivity);
+    Ok(SemanticMap {
+        rule_set: rule_set.clone(),
+        labels,
+        confidences,
+        cogency,
+        connectivity,
+        disagreements,
+        face_places,
+        places,
+    })
+}
+
+/// Whether the cells along an edge say the opposite of its cogency.
+///
+/// Storage access contradicts nothing: the goods that stand behind such an edge are seen as obstacles along it.
+fn contradicts(cogency: Cogency, edge: &EdgeAnnotation) -> bool {
+    match cogency {
+        Cogency::Invalid => edge.support > MAJORITY,
+        Cogency::Cogent => edge.open > MAJORITY,
+        Cogency::StorageAccess => false,
+    }
+}
+
+/// An assignment whose names were looked up.
+struct Decision {
+    /// Label by category.
+    by_category: Vec<LabelId>,
+    /// Label by face where it is an exception.
+    by_face: Vec<Option<LabelId>>,
+}
+
+impl Decision {
+    fn read(analysis: &Analysis, rule_set: &RuleSet, assignment: &Assignment) -> Result<Self, Vec<AssignmentProblem>> {
+        let categories = analysis.categories.face_categories();
+        let faces = analysis.faces.len();
+        let mut problems = Vec::new();
+        let mut by_category = vec![rule_set.unidentified(); categories];
+        for (&category, id) in &assignment.assignment {
+            let pointer = format!("/assignment/{category}");
+            if let Some(label) = look_up(rule_set, id, &pointer, &mut problems) {
+                match by_category.get_mut(usize::from(category)) {
+                    Some(slot) => *slot = label,
+                    None => problems.push(no_such("category", category.into(), 0..categories, pointer)),
+                }
+            }
+        }
+        let mut by_face = vec![None; faces];
+        for (&face, id) in &assignment.overrides {
+            let pointer = format!("/overrides/{face}");
+            if let Some(label) = look_up(rule_set, id, &pointer, &mut problems) {
+                match by_face.get_mut(face as usize) {
+                    Some(slot) if face != FaceId::OUTER.0 => *slot = Some(label),
+                    _ => problems.push(no_such("face", face, 1..faces, pointer)),
+                }
+            }
+        }
+        // The label of the unbounded face is nobody's decision.
+        if let Some(outer) = by_face.first_mut() {
+            *outer = Some(rule_set.unidentified());
+        }
+        if problems.is_empty() { Ok(Self { by_category, by_face }) } else { Err(problems) }
+    }
+
+    fn label(&self, face: usize, annotation: &FaceAnnotation) -> LabelId {
+        self.by_face[face].unwrap_or_else(|| self.of_category(annotation.category))
+    }
+
+    fn of_category(&self, category: u8) -> LabelId {
+        self.by_category[usize::from(category)]
+    }
+
+    /// The votes of all clusters that bear the face's label; the annotation's own confidence where nobody voted.
+    fn confidence(&self, face: usize, annotation: &FaceAnnotation) -> f64 {
+        if self.by_face[face].is_some() {
+            return 1.0;
+        }
+        let label = self.of_category(annotation.category);
+        let is_cluster = usize::from(annotation.category) < annotation.category_shares.len();
+        if !is_cluster {
+            return annotation.confidence;
+        }
+        let shares = annotation.category_shares.iter().zip(&self.by_category);
+        shares.filter(|&(_, &of)| of == label).map(|(&share, _)| f64::from(share)).sum::<f64>().clamp(0.0, 1.0)
+    }
+}
+
+fn look_up(rule_set: &RuleSet, id: &str, pointer: &str, problems: &mut Vec<AssignmentProblem>) -> Option<LabelId> {
+    let found = rule_set.find(id);
+    if found.is_none() {
+        let known: Vec<&str> = rule_set.labels().iter().map(|label| label.id.as_str()).collect();
+        let message = format!("no label has the id {id:?}; there are {}", known.join(", "));
+        problems.push(AssignmentProblem { pointer: pointer.to_owned(), message });
+    }
+    found
+}
+
+fn no_such(what: &str, id: u32, valid: std::ops::Range<usize>, pointer: String) -> AssignmentProblem {
+    let message = if valid.is_empty() {
+        format!("no {what} {id}: the map has none")
+    } else {
+        format!("no {what} {id}: they run from {} to {}", valid.start, valid.end - 1)
+    };
+    AssignmentProblem { pointer, message }
+}
+
+/// Joins faces of one label over connected links, and numbers the results by their smallest face.
+///
+/// What stands along an edge divides drivable places; between two storage faces it is the goods themselves, so a
+/// block of storage stays one. Unidentified faces are no place.
+fn merge_places(
+    analysis: &Analysis,
+    rule_set: &RuleSet,
+    labels: &[LabelId],
+    connectivity: &[Option<Connectivity>],
+) -> (Vec<Option<u32>>, Vec<Place>) {
+    let mut sets = DisjointSets::new(labels.len());
+    for edge in analysis.subdivision.edges() {
+        let [left, right] = analysis.subdivision.sides(edge).map(FaceId::index);
+        let same = labels[left] == labels[right] && labels[left] != rule_set.unidentified();
+        let undivided = rule_set.label(labels[left]).is_storage() || analysis.edges[edge.index()].support <= MAJORITY;
+        if same && undivided && connectivity[edge.index()] == Some(Connectivity::Connected) {
+            sets.join(left, right);
+        }
+    }
+    let mut face_places = vec![None; labels.len()];
+    let mut places: Vec<Place> = Vec::new();
+    for face in analysis.subdivision.faces() {
+        let label = labels[face.index()];
+        if label == rule_set.unidentified() {
+            continue;
+        }
+        // The root of a set is its smallest face, so it comes first.
+        let root = sets.find(face.index());
+        let place = face_places[root].unwrap_or(places.len() as u32);
+        if place as usize == places.len() {
+            places.push(Place { label, faces: Vec::new(), area: 0.0 });
+        }
+        face_places[face.index()] = Some(place);
+        places[place as usize].faces.push(face);
+        places[place as usize].area += analysis.faces[face.index()].area;
+    }
+    (face_places, places)
+}
+
+/// Union-find with the smallest member as the root of each set.
+struct DisjointSets(Vec<usize>);
+
+impl DisjointSets {
+    fn new(count: usize) -> Self {
+        Self((0..count).collect())
+    }
+
+    fn find(&mut self, mut member: usize) -> usize {
+        while self.0[member] != member {
+            // Path halving (Tarjan and van Leeuwen 1984) keeps trees flat without a second pass.
+            self.0[member] = self.0[self.0[member]];
+            member = self.0[member];
+        }
+        member
+    }
+
+    fn join(&mut self, first: usize, second: usize) {
+        let (first, second) = (self.find(first), self.find(second));
+        self.0[first.max(second)] = first.min(second);
+    }
+}

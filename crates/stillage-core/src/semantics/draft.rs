@@ -1,0 +1,183 @@
+//! The check of a rule set as a person writes it.
+//!
+//! Every problem is reported at once, each with a JSON pointer (RFC 6901) to the value that is wrong.
+//! Cost: O(labels^2 + rules). Limits: see [`MAX_LABELS`] and [`MAX_RULES`].
+
+use super::rule_set::{CogencyRule, Label, LabelId, RuleSet, RuleSetDraft, RuleSetProblem};
+
+/// Most labels of a rule set: more than a legend can show, and a table of cogency stays small.
+const MAX_LABELS: usize = 32;
+/// Most explicit rules: every pair of labels in either order.
+const MAX_RULES: usize = MAX_LABELS * MAX_LABELS;
+/// Longest id of a label, characters.
+const MAX_ID: usize = 32;
+/// Longest name of a label, characters.
+const MAX_NAME: usize = 100;
+
+impl RuleSetDraft {
+    /// Checks a draft.
+    ///
+    /// # Errors
+    /// Every problem of the draft.
+    pub fn check(self) -> Result<RuleSet, Vec<RuleSetProblem>> {
+        let mut problems = Problems::default();
+        let labels = &self.labels;
+        problems.unless(labels.len() <= MAX_LABELS, "/labels", || {
+            format!("{} labels are more than {MAX_LABELS}", labels.len())
+        });
+        // The check of a label looks at all the others: bounded before it is begun.
+        for index in 0..labels.len().min(MAX_LABELS) {
+            check_label(labels, index, &mut problems);
+        }
+        check_rules(&self, &mut problems);
+        let unidentified = labels.iter().position(|label| label.functionality.is_empty());
+        problems.unless(unidentified.is_some(), "/labels", || {
+            "a label without functionality is needed for places that nobody named".to_owned()
+        });
+        match unidentified {
+            Some(index) if problems.0.is_empty() => Ok(RuleSet::tabulate(self, LabelId(index as u8))),
+            _ => Err(problems.0),
+        }
+    }
+
+    fn knows(&self, id: &str) -> bool {
+        self.labels.iter().any(|label| label.id == id)
+    }
+}
+
+fn check_label(labels: &[Label], index: usize, problems: &mut Problems) {
+    let label = &labels[index];
+    let at = |field: &str| format!("/labels/{index}/{field}");
+    let is_id_character = |character: char| matches!(character, 'a'..='z' | '0'..='9' | '-');
+    let well_formed = (1..=MAX_ID).contains(&label.id.len()) && label.id.chars().all(is_id_character);
+    problems
+        .unless(well_formed, &at("id"), || format!("{:?} is not 1 to {MAX_ID} characters of a-z, 0-9 and -", label.id));
+    let namesake = labels[..index].iter().position(|earlier| earlier.id == label.id);
+    problems.unless(namesake.is_none(), &at("id"), || format!("{:?} is the id of an earlier label", label.id));
+    let named = !label.name.trim().is_empty() && label.name.chars().count() <= MAX_NAME;
+    problems.unless(named, &at("name"), || format!("a name has 1 to {MAX_NAME} characters"));
+    problems.unless(is_color(&label.color), &at("color"), || format!("{:?} is not a colour like #56b4e9", label.color));
+    for (position, other) in label.connects_to.iter().enumerate() {
+        let known = labels.iter().any(|label| label.id == *other);
+        problems.unless(known, &at(&format!("connectsTo/{position}")), || format!("no label has the id {other:?}"));
+    }
+}
+
+fn check_rules(draft: &RuleSetDraft, problems: &mut Problems) {
+    let rules = draft.cogency.as_deref().unwrap_or_default();
+    problems
+        .unless(rules.len() <= MAX_RULES, "/cogency", || format!("{} rules are more than {MAX_RULES}", rules.len()));
+    for (index, rule) in rules.iter().enumerate().take(MAX_RULES) {
+        for (position, id) in rule.when.iter().enumerate() {
+            let known = id == CogencyRule::ANY || draft.knows(id);
+            problems.unless(known, &format!("/cogency/{index}/when/{position}"), || {
+                format!("no label has the id {id:?}; * stands for any")
+            });
+        }
+    }
+}
+
+fn is_color(text: &str) -> bool {
+    text.strip_prefix('#')
+        .is_some_and(|digits| digits.len() == 6 && digits.bytes().all(|digit| digit.is_ascii_hexdigit()))
+}
+
+/// Collects what is wrong.
+#[derive(Default)]
+struct Problems(Vec<RuleSetProblem>);
+
+impl Problems {
+    fn unless(&mut self, holds: bool, pointer: &str, message: impl FnOnce() -> String) {
+        if !holds {
+            self.0.push(RuleSetProblem { pointer: pointer.to_owned(), message: message() });
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::semantics::Cogency;
+    use expect_test::{Expect, expect};
+
+    fn check(change: impl FnOnce(&mut RuleSetDraft), expected: &Expect) {
+        let mut draft = RuleSet::warehouse().draft().clone();
+        change(&mut draft);
+        let report = match draft.check() {
+            Ok(_) => "valid".to_owned(),
+            Err(problems) => problems.iter().map(|problem| format!("{problem}\n")).collect(),
+        };
+        expected.assert_eq(&report);
+    }
+
+    #[test]
+    fn every_problem_is_named_with_its_pointer() {
+        check(
+            |draft| {
+                draft.labels[0].id = "Corridor".into();
+                draft.labels[1].id = "pc".into();
+                draft.labels[1].name = " ".into();
+                draft.labels[2].color = "green".into();
+                draft.labels[3].connects_to = vec!["pc".into(), "shelf".into()];
+                draft.cogency = Some(vec![CogencyRule { when: ["*".into(), "bin".into()], then: Cogency::Cogent }]);
+            },
+            &expect![[r#"
+                /labels/0/id: "Corridor" is not 1 to 32 characters of a-z, 0-9 and -
+                /labels/0/connectsTo/0: no label has the id "co"
+                /labels/0/connectsTo/1: no label has the id "ju"
+                /labels/1/name: a name has 1 to 100 characters
+                /labels/1/connectsTo/0: no label has the id "co"
+                /labels/1/connectsTo/1: no label has the id "ju"
+                /labels/2/id: "pc" is the id of an earlier label
+                /labels/2/color: "green" is not a colour like #56b4e9
+                /labels/2/connectsTo/0: no label has the id "co"
+                /labels/3/connectsTo/1: no label has the id "shelf"
+                /cogency/0/when/1: no label has the id "bin"; * stands for any
+            "#]],
+        );
+    }
+
+    #[test]
+    fn a_label_without_functionality_is_needed() {
+        check(
+            |draft| draft.labels.truncate(3),
+            &expect![[r#"
+            /labels: a label without functionality is needed for places that nobody named
+        "#]],
+        );
+        check(
+            |draft| draft.labels.clear(),
+            &expect![[r#"
+            /labels: a label without functionality is needed for places that nobody named
+        "#]],
+        );
+    }
+
+    #[test]
+    fn there_are_at_most_32_labels() {
+        let grow = |draft: &mut RuleSetDraft, count: usize| {
+            while draft.labels.len() < count {
+                let id = format!("extra-{}", draft.labels.len());
+                draft.labels.push(Label { id, ..draft.labels[3].clone() });
+            }
+        };
+        check(|draft| grow(draft, 32), &expect!["valid"]);
+        check(
+            |draft| grow(draft, 33),
+            &expect![[r#"
+            /labels: 33 labels are more than 32
+        "#]],
+        );
+    }
+
+    #[test]
+    fn names_may_be_written_in_any_script() {
+        check(|draft| draft.labels[0].name = "通路".repeat(50), &expect!["valid"]);
+        check(
+            |draft| draft.labels[0].name = "通路".repeat(51),
+            &expect![[r#"
+            /labels/0/name: a name has 1 to 100 characters
+        "#]],
+        );
+    }
+}

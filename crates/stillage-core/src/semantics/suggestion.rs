@@ -1,0 +1,281 @@
+//! A first label for every category, so that a map has a meaning before anyone has looked at it.
+//!
+//! Source: the paper assigns labels by hand and says that they could be learned "from characteristics of labels and
+//! the occupancy values" (section II-C). This is the plain version of that: a fuzzy reading of what the faces of a
+//! category are like, after Zadeh (doi 10.1016/S0019-9958(65)90241-X): *and* is the minimum, *or* the maximum. A
+//! label is as likely as the least likely of its functionalities, in any rule set.
+//! Cost: O(faces + edges + categories x labels). Limits: categories are judged one by one and as a whole, so a
+//! category that mixes places gets the label of most of its area, and a low confidence.
+
+use super::{CategoryEvidence, Functionality, Label, LabelId, RuleSet, Suggestion};
+use crate::analysis::Analysis;
+use crate::annotation::FaceAnnotation;
+use crate::arrangement::FaceId;
+use crate::categorization::CategoryMap;
+
+/// Below this likelihood a category is better left unidentified: the wrong label closes or opens ways.
+const LEAST_LIKELIHOOD: f64 = 0.35;
+/// A label that is drivable and nothing else suits every free place, and so says less than one that says more.
+const PLAIN_DRIVABLE: f64 = 0.75;
+/// A face is lined by an edge, or unexplored, by the majority of its length or cells.
+const MAJORITY: f64 = 0.5;
+
+/// Proposes a label for every category of an analysis (clusters, `occupied`, `unknown`), ascending.
+#[must_use]
+pub fn suggest(analysis: &Analysis, rule_set: &RuleSet) -> Vec<Suggestion> {
+    let evidence = category_evidence(analysis);
+    let mean_beam = mean_beam_of_map(&analysis.categories);
+    let propose = |(category, evidence): (usize, CategoryEvidence)| {
+        let sight = Sight::of(&analysis.categories, category, mean_beam);
+        propose(category as u8, evidence, sight, rule_set)
+    };
+    evidence.into_iter().enumerate().map(propose).collect()
+}
+
+fn propose(category: u8, evidence: CategoryEvidence, sight: Sight, rule_set: &RuleSet) -> Suggestion {
+    let nothing = (rule_set.unidentified(), 0.0);
+    if evidence.faces == 0 {
+        let reason = "No face has this category.".to_owned();
+        return Suggestion { category, label: nothing.0, confidence: 0.0, reason, evidence };
+    }
+    let reading = Reading::new(&evidence, sight);
+    let (mut best, mut second) = (nothing, nothing);
+    for (index, label) in rule_set.labels().iter().enumerate() {
+        let candidate = (LabelId(index as u8), reading.likelihood(label));
+        if candidate.1 > best.1 {
+            (best, second) = (candidate, best);
+        } else if candidate.1 > second.1 {
+            second = candidate;
+        }
+    }
+    let name = |id: LabelId| &rule_set.label(id).name;
+    let looks = describe(&evidence, sight);
+    let (label, confidence, reason) = if best.1 < LEAST_LIKELIHOOD {
+        (nothing.0, 1.0 - best.1, format!("{looks}: no label fits (the nearest is {}, {:.2}).", name(best.0), best.1))
+    } else {
+        // A close second halves the trust in the first.
+        let confidence = best.1 - second.1 / 2.0;
+        let rival = if second.1 > 0.0 { format!("; next {}, {:.2}", name(second.0), second.1) } else { String::new() };
+        (best.0, confidence, format!("{looks}: reads as {} ({:.2}{rival}).", name(best.0), best.1))
+    };
+    Suggestion { category, label, confidence: confidence.clamp(0.0, 1.0), reason, evidence }
+}
+
+fn describe(evidence: &CategoryEvidence, sight: Sight) -> String {
+    let percent = |share: f64| (share * 100.0).round();
+    let beams = sight.relative_beam.map(|beam| format!(", beams {beam:.1} times the mean of the map"));
+    format!(
+        "{} % free, {} % occupied, {} % unknown; {:.1} times as long as wide, {:.1} m2 in the median, {} % of the \
+         border lined by structure{}",
+        percent(evidence.free_fraction),
+        percent(evidence.occupied_fraction),
+        percent(evidence.unknown_fraction),
+        evidence.elongation,
+        evidence.median_area,
+        percent(evidence.lined_fraction),
+        beams.unwrap_or_default(),
+    )
+}
+
+/// How far and how unevenly one sees from the cells of a cluster; nothing is known of `occupied` and `unknown`.
+#[derive(Debug, Clone, Copy, Default)]
+struct Sight {
+    /// Mean beam length over that of the whole map.
+    relative_beam: Option<f64>,
+    /// Long over short principal axis of what is seen.
+    elongation: Option<f64>,
+}
+
+impl Sight {
+    fn of(categories: &CategoryMap, category: usize, mean_beam: Option<f64>) -> Self {
+        let feature = |name| mean_feature(categories, category, name);
+        Self {
+            relative_beam: feature(MEAN_BEAM).zip(mean_beam).map(|(beam, mean)| beam / mean),
+            elongation: feature(AXIS_RATIO),
+        }
+    }
+}
+
+/// Name of the feature that holds the mean beam length.
+const MEAN_BEAM: &str = "mean_beam";
+/// Name of the feature that holds the ratio of the principal axes of the end points.
+const AXIS_RATIO: &str = "principal_axis_ratio";
+
+fn mean_feature(categories: &CategoryMap, category: usize, name: &str) -> Option<f64> {
+    let index = categories.feature_names.iter().position(|feature| feature == name)?;
+    let value = *categories.categories.get(category)?.mean_features.get(index)?;
+    value.is_finite().then_some(value)
+}
+
+/// Mean beam length over all categorized cells; `None` where it is not known or zero.
+fn mean_beam_of_map(categories: &CategoryMap) -> Option<f64> {
+    let cells: usize = categories.categories.iter().map(|category| category.cells).sum();
+    let weighted = (0..categories.categories.len())
+        .map(|index| Some(mean_feature(categories, index, MEAN_BEAM)? * categories.categories[index].cells as f64))
+        .sum::<Option<f64>>()?;
+    let mean = weighted / cells as f64;
+    (mean > 0.0).then_some(mean)
+}
+
+/// How true each statement about a category is, 0 to 1.
+struct Reading {
+    free: f64,
+    goods: f64,
+    long: f64,
+    lined: f64,
+    far: f64,
+    roomy: f64,
+}
+
+/// 0 up to `low`, 1 from `high` on, straight between.
+fn ramp(value: f64, low: f64, high: f64) -> f64 {
+    ((value - low) / (high - low)).clamp(0.0, 1.0)
+}
+
+impl Reading {
+    fn new(evidence: &CategoryEvidence, sight: Sight) -> Self {
+        // A place for one EUR pallet has about 1 m2, a bay of three 4 m2; 16 m2 is a block that stands free.
+        let small = 1.0 - ramp(evidence.median_area, 4.0, 16.0);
+        // Nine blocks of a pallet cover about a tenth of its place, a misplaced line leaves a twentieth in a corridor.
+        let seen_goods = ramp(evidence.occupied_fraction, 0.05, 0.15);
+        // Beams do not enter a stack of goods: what stays unknown among known places holds something.
+        let unseen = ramp(evidence.unknown_fraction, 0.4, 0.8).min(ramp(evidence.enclosed_fraction, 0.5, 0.9));
+        let closed_in = ramp(evidence.lined_fraction, 0.5, 0.8).min(1.0 - ramp(evidence.open_fraction, 0.2, 0.5));
+        let goods = seen_goods.max(small.min(unseen.max(closed_in)));
+        // The cells of a corridor may be cut across by the lines of the racks: its beams still tell its direction.
+        let long = ramp(evidence.elongation, 1.5, 4.0).max(sight.elongation.map_or(0.0, |ratio| ramp(ratio, 2.0, 5.0)));
+        Self {
+            free: ramp(evidence.free_fraction, 0.5, 0.85),
+            goods,
+            long,
+            lined: ramp(evidence.lined_fraction, 0.2, 0.5),
+            far: sight.relative_beam.map_or(1.0, |beam| ramp(beam, 0.7, 1.2)),
+            roomy: ramp(evidence.median_area, 2.0, 8.0),
+        }
+    }
+
+    /// A label is as likely as the least likely of its functionalities.
+    fn likelihood(&self, label: &Label) -> f64 {
+        let least = label.functionality.iter().map(|&function| self.suits(function)).fold(1.0, f64::min);
+        match label.functionality.as_slice() {
+            [] => 0.0,
+            [Functionality::Drivable] => least * PLAIN_DRIVABLE,
+            _ => least,
+        }
+    }
+
+    fn suits(&self, functionality: Functionality) -> f64 {
+        let passable = self.free.min(1.0 - self.goods);
+        match functionality {
+            Functionality::Drivable => passable,
+            Functionality::StorageAccess => passable.min(self.long.max(self.lined)),
+            Functionality::Access => passable.min(self.long),
+            Functionality::Connection => passable.min(1.0 - self.long).min(1.0 - self.lined).min(self.far),
+            Functionality::Storage => self.goods,
+            Functionality::WorkPlace => passable.min(1.0 - self.long).min(self.lined).min(self.roomy),
+        }
+    }
+}
+
+/// Aggregates the faces and edges of each category.
+pub(super) fn category_evidence(analysis: &Analysis) -> Vec<CategoryEvidence> {
+    let count = analysis.categories.face_categories();
+    let borders = Borders::measure(analysis);
+    let outside = joined_with_the_outside(analysis);
+    let mut sums = vec![CategoryEvidence::default(); count];
+    let mut areas: Vec<Vec<f64>> = vec![Vec::new(); count];
+    let mut lengths = vec![0.0; count];
+    for face in analysis.subdivision.faces().map(FaceId::index) {
+        let annotation = &analysis.faces[face];
+        let category = usize::from(annotation.category);
+        let (sum, weight) = (&mut sums[category], annotation.area);
+        sum.faces += 1;
+        sum.area += weight;
+        sum.free_fraction += weight * annotation.free_fraction;
+        sum.occupied_fraction += weight * annotation.occupied_fraction;
+        sum.unknown_fraction += weight * annotation.unknown_fraction;
+        sum.elongation += weight * annotation.elongation;
+        sum.enclosed_fraction += if outside[face] { 0.0 } else { weight };
+        sum.open_fraction += borders.open[face];
+        sum.lined_fraction += borders.lined[face];
+        lengths[category] += borders.length[face];
+        areas[category].push(annotation.area);
+    }
+    for ((sum, areas), length) in sums.iter_mut().zip(&mut areas).zip(lengths) {
+        let share = |value: f64, whole: f64| if whole > 0.0 { value / whole } else { 0.0 };
+        let area = sum.area;
+        for mean in [
+            &mut sum.free_fraction,
+            &mut sum.occupied_fraction,
+            &mut sum.unknown_fraction,
+            &mut sum.elongation,
+            &mut sum.enclosed_fraction,
+        ] {
+            *mean = share(*mean, area);
+        }
+        sum.open_fraction = share(sum.open_fraction, length);
+        sum.lined_fraction = share(sum.lined_fraction, length);
+        sum.median_area = median(areas);
+    }
+    sums
+}
+
+/// Lower median; 0 without values.
+fn median(values: &mut [f64]) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values.get(values.len().saturating_sub(1) / 2).copied().unwrap_or(0.0)
+}
+
+/// Lengths along the boundary of each face, metres.
+struct Borders {
+    length: Vec<f64>,
+    open: Vec<f64>,
+    /// With an obstacle on the edge, or no free face behind it.
+    lined: Vec<f64>,
+}
+
+impl Borders {
+    fn measure(analysis: &Analysis) -> Self {
+        let faces = analysis.faces.len();
+        let mut borders = Self { length: vec![0.0; faces], open: vec![0.0; faces], lined: vec![0.0; faces] };
+        for edge in analysis.subdivision.edges() {
+            let length = analysis.subdivision.length(edge);
+            let annotation = &analysis.edges[edge.index()];
+            let [left, right] = analysis.subdivision.sides(edge).map(FaceId::index);
+            for (face, behind) in [(left, right), (right, left)] {
+                let is_lined = annotation.support > MAJORITY || analysis.faces[behind].free_fraction < MAJORITY;
+                borders.length[face] += length;
+                borders.open[face] += length * annotation.open;
+                borders.lined[face] += if is_lined { length } else { 0.0 };
+            }
+        }
+        borders
+    }
+}
+
+/// Per face, whether a chain of unexplored faces joins it with the unbounded face: the ground outside the building.
+fn joined_with_the_outside(analysis: &Analysis) -> Vec<bool> {
+    let is_unexplored = |annotation: &FaceAnnotation| annotation.unknown_fraction > MAJORITY;
+    let mut outside = vec![false; analysis.faces.len()];
+    let mut waiting = Vec::new();
+    let mut reach = |face: FaceId, waiting: &mut Vec<FaceId>| {
+        if face != FaceId::OUTER && is_unexplored(&analysis.faces[face.index()]) && !outside[face.index()] {
+            outside[face.index()] = true;
+            waiting.push(face);
+        }
+    };
+    for edge in analysis.subdivision.edges() {
+        let sides = analysis.subdivision.sides(edge);
+        if sides.contains(&FaceId::OUTER) {
+            for face in sides {
+                reach(face, &mut waiting);
+            }
+        }
+    }
+    while let Some(face) = waiting.pop() {
+        for &(_, behind) in analysis.graph.links(face) {
+            reach(behind, &mut waiting);
+        }
+    }
+    outside
+}
