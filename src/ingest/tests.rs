@@ -1,0 +1,640 @@
+//! What is read, what is read with a warning, and what is refused with which words.
+
+use std::fmt::Write as _;
+use std::io::Cursor;
+
+use expect_test::{Expect, expect};
+use image::{DynamicImage, GrayAlphaImage, GrayImage, ImageBuffer, ImageFormat, Luma, LumaA, RgbImage, RgbaImage};
+use proptest::prelude::*;
+use stillage_core::Occupancy;
+
+use super::*;
+
+const USUAL: &str = "image: map.png\nresolution: 0.05\norigin: [-1.0, 2.0, 0.5]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n";
+
+/// Two rows of three pixels: dark, unknown, bright over bright, bright, dark.
+const GREYS: [u8; 6] = [0, 205, 254, 254, 254, 0];
+/// The cells of [`GREYS`], first line on top.
+const PICTURE: &str = "#?.\n..#\n";
+
+fn encode(image: &DynamicImage, format: ImageFormat) -> Vec<u8> {
+    let mut bytes = Cursor::new(Vec::new());
+    image.write_to(&mut bytes, format).unwrap();
+    bytes.into_inner()
+}
+
+fn grey_png() -> Vec<u8> {
+    encode(&GrayImage::from_raw(3, 2, GREYS.to_vec()).unwrap().into(), ImageFormat::Png)
+}
+
+fn read(image: Vec<u8>, metadata: &str) -> Result<DecodedMap, IngestError> {
+    let source = MapSource::Image { image, metadata: metadata.as_bytes().to_vec() };
+    decode(&source, &GridOptions::default(), &Limits::default())
+}
+
+fn read_message(json: &str) -> Result<DecodedMap, IngestError> {
+    decode(&MapSource::Message(json.as_bytes().to_vec()), &GridOptions::default(), &Limits::default())
+}
+
+fn picture(grid: &OccupancyGrid) -> String {
+    let mut text = String::new();
+    for row in (0..grid.height()).rev() {
+        text.extend(grid.row(row).iter().map(|cell| match cell {
+            Occupancy::Occupied => '#',
+            Occupancy::Free => '.',
+            Occupancy::Unknown => '?',
+        }));
+        text.push('\n');
+    }
+    text
+}
+
+/// The answer to each case, a line each.
+fn check<'a>(cases: impl IntoIterator<Item = (&'a str, Result<DecodedMap, IngestError>)>, expected: &Expect) {
+    let mut report = String::new();
+    for (name, answer) in cases {
+        match answer {
+            Ok(map) if map.warnings.is_empty() => writeln!(report, "{name}: read").unwrap(),
+            Ok(map) => {
+                for warning in map.warnings {
+                    writeln!(report, "{name}: read, {}: {}", warning.code, warning.message).unwrap();
+                }
+            }
+            Err(error) => writeln!(report, "{name}: {:?} {}: {}", error.refusal, error.pointer, error.message).unwrap(),
+        }
+    }
+    expected.assert_eq(&report);
+}
+
+// ---- pictures ----
+
+#[test]
+fn every_format_and_depth_reads_as_the_same_map() {
+    let grey = || GrayImage::from_raw(3, 2, GREYS.to_vec()).unwrap();
+    let sixteen: Vec<u16> = GREYS.iter().map(|&grey| u16::from(grey) * 257 + 200 * u16::from(grey < 254)).collect();
+    let sixteen = ImageBuffer::<Luma<u16>, _>::from_raw(3, 2, sixteen).unwrap();
+    let with_alpha = |alpha| GrayAlphaImage::from_fn(3, 2, |x, y| LumaA([grey().get_pixel(x, y)[0], alpha]));
+    let dynamic = || DynamicImage::from(grey());
+    let ascii =
+        |magic: &str, body: &str| format!("{magic}\n# CREATOR: map_saver.cpp 0.050 m/pix\n3 2\n{body}").into_bytes();
+    let binary = |header: &str, body: &[u8]| [header.as_bytes(), body].concat();
+    let sixteen_pgm: Vec<u8> = sixteen.iter().flat_map(|sample| sample.to_be_bytes()).collect();
+    let images = [
+        ("PNG grey 8", encode(&dynamic(), ImageFormat::Png)),
+        ("PNG grey 16", encode(&sixteen.clone().into(), ImageFormat::Png)),
+        ("PNG grey and alpha", encode(&with_alpha(255).into(), ImageFormat::Png)),
+        ("PNG RGB", encode(&dynamic().into_rgb8().into(), ImageFormat::Png)),
+        ("PNG RGBA", encode(&dynamic().into_rgba8().into(), ImageFormat::Png)),
+        ("PNG RGB 16", encode(&DynamicImage::from(sixteen.clone()).into_rgb16().into(), ImageFormat::Png)),
+        ("PNG palette", palette_png(None)),
+        ("BMP", encode(&dynamic().into_rgb8().into(), ImageFormat::Bmp)),
+        ("TIFF grey 8", encode(&dynamic(), ImageFormat::Tiff)),
+        ("TIFF grey 16", encode(&sixteen.clone().into(), ImageFormat::Tiff)),
+        ("TIFF RGBA", encode(&dynamic().into_rgba8().into(), ImageFormat::Tiff)),
+        ("WebP", encode(&dynamic().into_rgba8().into(), ImageFormat::WebP)),
+        ("PGM ASCII", ascii("P2", "255\n0 205 254\n254 254 0\n")),
+        (
+            "PGM ASCII, maximum 100",
+            ascii("P2", "100\n0 80 100 # comment\n100 100 0\n".replace(" # comment", "").as_str()),
+        ),
+        ("PGM binary", binary("P5\n# CREATOR: GIMP PNM Filter Version 1.1\n3 2\n255\n", &GREYS)),
+        ("PGM binary 16", binary("P5 3 2 65535\n", &sixteen_pgm)),
+        ("PPM ASCII", ascii("P3", "255\n0 0 0 205 205 205 254 254 254\n254 254 254 254 254 254 0 0 0\n")),
+        ("PPM binary", binary("P6\r\n3 2\r\n255\n", &dynamic().into_rgb8().into_raw())),
+    ];
+    for (name, image) in images {
+        let map = read(image, USUAL).unwrap_or_else(|error| panic!("{name}: {error}"));
+        assert_eq!(picture(&map.grid), PICTURE, "{name}");
+        assert_eq!(map.warnings, [], "{name}");
+    }
+}
+
+#[test]
+fn bitmaps_are_black_and_white() {
+    // In a PBM 1 is black.
+    for image in [b"P1\n3 2\n1 0 0\n0 0 1\n".to_vec(), b"P4\n3 2\n\x80\x20".to_vec()] {
+        assert_eq!(picture(&read(image, USUAL).unwrap().grid), "#..\n..#\n");
+    }
+}
+
+#[test]
+fn lossy_jpeg_keeps_the_verdicts() {
+    // Blocks of 8 x 8 pixels are what JPEG keeps.
+    let blocks = GrayImage::from_fn(24, 16, |x, y| Luma([GREYS[(x / 8 + 3 * (y / 8)) as usize]]));
+    let usual = USUAL.replace("0.196", "0.1");
+    let jpeg = encode(&blocks.into(), ImageFormat::Jpeg);
+    let grid = read(jpeg.clone(), &usual).unwrap().grid;
+    let cell = |column: i64, row: i64| grid.at(column * 8 + 4, row * 8 + 4);
+    assert_eq!([cell(0, 1), cell(1, 1), cell(2, 1)], [Occupancy::Occupied, Occupancy::Unknown, Occupancy::Free]);
+    check(
+        [("cut off", read(jpeg[..jpeg.len() - 10].to_vec(), &usual))],
+        &expect![[r#"
+            cut off: Invalid /image: the JPEG image is cut off: upload it again
+        "#]],
+    );
+}
+
+/// A 2-bit palette PNG of [`GREYS`], with the transparency of its entries.
+fn palette_png(transparency: Option<&[u8]>) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, 3, 2);
+    encoder.set_color(png::ColorType::Indexed);
+    encoder.set_depth(png::BitDepth::Two);
+    encoder.set_palette([0, 0, 0, 205, 205, 205, 254, 254, 254].as_slice());
+    if let Some(transparency) = transparency {
+        encoder.set_trns(transparency);
+    }
+    encoder.write_header().unwrap().write_image_data(&[0b0001_1000, 0b1010_0000]).unwrap();
+    bytes
+}
+
+#[test]
+fn what_is_not_opaque_is_unknown_except_in_raw_mode() {
+    let image = palette_png(Some(&[255, 255, 254]));
+    assert_eq!(picture(&read(image.clone(), USUAL).unwrap().grid), "#??\n??#\n");
+    let scale = format!("{USUAL}mode: scale\n");
+    assert_eq!(picture(&read(image.clone(), &scale).unwrap().grid), "#??\n??#\n");
+    // Raw: grey 0 is 0 per cent, 205 and 254 are no per cent.
+    let raw = format!("{USUAL}mode: raw\n");
+    assert_eq!(picture(&read(image, &raw).unwrap().grid), ".??\n??.\n");
+}
+
+#[test]
+fn colours_become_grey_by_luma() {
+    // Pure green is brighter (150) than pure red (76) than pure blue (29).
+    let colours = RgbImage::from_raw(3, 1, vec![255, 0, 0, 0, 255, 0, 0, 0, 255]).unwrap();
+    let thresholds = USUAL.replace("0.65", "0.8").replace("0.196", "0.5");
+    let grid = read(encode(&colours.into(), ImageFormat::Png), &thresholds).unwrap().grid;
+    assert_eq!(picture(&grid), "?.#\n");
+}
+
+#[test]
+fn the_frame_of_the_map_is_that_of_the_file() {
+    let frame = *read(grey_png(), USUAL).unwrap().grid.frame();
+    assert_eq!((frame.resolution, frame.origin.x, frame.origin.y, frame.yaw), (0.05, -1.0, 2.0, 0.5));
+}
+
+#[test]
+fn options_override_the_thresholds_of_the_file() {
+    let source = MapSource::Image { image: grey_png(), metadata: USUAL.replace("0.196", "0.25").into_bytes() };
+    let limits = Limits::default();
+    let as_written = decode(&source, &GridOptions::default(), &limits).unwrap();
+    assert_eq!(picture(&as_written.grid), "#..\n..#\n");
+    assert_eq!(as_written.warnings[0].code, "unknown-lost");
+    let options = GridOptions { free_threshold: Some(0.196), occupied_threshold: None };
+    let overridden = decode(&source, &options, &limits).unwrap();
+    assert_eq!(picture(&overridden.grid), PICTURE);
+    assert_eq!(overridden.warnings, []);
+    let options = GridOptions { free_threshold: Some(0.7), occupied_threshold: None };
+    assert_eq!(decode(&source, &options, &limits).unwrap_err().pointer, "/options/grid/freeThreshold");
+}
+
+#[test]
+fn a_single_pixel_is_a_map() {
+    for (grey, cell) in [(0, "#\n"), (205, "?\n"), (255, ".\n")] {
+        let image = GrayImage::from_raw(1, 1, vec![grey]).unwrap();
+        assert_eq!(picture(&read(encode(&image.into(), ImageFormat::Png), USUAL).unwrap().grid), cell);
+    }
+}
+
+// ---- pictures that are refused ----
+
+/// A PNG whose header states a size, with hardly any data.
+fn lying_png(width: u32, height: u32) -> Vec<u8> {
+    let mut bytes = b"\x89PNG\r\n\x1a\n".to_vec();
+    let mut header = width.to_be_bytes().to_vec();
+    header.extend(height.to_be_bytes());
+    header.extend([8, 0, 0, 0, 0]);
+    for (kind, data) in [(b"IHDR", header.as_slice()), (b"IDAT", &[0x78, 0x9c, 0x01, 0x00])] {
+        bytes.extend((data.len() as u32).to_be_bytes());
+        let start = bytes.len();
+        bytes.extend(kind);
+        bytes.extend(data);
+        bytes.extend(crc32(&bytes[start..]).to_be_bytes());
+    }
+    bytes
+}
+
+fn crc32(bytes: &[u8]) -> u32 {
+    !bytes.iter().fold(u32::MAX, |crc, byte| {
+        (0..8).fold(crc ^ u32::from(*byte), |crc, _| if crc & 1 == 1 { (crc >> 1) ^ 0xedb8_8320 } else { crc >> 1 })
+    })
+}
+
+fn lying_bmp(width: i32, height: i32) -> Vec<u8> {
+    let mut bytes = b"BM\x46\0\0\0\0\0\0\0\x36\0\0\0\x28\0\0\0".to_vec();
+    bytes.extend(width.to_le_bytes());
+    bytes.extend(height.to_le_bytes());
+    bytes.extend(b"\x01\0\x18\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0");
+    bytes.resize(70, 0);
+    bytes
+}
+
+/// A grey TIFF of one strip with hardly any data.
+fn lying_tiff(width: u32, height: u32) -> Vec<u8> {
+    let entries: [(u16, u32); 8] =
+        [(256, width), (257, height), (258, 8), (259, 1), (262, 1), (273, 8), (278, height), (279, 4)];
+    let mut bytes = b"II\x2a\0\x08\0\0\0".to_vec();
+    bytes.extend((entries.len() as u16).to_le_bytes());
+    for (tag, value) in entries {
+        bytes.extend(tag.to_le_bytes());
+        bytes.extend(4_u16.to_le_bytes());
+        bytes.extend(1_u32.to_le_bytes());
+        bytes.extend(value.to_le_bytes());
+    }
+    bytes.extend(0_u32.to_le_bytes());
+    bytes
+}
+
+#[test]
+fn headers_that_lie_are_refused_before_anything_is_allocated() {
+    let pgm = |width: u64, height: u64| format!("P5 {width} {height} 255\nabc").into_bytes();
+    check(
+        [
+            ("PNG, 2^31 squared", read(lying_png(2_147_483_647, 2_147_483_647), USUAL)),
+            ("PNG, too many cells", read(lying_png(20_000, 20_000), USUAL)),
+            ("PNG, within limits", read(lying_png(9_000, 9_000), USUAL)),
+            ("PNG, 0 wide", read(lying_png(0, 5), USUAL)),
+            ("PGM, 2^32 squared", read(pgm(4_294_967_295, 4_294_967_295), USUAL)),
+            ("PGM, beyond 2^32", read(pgm(4_294_967_296, 1), USUAL)),
+            ("PGM, too high", read(pgm(1, 40_000), USUAL)),
+            ("PGM, within limits", read(pgm(9_000, 9_000), USUAL)),
+            ("PGM, 0 x 0", read(pgm(0, 0), USUAL)),
+            ("PGM ASCII, within limits", read(b"P2 9000 9000 255 1 2 3".to_vec(), USUAL)),
+            ("BMP, 2^31 squared", read(lying_bmp(i32::MAX, i32::MAX), USUAL)),
+            ("BMP, too many cells", read(lying_bmp(30_000, 30_000), USUAL)),
+            ("BMP, within limits", read(lying_bmp(9_000, 9_000), USUAL)),
+            ("TIFF, 2^32 squared", read(lying_tiff(u32::MAX, u32::MAX), USUAL)),
+            ("TIFF, too many cells", read(lying_tiff(30_000, 30_000), USUAL)),
+            ("TIFF, within limits", read(lying_tiff(9_000, 9_000), USUAL)),
+        ],
+        &expect![[r#"
+            PNG, 2^31 squared: TooLarge /image: the PNG image is larger than the limits allow (Image size exceeds limit)
+            PNG, too many cells: TooLarge /image: the map has 400000000 cells, the most is 100000000: crop it, or use a coarser resolution
+            PNG, within limits: Invalid /image: the PNG image is broken (unexpected end of file): save or upload it again
+            PNG, 0 wide: Invalid /image: the PNG image is broken (Format error decoding Png: Invalid image dimensions): save or upload it again
+            PGM, 2^32 squared: TooLarge /image: the PBM image is larger than the limits allow (Image size exceeds limit)
+            PGM, beyond 2^32: Invalid /image: the PBM image is broken (Format error decoding Pnm: Overflow when parsing integer in number in preamble): save or upload it again
+            PGM, too high: TooLarge /image: the map is 40000 cells high, the most is 32768: crop it, or use a coarser resolution
+            PGM, within limits: Invalid /image: the PBM image is broken (failed to fill whole buffer): save or upload it again
+            PGM, 0 x 0: Invalid /image: the map is 0 cells wide: a map needs at least one cell
+            PGM ASCII, within limits: Invalid /image: the PBM image is broken (Format error decoding Pnm: Not enough data was provided to the Decoder to decode the image): save or upload it again
+            BMP, 2^31 squared: Invalid /image: the BMP image is broken (Format error decoding Bmp: Image too large (one of (2147483647, 2147483647) > soft limit of 65535)): save or upload it again
+            BMP, too many cells: TooLarge /image: the map has 900000000 cells, the most is 100000000: crop it, or use a coarser resolution
+            BMP, within limits: Invalid /image: the BMP image is broken (failed to fill whole buffer): save or upload it again
+            TIFF, 2^32 squared: TooLarge /image: the TIFF image is larger than the limits allow (Image size exceeds limit)
+            TIFF, too many cells: TooLarge /image: the map has 900000000 cells, the most is 100000000: crop it, or use a coarser resolution
+            TIFF, within limits: Invalid /image: the TIFF image is broken (failed to fill whole buffer): save or upload it again
+        "#]],
+    );
+}
+
+#[test]
+fn what_is_no_whole_image_is_refused() {
+    let png = encode(&GrayImage::from_fn(64, 64, |x, y| Luma([(x * y) as u8])).into(), ImageFormat::Png);
+    let with_end = |length: usize| png[..length].to_vec();
+    check(
+        [
+            ("empty", read(Vec::new(), USUAL)),
+            ("text", read(b"not an image".to_vec(), USUAL)),
+            ("GIF", read(b"GIF89a\x01\0\x01\0\0\0\0;".to_vec(), USUAL)),
+            ("SVG", read(b"<svg xmlns='http://www.w3.org/2000/svg'/>".to_vec(), USUAL)),
+            ("PNG signature only", read(with_end(8), USUAL)),
+            ("PNG cut in the data", read(with_end(png.len() / 2), USUAL)),
+            ("PGM cut in the header", read(b"P5 3".to_vec(), USUAL)),
+            ("PGM cut in the data", read(b"P5 3 2 255\nabcde".to_vec(), USUAL)),
+            ("PGM, maximum 0", read(b"P5 3 2 0\nabcdef".to_vec(), USUAL)),
+            ("PGM ASCII, a word", read(b"P2 1 1 255 abc".to_vec(), USUAL)),
+        ],
+        &expect![[r#"
+            empty: Invalid /image: the image is empty
+            text: UnsupportedFormat /image: this is no image of a known format: PNG, PGM (and its kin), BMP, TIFF, JPEG and WebP are read
+            GIF: UnsupportedFormat /image: Gif images are not read: save it as PNG
+            SVG: UnsupportedFormat /image: this is no image of a known format: PNG, PGM (and its kin), BMP, TIFF, JPEG and WebP are read
+            PNG signature only: Invalid /image: the PNG image is broken (unexpected end of file): save or upload it again
+            PNG cut in the data: Invalid /image: the PNG image is broken (unexpected end of file): save or upload it again
+            PGM cut in the header: Invalid /image: the PBM image is broken (unexpected end of file): save or upload it again
+            PGM cut in the data: Invalid /image: the PBM image is broken (failed to fill whole buffer): save or upload it again
+            PGM, maximum 0: Invalid /image: the PBM image is broken (Format error decoding Pnm: Image MAXVAL is zero): save or upload it again
+            PGM ASCII, a word: Invalid /image: the PBM image is broken (Format error decoding Pnm: Non-ASCII-digit character when parsing number in sample): save or upload it again
+        "#]],
+    );
+}
+
+#[test]
+fn an_upload_beyond_the_limit_of_bytes_is_not_looked_at() {
+    let limits = Limits { max_bytes: 10, ..Limits::default() };
+    let source = MapSource::Message(vec![b' '; 11]);
+    assert_eq!(decode(&source, &GridOptions::default(), &limits).unwrap_err().refusal, Refusal::TooLarge);
+}
+
+// ---- metadata ----
+
+#[test]
+fn odd_files_of_the_wild_are_read() {
+    let with_image = |path: &str| USUAL.replace("map.png", path);
+    check(
+        [
+            ("plain", read(grey_png(), USUAL)),
+            ("CRLF", read(grey_png(), &USUAL.replace('\n', "\r\n"))),
+            ("byte order mark", read(grey_png(), &format!("\u{feff}{USUAL}"))),
+            ("trailing blanks", read(grey_png(), &USUAL.replace('\n', "  \n"))),
+            ("comments", read(grey_png(), &USUAL.replace("0.5]", "0.5]   #The pose\n#origin: [1, 2]"))),
+            (
+                "as JSON",
+                read(
+                    grey_png(),
+                    r#"{"image": "m", "resolution": 0.05, "origin": [0, 0, 0], "negate": false, "occupied_thresh": 0.65, "free_thresh": 0.196, "mode": "trinary"}"#,
+                ),
+            ),
+            (
+                "YAML flow mapping",
+                read(
+                    grey_png(),
+                    "{image: m, resolution: 0.05, origin: [0, 0, 0], negate: no, occupied_thresh: 0.65, free_thresh: 0.196}",
+                ),
+            ),
+            ("origin in block style", read(grey_png(), &USUAL.replace("[-1.0, 2.0, 0.5]", "\n- -1\n- 1.23e+04\n- -0"))),
+            ("relative path", read(grey_png(), &with_image("maps/level 1/map.pgm"))),
+            ("path of another machine", read(grey_png(), &with_image("/home/giraff/map.pgm"))),
+            ("path of the home folder", read(grey_png(), &with_image("~/map.pgm"))),
+            ("path upwards", read(grey_png(), &with_image("../../etc/passwd"))),
+            ("URL", read(grey_png(), &with_image("http://example.com/map.pgm"))),
+            ("resolution in quotes", read(grey_png(), &USUAL.replace("0.05", "\"0.05\""))),
+            ("unknown key", read(grey_png(), &format!("{USUAL}map_type: occupancy\n"))),
+        ],
+        &expect![[r#"
+            plain: read
+            CRLF: read
+            byte order mark: read
+            trailing blanks: read
+            comments: read
+            as JSON: read
+            YAML flow mapping: read
+            origin in block style: read
+            relative path: read
+            path of another machine: read, image-path: `image` names a file elsewhere ("/home/giraff/map.pgm"): the image of this upload was used instead
+            path of the home folder: read, image-path: `image` names a file elsewhere ("~/map.pgm"): the image of this upload was used instead
+            path upwards: read, image-path: `image` names a file elsewhere ("../../etc/passwd"): the image of this upload was used instead
+            URL: read, image-path: `image` names a file elsewhere ("http://example.com/map.pgm"): the image of this upload was used instead
+            resolution in quotes: read, quoted-number: resolution is a text, "0.05": it was read as the number 0.05; remove the quotes
+            unknown key: read, unknown-key: the metadata key `map_type` is not known and was ignored
+        "#]],
+    );
+}
+
+#[test]
+fn metadata_that_means_no_map_is_refused_with_a_remedy() {
+    let without = |key: &str| {
+        USUAL.lines().filter(|line| !line.starts_with(key)).fold(String::new(), |text, line| text + line + "\n")
+    };
+    let with = |from: &str, to: &str| read(grey_png(), &USUAL.replace(from, to));
+    let origin = |origin: &str| with("[-1.0, 2.0, 0.5]", origin);
+    let resolution = |resolution: &str| with("0.05", resolution);
+    check(
+        [
+            ("empty", read(grey_png(), "")),
+            ("a list", read(grey_png(), "- 1\n- 2\n")),
+            ("several maps", read(grey_png(), "maps:\n  level1:\n    origin: [0, 0, 0, 0, 0, 0]\n")),
+            ("two documents", read(grey_png(), &format!("{USUAL}---\n{USUAL}"))),
+            ("no image", read(grey_png(), &without("image"))),
+            ("empty image", with("map.png", "\"\"")),
+            ("image is a list", with("map.png", "[a, b]")),
+            ("no resolution", read(grey_png(), &without("resolution"))),
+            ("resolution 0", resolution("0")),
+            ("resolution below 0", resolution("-0.05")),
+            ("resolution .nan", resolution(".nan")),
+            ("resolution .inf", resolution(".inf")),
+            ("resolution 1e999", resolution("1e999")),
+            ("resolution in words", resolution("5 cm")),
+            ("resolution twice", read(grey_png(), &format!("{USUAL}resolution: 0.1\n"))),
+            ("origin of 2", origin("[0, 0]")),
+            ("origin of 6", origin("[0, 0, 0, 0, 0, 0]")),
+            ("origin a number", origin("0")),
+            ("origin with words", origin("[0, here, 0]")),
+            ("origin beyond the world", origin("[0, 1e12, 0]")),
+            ("yaw -nan", origin("[0, 0, -nan]")),
+            ("yaw .nan", origin("[0, 0, .nan]")),
+            ("threshold above 1", with("0.65", "65")),
+            ("thresholds in reverse", with("0.196", "0.7")),
+            ("negate 2", with("negate: 0", "negate: 2")),
+            ("no negate", read(grey_png(), &without("negate"))),
+            ("mode", read(grey_png(), &format!("{USUAL}mode: costmap\n"))),
+            ("alias", read(grey_png(), "image: &a x\nresolution: *a\n")),
+            ("broken YAML", read(grey_png(), "image: [a\n")),
+            ("broken JSON", read(grey_png(), r#"{"image": "a", "resolution": 1e999}"#)),
+        ],
+        &expect![[r#"
+            empty: Invalid /metadata: the metadata is empty: it needs the keys of a map_server YAML file
+            a list: Invalid /metadata: expected keys with values, found a list
+            several maps: Invalid /metadata/maps: this file lists several maps: upload each of them on its own, with its own metadata
+            two documents: Invalid /metadata: the YAML cannot be read: budget breached: Documents { documents: 2 } at line 7, column 1
+            no image: Invalid /metadata/image: `image` is missing
+            empty image: Invalid /metadata/image: `image` must name the image file of the map
+            image is a list: Invalid /metadata/image: `image` must name the image file of the map
+            no resolution: Invalid /metadata/resolution: `resolution` is missing
+            resolution 0: Invalid /metadata/resolution: the resolution is 0 m per cell, it must lie between 0.0001 and 100: give the side of a cell in metres
+            resolution below 0: Invalid /metadata/resolution: the resolution is -0.05 m per cell, it must lie between 0.0001 and 100: give the side of a cell in metres
+            resolution .nan: Invalid /metadata/resolution: resolution must be a finite number, found NaN
+            resolution .inf: Invalid /metadata/resolution: resolution must be a finite number, found inf
+            resolution 1e999: Invalid /metadata/resolution: resolution must be a finite number, found inf
+            resolution in words: Invalid /metadata/resolution: resolution must be a finite number, found "5 cm"
+            resolution twice: Invalid /metadata/resolution: `resolution` is given twice: keep one of them
+            origin of 2: Invalid /metadata/origin: value of the 'origin' tag should have 3 elements, not 2: write [x, y, yaw] in metres and radians
+            origin of 6: Invalid /metadata/origin: value of the 'origin' tag should have 3 elements, not 6: write [x, y, yaw] in metres and radians
+            origin a number: Invalid /metadata/origin: `origin` must be a list: [x, y, yaw] in metres and radians
+            origin with words: Invalid /metadata/origin/1: the origin's y must be a finite number, found "here"
+            origin beyond the world: Invalid /metadata/origin/1: the origin lies 1000000000000 m away, farther than the world is wide: give it in metres of the map frame
+            yaw -nan: Invalid /metadata/origin/2: the origin's yaw must be a finite number, found "-nan": map_saver writes `-nan` when the map's orientation was broken; set the third element to the turn of the map in radians, usually 0.0
+            yaw .nan: Invalid /metadata/origin/2: the origin's yaw must be a finite number, found NaN: map_saver writes `-nan` when the map's orientation was broken; set the third element to the turn of the map in radians, usually 0.0
+            threshold above 1: Invalid /metadata/occupied_thresh: `occupied_thresh` is 65, it must lie between 0 and 1
+            thresholds in reverse: Invalid /metadata/free_thresh: the free threshold (0.7) must be below the occupied threshold (0.65)
+            negate 2: Invalid /metadata/negate: `negate` must be 0, 1, true or false
+            no negate: Invalid /metadata/negate: `negate` is missing
+            mode: Invalid /metadata/mode: `mode` must be trinary, scale or raw
+            alias: Invalid /metadata: the YAML cannot be read: budget breached: Anchors { anchors: 1 } at line 1, column 11
+            broken YAML: Invalid /metadata: the YAML cannot be read: unclosed bracket '[' at line 1, column 8
+            broken JSON: Invalid /metadata/resolution: resolution must be a finite number, found inf
+        "#]],
+    );
+}
+
+#[test]
+fn documents_made_to_exhaust_are_refused() {
+    let keys: String = (0..2_000).fold(String::new(), |text, index| format!("{text}k{index}: 1\n"));
+    let deep = |depth: usize| format!("image: {}{}", "[".repeat(depth), "]".repeat(depth));
+    let deep_json = format!("{{\"image\": {}{}}}", "[".repeat(20_000), "]".repeat(20_000));
+    check(
+        [
+            ("deep", read(grey_png(), &deep(20))),
+            ("very deep", read(grey_png(), &deep(30_000))),
+            ("very deep JSON", read(grey_png(), &deep_json)),
+            ("many keys", read(grey_png(), &keys)),
+            ("long", read(grey_png(), &format!("{USUAL}# {}", "x".repeat(100_000)))),
+            ("not UTF-8", {
+                let source = MapSource::Image { image: grey_png(), metadata: b"image: \xff".to_vec() };
+                decode(&source, &GridOptions::default(), &Limits::default())
+            }),
+        ],
+        &expect![[r#"
+            deep: Invalid /metadata: the YAML cannot be read: recursion limit exceeded at line 1, column 24
+            very deep: Invalid /metadata: the YAML cannot be read: recursion limit exceeded at line 1, column 24
+            very deep JSON: Invalid /metadata: the JSON cannot be read: recursion limit exceeded at line 1 column 137
+            many keys: Invalid /metadata: the YAML cannot be read: budget breached: Nodes { nodes: 1001 } at line 500, column 7
+            long: Invalid /metadata: the document has 100110 bytes, the most is 65536
+            not UTF-8: Invalid /metadata: the document is not UTF-8 text (byte 7): save it as UTF-8
+        "#]],
+    );
+}
+
+// ---- messages ----
+
+const MESSAGE: &str = r#"{
+    "header": {"stamp": {"sec": 1, "nanosec": 2}, "frame_id": "map"},
+    "info": {
+        "map_load_time": {"sec": 0, "nanosec": 0}, "resolution": 0.1, "width": 3, "height": 2,
+        "origin": {
+            "position": {"x": -1.5, "y": 2, "z": 0},
+            "orientation": {"x": 0, "y": 0, "z": 0.7071067811865476, "w": 0.7071067811865476}
+        }
+    },
+    "data": [0, 25, 65, 100, -1, 50]
+}"#;
+
+#[test]
+fn a_message_is_row_major_from_the_lower_left_corner() {
+    let map = read_message(MESSAGE).unwrap();
+    assert_eq!(picture(&map.grid), "#??\n..#\n");
+    let frame = map.grid.frame();
+    assert_eq!((frame.resolution, frame.origin.x, frame.origin.y), (0.1, -1.5, 2.0));
+    assert!((frame.yaw - std::f64::consts::FRAC_PI_2).abs() < 1e-12);
+    assert_eq!(map.warnings, []);
+}
+
+#[test]
+fn messages_that_contradict_themselves_are_refused() {
+    let with = |from: &str, to: &str| {
+        assert!(MESSAGE.contains(from));
+        read_message(&MESSAGE.replace(from, to))
+    };
+    check(
+        [
+            ("no JSON", read_message("nonsense")),
+            ("a list", read_message("[]")),
+            ("empty", read_message("{}")),
+            (
+                "no data",
+                read_message(&MESSAGE[..MESSAGE.len() - 1].replace(",\n    \"data\": [0, 25, 65, 100, -1, 50]", "}")),
+            ),
+            ("too few cells", with(", 50]", "]")),
+            ("a cell of 101", with("50]", "101]")),
+            ("a cell of 1.5", with("50]", "1.5]")),
+            ("a cell of null", with("50]", "null]")),
+            ("width 0", with("\"width\": 3", "\"width\": 0")),
+            ("width -3", with("\"width\": 3", "\"width\": -3")),
+            ("width 2.5", with("\"width\": 3", "\"width\": 2.5")),
+            ("width 4294967296", with("\"width\": 3", "\"width\": 4294967296")),
+            ("width 1e300", with("\"width\": 3", "\"width\": 1e300")),
+            (
+                "20000 x 20000",
+                read_message(&MESSAGE.replace("\"width\": 3, \"height\": 2", "\"width\": 20000, \"height\": 20000")),
+            ),
+            ("no height", with("\"height\": 2,", "")),
+            ("resolution 0", with("0.1", "0")),
+            (
+                "no orientation",
+                with(
+                    ",\n            \"orientation\": {\"x\": 0, \"y\": 0, \"z\": 0.7071067811865476, \"w\": 0.7071067811865476}",
+                    "",
+                ),
+            ),
+            ("zero quaternion", with("\"z\": 0.7071067811865476, \"w\": 0.7071067811865476", "\"z\": 0, \"w\": 0")),
+            ("tilted", with("\"orientation\": {\"x\": 0", "\"orientation\": {\"x\": 0.5")),
+            ("a position without y", with("\"y\": 2, ", "")),
+        ],
+        &expect![[r#"
+            no JSON: Invalid : this is no OccupancyGrid message: expected a JSON object with `info` and `data`
+            a list: Invalid : this is no OccupancyGrid message: expected a JSON object with `info` and `data`
+            empty: Invalid /info: `info` is missing
+            no data: Invalid /data: `data` is missing
+            too few cells: Invalid /data: `data` has 5 cells, but width x height is 3 x 2 = 6
+            a cell of 101: Invalid /data: the OccupancyGrid JSON cannot be read: data[5] is not a whole number from -1 to 100 at line 10 column 37
+            a cell of 1.5: Invalid /data: the OccupancyGrid JSON cannot be read: data[5] is not a whole number from -1 to 100 at line 10 column 37
+            a cell of null: Invalid /data: the OccupancyGrid JSON cannot be read: invalid type: null, expected a JSON number at line 10 column 37
+            width 0: Invalid /info/width: the map is 0 cells wide: a map needs at least one cell
+            width -3: Invalid /info/width: `width` is -3, it must be a whole number of cells
+            width 2.5: Invalid /info/width: `width` is 2.5, it must be a whole number of cells
+            width 4294967296: TooLarge /info/width: the map is 4294967296 cells wide, the most is 32768: crop it, or use a coarser resolution
+            width 1e300: TooLarge /info/width: the map is 18446744073709551615 cells wide, the most is 32768: crop it, or use a coarser resolution
+            20000 x 20000: TooLarge /info/width: the map has 400000000 cells, the most is 100000000: crop it, or use a coarser resolution
+            no height: Invalid /info/height: `height` is missing
+            resolution 0: Invalid /info/resolution: the resolution is 0 m per cell, it must lie between 0.0001 and 100: give the side of a cell in metres
+            no orientation: read
+            zero quaternion: Invalid /info/origin/orientation: the orientation is no rotation (its length is 0): write x 0, y 0, z 0, w 1 for none
+            tilted: Invalid /info/origin/orientation: the orientation tilts the map out of the plane: only a turn about z is a map
+            a position without y: Invalid /info/origin/position/y: `y` is missing
+        "#]],
+    );
+}
+
+// ---- anything at all ----
+
+/// Whole files of every kind, to be damaged.
+fn seeds() -> Vec<Vec<u8>> {
+    let grey = DynamicImage::from(GrayImage::from_fn(9, 7, |x, y| Luma([(x * 31 + y * 17) as u8])));
+    let rgba = DynamicImage::from(RgbaImage::from(grey.to_rgba8()));
+    vec![
+        encode(&grey, ImageFormat::Png),
+        encode(&rgba, ImageFormat::Png),
+        palette_png(Some(&[0, 128])),
+        encode(&grey, ImageFormat::Tiff),
+        encode(&grey.to_rgb8().into(), ImageFormat::Bmp),
+        encode(&grey, ImageFormat::Jpeg),
+        encode(&rgba, ImageFormat::WebP),
+        b"P5\n# comment\n3 2\n255\nabcdef".to_vec(),
+        b"P2 3 2 255 1 2 3 4 5 6".to_vec(),
+        b"P1 3 2 1 0 1 0 1 0".to_vec(),
+        b"P6 1 1 65535 abcdef".to_vec(),
+    ]
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 256, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn a_damaged_image_never_panics(
+        seed in 0_usize..11,
+        damage in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 0..8),
+        end in any::<prop::sample::Index>(),
+    ) {
+        let mut image = seeds().swap_remove(seed);
+        for (position, byte) in damage {
+            let position = position.index(image.len());
+            image[position] = byte;
+        }
+        image.truncate(image.len() - end.index(image.len()) / 2);
+        let limits = Limits { max_cells: 1_000_000, ..Limits::default() };
+        let source = MapSource::Image { image, metadata: USUAL.as_bytes().to_vec() };
+        if let Ok(map) = decode(&source, &GridOptions::default(), &limits) {
+            prop_assert!(map.grid.width() * map.grid.height() <= 1_000_000);
+        }
+    }
+
+    #[test]
+    fn damaged_words_never_panic(
+        message in any::<bool>(),
+        damage in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..6),
+    ) {
+        let mut bytes = if message { MESSAGE } else { USUAL }.as_bytes().to_vec();
+        for (position, byte) in damage {
+            let position = position.index(bytes.len());
+            bytes[position] = byte;
+        }
+        let source = if message {
+            MapSource::Message(bytes)
+        } else {
+            MapSource::Image { image: grey_png(), metadata: bytes }
+        };
+        let _ = decode(&source, &GridOptions::default(), &Limits::default());
+    }
+}

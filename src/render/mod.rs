@@ -1,0 +1,127 @@
+//! Pictures of a map, as PNG bytes: row 0 is the top, as people see maps.
+//!
+//! - [`image`]: the cells as `map_saver` draws them (occupied 0, unknown 205, free 254);
+//! - [`categories`]: a palette picture, the index of a pixel is its category + 1, 0 for none;
+//! - [`regions`]: a palette picture, regions coloured over the dimmed map;
+//! - [`semantic`]: drawn like the paper's Fig. 9, with a legend.
+//!
+//! The first three have the size of the map. Deterministic; O(cells).
+
+mod canvas;
+mod font;
+mod semantic;
+
+use std::borrow::Cow;
+
+use stillage_core::{Analysis, Occupancy, OccupancyGrid};
+
+pub use semantic::semantic;
+
+use canvas::{Colour, mix};
+
+/// Grey levels of `map_saver`.
+const FREE: u8 = 254;
+const UNKNOWN: u8 = 205;
+const OCCUPIED: u8 = 0;
+
+/// Colours of categories and regions that stay apart for most eyes (after Okabe and Ito, 2008), then turns of the wheel.
+const COLOURS: [Colour; 8] = [
+    [86, 180, 233],
+    [230, 159, 0],
+    [0, 158, 115],
+    [240, 228, 66],
+    [204, 121, 167],
+    [213, 94, 0],
+    [0, 114, 178],
+    [153, 153, 153],
+];
+
+/// The cells, as `map_saver` draws them.
+#[must_use]
+pub fn image(grid: &OccupancyGrid) -> Vec<u8> {
+    let rows = (0..grid.height()).rev().flat_map(|row| grid.row(row));
+    let pixels: Vec<u8> = rows.map(|&cell| grey(cell)).collect();
+    encode(grid.width(), grid.height(), png::ColorType::Grayscale, None, &pixels)
+}
+
+const fn grey(cell: Occupancy) -> u8 {
+    match cell {
+        Occupancy::Free => FREE,
+        Occupancy::Occupied => OCCUPIED,
+        Occupancy::Unknown => UNKNOWN,
+    }
+}
+
+/// The category of each cell: the palette index is the category + 1, 0 for none.
+#[must_use]
+pub fn categories(analysis: &Analysis) -> Vec<u8> {
+    let categories = analysis.categories.categories.len().min(255);
+    let palette = std::iter::once([0; 3]).chain((0..categories).map(colour)).flatten().collect();
+    let rows = analysis.categories.cells.chunks(analysis.width.max(1)).rev();
+    // `CategoryMap::NONE` is 255: it wraps to 0.
+    let pixels: Vec<u8> = rows.flatten().map(|category| category.wrapping_add(1)).collect();
+    encode(analysis.width, analysis.height, png::ColorType::Indexed, Some(palette), &pixels)
+}
+
+/// The regions, coloured over the dimmed map.
+#[must_use]
+pub fn regions(analysis: &Analysis, grid: &OccupancyGrid) -> Vec<u8> {
+    const SHADES: usize = 3;
+    // Three shades of 84 regions and of none fill a palette; further regions share colours.
+    const MOST: usize = 84;
+    let shades = |region: Option<usize>| {
+        [Occupancy::Free, Occupancy::Occupied, Occupancy::Unknown].map(|cell| {
+            let below = [grey(cell); 3];
+            region.map_or(mix(below, [UNKNOWN; 3], 160), |region| mix(below, colour(region), 140))
+        })
+    };
+    let regions = analysis.regions.regions.len().min(MOST);
+    let palette = std::iter::once(None).chain((0..regions).map(Some)).flat_map(shades).flatten().collect();
+    let mut pixels = Vec::with_capacity(grid.cells().len());
+    for row in (0..grid.height()).rev() {
+        pixels.extend(grid.row(row).iter().enumerate().map(|(column, &cell)| {
+            let region =
+                analysis.regions.region_of_cell(column, row).map_or(0, |region| usize::from(region) % MOST + 1);
+            (region * SHADES + cell as usize) as u8
+        }));
+    }
+    encode(grid.width(), grid.height(), png::ColorType::Indexed, Some(palette), &pixels)
+}
+
+/// The colour of a category or region.
+fn colour(index: usize) -> Colour {
+    COLOURS.get(index).copied().unwrap_or_else(|| {
+        // The golden angle never comes back to a hue; one in three is darker.
+        let hue = (index as f64 * 137.507_764) % 360.0;
+        let value = if index.is_multiple_of(3) { 0.6 } else { 0.9 };
+        let channel = |shift: f64| {
+            let distance = ((hue / 60.0 + shift) % 6.0 - 3.0).abs() - 1.0;
+            (value * 255.0 * (0.3 + 0.7 * distance.clamp(0.0, 1.0))).round() as u8
+        };
+        [channel(0.0), channel(4.0), channel(2.0)]
+    })
+}
+
+/// Encodes pixels of one byte per channel. A picture without pixels, which PNG does not know, becomes one pixel of 0.
+fn encode(width: usize, height: usize, kind: png::ColorType, palette: Option<Vec<u8>>, pixels: &[u8]) -> Vec<u8> {
+    let (width, height, pixels) = match pixels {
+        [] => (1, 1, Cow::Owned(vec![0; kind.samples()])),
+        pixels => (width as u32, height as u32, Cow::Borrowed(pixels)),
+    };
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, width, height);
+    encoder.set_color(kind);
+    encoder.set_depth(png::BitDepth::Eight);
+    encoder.set_compression(png::Compression::Fast);
+    if let Some(palette) = palette {
+        encoder.set_palette(palette);
+    }
+    encoder
+        .write_header()
+        .and_then(|mut writer| writer.write_image_data(&pixels))
+        .expect("the pixels match the size, and memory takes every byte");
+    bytes
+}
+
+#[cfg(test)]
+mod tests;
