@@ -22,5 +22,6 @@ pub mod stage_clock;
 pub mod app;
 
 pub mod http;
+pub mod server;
 
 pub mod cli;

@@ -93,21 +93,34 @@ impl App {
         &self.config
     }
 
-    /// Says from now on that the service is not ready, so that nothing new is sent to it.
+    /// Says from now on that the service is not ready, so that nothing new is sent to it. Who follows a job is woken, so
+    /// that streams can end ([`Self::is_stopping`]).
     pub fn announce_stop(&self) {
         self.is_stopping.store(true, Ordering::Relaxed);
+        self.signals.changed();
     }
 
-    /// Stops claiming, lets running jobs end within the grace period or puts them back, and closes the store.
-    pub async fn shutdown(&self) {
+    /// Whether the service was asked to stop.
+    #[must_use]
+    pub fn is_stopping(&self) -> bool {
+        self.is_stopping.load(Ordering::Relaxed)
+    }
+
+    /// Stops claiming, and lets running jobs end within the grace period or puts them back.
+    pub async fn stop_jobs(&self) {
         self.announce_stop();
         self.worker.stop(self.config.shutdown_grace).await;
+    }
+
+    /// [`Self::stop_jobs`], then closes the store: the last call.
+    pub async fn shutdown(&self) {
+        self.stop_jobs().await;
         self.store.close().await;
     }
 
     /// Whether the store answers, is migrated and has space.
     pub async fn ready(&self) -> Result<(), AppError> {
-        if self.is_stopping.load(Ordering::Relaxed) {
+        if self.is_stopping() {
             return Err(AppError::Unavailable);
         }
         Ok(self.store.check().await?)

@@ -292,7 +292,7 @@ fn watch(app: Arc<App>, base: Base, id: Id, last: Option<i64>) -> impl Stream<It
     futures::stream::unfold(start, move |mut watching| {
         let (app, base) = (Arc::clone(&app), base.clone());
         async move {
-            while !watching.over {
+            while !watching.over && !app.is_stopping() {
                 // Marked before the job is read: a change after the reading wakes again.
                 watching.changes.mark_unchanged();
                 let job = app.job(id.0).await.ok()?;

@@ -15,7 +15,8 @@
 //! - A claim not renewed in time is rescued by the next claim. An attempt counts from its beginning, so a job that
 //!   kills its process is failed after the last attempt like any other.
 //!
-//! No step reads the clock: the caller passes the time.
+//! No step reads the clock: the caller passes the time. `updated` rises with every change, whatever the clock does, so
+//! that it numbers the states of a job.
 
 use std::time::Duration;
 
@@ -80,7 +81,7 @@ impl Store {
         rescue(&mut transaction, terms, now).await?;
         let row = sqlx::query(
             "UPDATE jobs SET state = 'running', attempt = attempt + 1, claim = claim + 1, lease_until = $2, \
-                 started = coalesce(started, $1), updated = $1, message = '', progress = 0, stage = NULL, stages = '[]' \
+                 started = coalesce(started, $1), updated = max(updated + 1, $1), message = '', progress = 0, stage = NULL, stages = '[]' \
              WHERE id = (SELECT id FROM jobs WHERE state = 'accepted' AND run_at <= $1 ORDER BY id LIMIT 1) \
              RETURNING *, (SELECT source FROM maps WHERE maps.id = jobs.map) AS source",
         )
@@ -118,7 +119,7 @@ impl Store {
     ) -> Result<bool, StoreError> {
         let mut transaction = self.write().await?;
         let row = sqlx::query(
-            "UPDATE jobs SET lease_until = $3, progress = $4, stage = $5, stages = $6, updated = $7 \
+            "UPDATE jobs SET lease_until = $3, progress = $4, stage = $5, stages = $6, updated = max(updated + 1, $7) \
              WHERE id = $1 AND claim = $2 AND state = 'running' RETURNING cancel_requested",
         )
         .bind(claim.job.to_string())
@@ -164,7 +165,7 @@ impl Store {
         let mut transaction = self.write().await?;
         let ended = sqlx::query(
             "UPDATE jobs SET state = 'successful', progress = 100, stage = NULL, stages = $3, analysis = $4, \
-                 lease_until = NULL, finished = $5, updated = $5 \
+                 lease_until = NULL, finished = $5, updated = max(updated + 1, $5) \
              WHERE id = $1 AND claim = $2 AND state = 'running' AND cancel_requested = 0",
         )
         .bind(claim.job.to_string())
@@ -191,7 +192,7 @@ impl Store {
     pub async fn end(&self, claim: &Claim, state: JobState, message: &str, now: Timestamp) -> Result<(), StoreError> {
         let mut transaction = self.write().await?;
         let ended = sqlx::query(
-            "UPDATE jobs SET state = $3, message = $4, stage = NULL, lease_until = NULL, finished = $5, updated = $5 \
+            "UPDATE jobs SET state = $3, message = $4, stage = NULL, lease_until = NULL, finished = $5, updated = max(updated + 1, $5) \
              WHERE id = $1 AND claim = $2 AND state = 'running'",
         )
         .bind(claim.job.to_string())
@@ -220,7 +221,7 @@ impl Store {
         let mut transaction = self.write().await?;
         let requeued = sqlx::query(
             "UPDATE jobs SET state = 'accepted', attempt = $3, run_at = $4, message = $5, progress = 0, stage = NULL, \
-                 stages = '[]', lease_until = NULL, updated = $6 \
+                 stages = '[]', lease_until = NULL, updated = max(updated + 1, $6) \
              WHERE id = $1 AND claim = $2 AND state = 'running'",
         )
         .bind(claim.job.to_string())
@@ -239,18 +240,20 @@ impl Store {
     pub async fn dismiss(&self, id: Uuid, now: Timestamp) -> Result<Option<JobRecord>, StoreError> {
         let mut transaction = self.write().await?;
         sqlx::query(
-            "UPDATE jobs SET state = 'dismissed', message = 'dismissed before it began', finished = $2, updated = $2 \
+            "UPDATE jobs SET state = 'dismissed', message = 'dismissed before it began', finished = $2, updated = max(updated + 1, $2) \
              WHERE id = $1 AND state = 'accepted'",
         )
         .bind(id.to_string())
         .bind(now.as_microsecond())
         .execute(&mut *transaction)
         .await?;
-        sqlx::query("UPDATE jobs SET cancel_requested = 1, updated = $2 WHERE id = $1 AND state = 'running'")
-            .bind(id.to_string())
-            .bind(now.as_microsecond())
-            .execute(&mut *transaction)
-            .await?;
+        sqlx::query(
+            "UPDATE jobs SET cancel_requested = 1, updated = max(updated + 1, $2) WHERE id = $1 AND state = 'running'",
+        )
+        .bind(id.to_string())
+        .bind(now.as_microsecond())
+        .execute(&mut *transaction)
+        .await?;
         let row = sqlx::query("SELECT * FROM jobs WHERE id = $1").bind(id.to_string());
         let row = row.fetch_optional(&mut *transaction).await?;
         transaction.commit().await?;
@@ -352,7 +355,7 @@ async fn end_orphan(
     };
     tracing::warn!(job = row.text("id")?, attempt, state = state.name(), "took a job from a worker that is gone");
     sqlx::query(
-        "UPDATE jobs SET state = $2, message = $3, run_at = $4, lease_until = NULL, stage = NULL, updated = $5, \
+        "UPDATE jobs SET state = $2, message = $3, run_at = $4, lease_until = NULL, stage = NULL, updated = max(updated + 1, $5), \
              finished = CASE WHEN $6 THEN $5 END \
          WHERE id = $1",
     )
