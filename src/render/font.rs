@@ -95,6 +95,7 @@ mod tests {
             #   #   #       # #     #             #
             #   #   #       # #     #             #
             #   #  ###  ####  ##### #####         #
-        "#]].assert_eq(&picture);
+        "#]]
+        .assert_eq(&picture);
     }
 }
