@@ -77,7 +77,8 @@ impl<'a> Tiles<'a> {
             runs(self.regions.rows, differs, |from, to| push(Point::new(x, self.y[from]), Point::new(x, self.y[to])));
         }
         for (row, &y) in self.y.iter().enumerate() {
-            let differs = |column| self.region(Some(column), row.checked_sub(1)) != self.region(Some(column), Some(row));
+            let differs =
+                |column| self.region(Some(column), row.checked_sub(1)) != self.region(Some(column), Some(row));
             runs(self.regions.columns, differs, |from, to| {
                 push(Point::new(self.x[from], y), Point::new(self.x[to], y));
             });

@@ -13,6 +13,8 @@ mod ends;
 mod passage;
 mod search;
 mod sight;
+#[cfg(test)]
+mod tests;
 
 use crate::analysis::Analysis;
 use crate::annotation::CellFaces;

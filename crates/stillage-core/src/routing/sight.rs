@@ -108,7 +108,7 @@ pub(super) fn length(path: &[Point]) -> f64 {
 }
 
 /// Straightens a path whose consecutive points see each other; its ends stay.
-pub(super) fn pull_tight(passage: &Passage<'_>, points: Vec<Point>) -> Vec<Point> {
+pub(super) fn pull_tight(passage: &Passage<'_>, points: &[Point]) -> Vec<Point> {
     let mut path = pull(passage, points);
     for _ in 1..ROUNDS {
         let mut points = resample(&path, passage.resolution());

@@ -1,0 +1,433 @@
+//! Routes through drawn warehouses.
+
+use super::*;
+use crate::grid::Occupancy;
+use crate::semantics::RuleSet;
+use crate::semantics::pictures::{DrawnMap, RESOLUTION};
+use expect_test::{Expect, expect};
+use proptest::prelude::*;
+
+/// Two racks that hold free ground, an aisle above, between and below, joined by a cross aisle on the right.
+fn warehouse() -> DrawnMap {
+    DrawnMap::new(
+        "
+        ..............
+        ..............
+        ..##..####....
+        ..##..####....
+        ..............
+        ..............
+        ####..####....
+        ####..####....
+        ..............
+        ......#.......
+        ",
+        "
+        ccccccccccjjjj
+        ccccccccccjjjj
+        ppqqppqqppjjjj
+        ppqqppqqppjjjj
+        ddddddddddjjjj
+        ddddddddddjjjj
+        ppqqppqqppjjjj
+        ppqqppqqppjjjj
+        ccccccccccjjjj
+        ccccccccccjjjj
+        ",
+    )
+}
+
+/// Whether a segment passes through the inside of a cell: clips it to the cell, slab by slab.
+fn passes_through(start: Point, end: Point, column: usize, row: usize) -> bool {
+    let (mut enters, mut leaves) = (0.0_f64, 1.0_f64);
+    for (axis, cell) in [column, row].into_iter().enumerate() {
+        let (low, high) = (cell as f64 * RESOLUTION, (cell + 1) as f64 * RESOLUTION);
+        let way = end[axis] - start[axis];
+        if way == 0.0 {
+            if start[axis] <= low || start[axis] >= high {
+                return false;
+            }
+            continue;
+        }
+        let (first, second) = ((low - start[axis]) / way, (high - start[axis]) / way);
+        enters = enters.max(first.min(second));
+        leaves = leaves.min(first.max(second));
+    }
+    leaves - enters > 1e-9
+}
+
+/// Every cell that a path passes through is free and drivable, and the route tells its own length and faces.
+fn check_invariants(map: &DrawnMap, semantic: &SemanticMap, route: &Route) {
+    assert!(route.path.len() >= 2);
+    for pair in route.path.windows(2) {
+        for (row, column) in (0..map.grid.height()).flat_map(|row| (0..map.grid.width()).map(move |c| (row, c))) {
+            if passes_through(pair[0], pair[1], column, row) {
+                assert_eq!(map.grid.row(row)[column], Occupancy::Free, "cell {column},{row} of {pair:?}");
+                assert!(semantic.label(map.cells.at(column, row)).is_drivable(), "cell {column},{row} of {pair:?}");
+            }
+        }
+    }
+    let subdivision = &map.analysis.subdivision;
+    let between: Vec<EdgeId> =
+        route.edges.iter().copied().filter(|&edge| semantic.is_drivable_link(edge, subdivision.sides(edge))).collect();
+    assert_eq!(between.len() + 1, route.faces.len());
+    for (pair, &edge) in route.faces.windows(2).zip(&between) {
+        let mut sides = subdivision.sides(edge);
+        sides.sort_unstable();
+        let mut pair = [pair[0], pair[1]];
+        pair.sort_unstable();
+        assert_eq!(sides, pair, "an edge lies between the faces before and after it");
+    }
+}
+
+/// Draws a path over the cells: `o` where it passes.
+fn draw(map: &DrawnMap, route: &Route) -> String {
+    map.draw(|column, row| {
+        let on_path = route.path.windows(2).any(|pair| passes_through(pair[0], pair[1], column, row));
+        match map.grid.row(row)[column] {
+            _ if on_path => 'o',
+            Occupancy::Free => '.',
+            Occupancy::Occupied => '#',
+            Occupancy::Unknown => ' ',
+        }
+    })
+}
+
+fn check(map: &DrawnMap, from: &Waypoint, to: &Waypoint, expected: &Expect) {
+    let semantic = map.semantic(&RuleSet::warehouse());
+    let report = match route(map.routing(&semantic), from, to) {
+        Ok(route) => {
+            check_invariants(map, &semantic, &route);
+            let faces: String = route.faces.iter().map(|&face| map.letter(face)).collect();
+            let edges: Vec<u32> = route.edges.iter().map(|edge| edge.0).collect();
+            format!("{}{:.2} m, faces {faces}, edges {edges:?}\n", draw(map, &route), route.length)
+        }
+        Err(problem) => format!("{problem}\n"),
+    };
+    expected.assert_eq(&report);
+}
+
+fn point(map: &DrawnMap, column: usize, line: usize) -> Waypoint {
+    Waypoint::Point(map.point_at(column, line))
+}
+
+fn location(map: &DrawnMap, column: usize, line: usize) -> Waypoint {
+    let semantic = map.semantic(&RuleSet::warehouse());
+    let face = map.face_at(column, line);
+    Waypoint::Location(map.locations(&semantic).into_iter().find(|location| location.face == face).unwrap())
+}
+
+#[test]
+fn routes_lead_around_racks_and_never_through_storage() {
+    let map = warehouse();
+    // Straight down through the empty place would be 2 m.
+    check(
+        &map,
+        &point(&map, 0, 1),
+        &point(&map, 0, 4),
+        &expect![[r#"
+        ..............
+        ooooooooooo...
+        ..##..####o...
+        ..##..####o...
+        ooooooooooo...
+        ..............
+        ####..####....
+        ####..####....
+        ..............
+        ......#.......
+        11.50 m, faces cjd, edges [40, 22]
+    "#]],
+    );
+    check(
+        &map,
+        &point(&map, 0, 0),
+        &point(&map, 5, 9),
+        &expect![[r#"
+        oooooo........
+        .....oooooo...
+        ..##..####o...
+        ..##..####o...
+        ..........o...
+        ..........o...
+        ####..####o...
+        ####..####o...
+        .....oooooo...
+        .....o#.......
+        11.52 m, faces cjc, edges [40, 3]
+    "#]],
+    );
+}
+
+#[test]
+fn a_route_to_a_location_ends_at_its_access_edge() {
+    let map = warehouse();
+    check(
+        &map,
+        &location(&map, 0, 2),
+        &location(&map, 2, 6),
+        &expect![[r#"
+        ..............
+        ..............
+        ..##..####....
+        ..##..####....
+        oooooo........
+        .....oooooo...
+        ####..####o...
+        ####..####o...
+        ..ooooooooo...
+        ......#.......
+        10.52 m, faces djc, edges [23, 22, 3, 7]
+    "#]],
+    );
+}
+
+#[test]
+fn a_route_may_end_where_it_begins() {
+    let map = warehouse();
+    check(
+        &map,
+        &point(&map, 0, 0),
+        &point(&map, 0, 0),
+        &expect![[r#"
+        o.............
+        ..............
+        ..##..####....
+        ..##..####....
+        ..............
+        ..............
+        ####..####....
+        ####..####....
+        ..............
+        ......#.......
+        0.00 m, faces c, edges []
+    "#]],
+    );
+    check(
+        &map,
+        &point(&map, 0, 0),
+        &Waypoint::Face(map.face_at(0, 0)),
+        &expect![[r#"
+        ooooo.........
+        ..............
+        ..##..####....
+        ..##..####....
+        ..............
+        ..............
+        ####..####....
+        ####..####....
+        ..............
+        ......#.......
+        2.26 m, faces c, edges []
+    "#]],
+    );
+}
+
+#[test]
+fn a_face_whose_node_is_blocked_is_entered_beside_it() {
+    let map = DrawnMap::new(
+        "
+        .....
+        .###.
+        .....
+        ",
+        "
+        cjjjj
+        cjjjj
+        cjjjj
+        ",
+    );
+    check(
+        &map,
+        &point(&map, 0, 1),
+        &Waypoint::Face(map.face_at(1, 0)),
+        &expect![[r#"
+        .....
+        o###.
+        ooo..
+        1.50 m, faces cj, edges [3]
+    "#]],
+    );
+}
+
+#[test]
+fn corners_are_not_cut() {
+    let map = DrawnMap::new(
+        "
+        .#.
+        #..
+        ...
+        ",
+        "
+        ccc
+        ccc
+        ccc
+        ",
+    );
+    check(
+        &map,
+        &point(&map, 0, 0),
+        &point(&map, 1, 1),
+        &expect![[r#"
+        drivable links join the ends, but no free path leads through them
+    "#]],
+    );
+    check(
+        &map,
+        &point(&map, 0, 2),
+        &point(&map, 2, 0),
+        &expect![[r#"
+        .#o
+        #oo
+        oo.
+        1.44 m, faces c, edges []
+    "#]],
+    );
+}
+
+#[test]
+fn each_reason_for_no_route_is_told() {
+    let map = DrawnMap::new(
+        "
+        ..#..##..
+        ..#..##..
+        .#.....#.
+        .#.....#.
+        ",
+        "
+        ccccjpqdd
+        ccccjpqdd
+        cccwwwwdd
+        cccwwwwdd
+        ",
+    );
+    let here = point(&map, 0, 0);
+    check(
+        &map,
+        &Waypoint::Point(Point::new(-1.0, 0.0)),
+        &here,
+        &expect![[r#"
+        the start lies outside the map
+    "#]],
+    );
+    check(
+        &map,
+        &here,
+        &Waypoint::Face(FaceId(99)),
+        &expect![[r#"
+        the goal lies outside the map
+    "#]],
+    );
+    check(
+        &map,
+        &here,
+        &point(&map, 3, 3),
+        &expect![[r#"
+        the goal lies in face 2, which is labelled unidentified and not drivable
+    "#]],
+    );
+    check(
+        &map,
+        &here,
+        &point(&map, 2, 0),
+        &expect![[r#"
+        the goal lies on a cell that is not free
+    "#]],
+    );
+    check(
+        &map,
+        &here,
+        &location(&map, 5, 0),
+        &expect![[r#"
+        location 00-001, the goal, has no storage-access edge
+    "#]],
+    );
+    check(
+        &map,
+        &here,
+        &point(&map, 8, 0),
+        &expect![[r#"
+        no chain of drivable links joins face 1 and face 3
+    "#]],
+    );
+    check(
+        &map,
+        &here,
+        &point(&map, 4, 0),
+        &expect![[r#"
+        drivable links join the ends, but no free path leads through them
+    "#]],
+    );
+}
+
+#[test]
+fn all_pairs_of_faces_and_locations_have_sound_routes() {
+    let map = warehouse();
+    let semantic = map.semantic(&RuleSet::warehouse());
+    let faces = map.analysis.subdivision.faces().filter(|&face| semantic.label(face).is_drivable());
+    let mut ends: Vec<Waypoint> = faces.map(Waypoint::Face).collect();
+    ends.extend(map.locations(&semantic).into_iter().map(Waypoint::Location));
+    for from in &ends {
+        for to in &ends {
+            let there = route(map.routing(&semantic), from, to).unwrap();
+            check_invariants(&map, &semantic, &there);
+            let back = route(map.routing(&semantic), to, from).unwrap();
+            assert!((there.length - back.length).abs() < 0.1 * there.length + 0.1, "{from:?} {to:?}");
+        }
+    }
+}
+
+proptest! {
+    /// Whatever stands in the way: a path is sound, at least as long as the straight line, and missing only where
+    /// the cells do not hang together.
+    #[test]
+    fn paths_are_sound_among_any_obstacles(
+        cells in proptest::collection::vec(0_u8..10, 15 * 12),
+        ends in [(0_usize..15, 0_usize..12), (0_usize..15, 0_usize..12)],
+        shift in [0.0_f64..1.0, 0.0_f64..1.0],
+    ) {
+        let rows: Vec<String> = cells
+            .chunks(15)
+            .map(|row| row.iter().map(|&cell| if cell < 3 { '#' } else { '.' }).collect())
+            .collect();
+        let faces = ["ccccccccjjjjjjj", "ccccccccjjjjjjj", "ddddddddjjjjjjj", "ddddpqddjjjjjjj"];
+        let faces: Vec<&str> = (0..12).map(|line| faces[line / 3]).collect();
+        let map = DrawnMap::new(&rows.join("\n"), &faces.join("\n"));
+        let semantic = map.semantic(&RuleSet::warehouse());
+        let end = |(column, line): (usize, usize)| {
+            let offset = crate::geometry::Vector::new(shift[0] - 0.5, shift[1] - 0.5) * RESOLUTION;
+            map.point_at(column, line) + offset
+        };
+        let [start, goal] = ends.map(end);
+        match route(map.routing(&semantic), &Waypoint::Point(start), &Waypoint::Point(goal)) {
+            Ok(route) => {
+                check_invariants(&map, &semantic, &route);
+                prop_assert_eq!((route.path[0], *route.path.last().unwrap()), (start, goal));
+                prop_assert!(route.length >= (goal - start).norm() - 1e-9);
+                prop_assert!(hang_together(&map, &semantic, start, goal));
+            }
+            Err(NoRoute::Obstructed) => prop_assert!(!hang_together(&map, &semantic, start, goal)),
+            Err(NoRoute::Blocked(_) | NoRoute::NotDrivable { .. }) => {}
+            Err(other) => prop_assert!(false, "{}", other),
+        }
+    }
+}
+
+/// Whether drivable free cells join two points over their sides.
+fn hang_together(map: &DrawnMap, semantic: &SemanticMap, start: Point, goal: Point) -> bool {
+    let cell = |point| map.grid.cell_at(point).unwrap();
+    let mut seen = vec![cell(start)];
+    let mut next = 0;
+    while let Some(&(column, row)) = seen.get(next) {
+        next += 1;
+        for (right, up) in [(1, 0), (-1, 0), (0, 1), (0, -1)] {
+            let (column, row) = (column as i64 + right, row as i64 + up);
+            let side = (column as usize, row as usize);
+            let free = map.grid.at(column, row) == Occupancy::Free;
+            if free && semantic.label(map.cells.at(side.0, side.1)).is_drivable() && !seen.contains(&side) {
+                seen.push(side);
+            }
+        }
+    }
+    seen.contains(&cell(goal))
+}
