@@ -99,4 +99,9 @@ impl Buckets {
     pub fn of(&self, bucket: usize) -> &[u32] {
         &self.items[self.starts[bucket] as usize..self.starts[bucket + 1] as usize]
     }
+
+    /// The items of a bucket, to be put in order.
+    pub fn of_mut(&mut self, bucket: usize) -> &mut [u32] {
+        &mut self.items[self.starts[bucket] as usize..self.starts[bucket + 1] as usize]
+    }
 }

@@ -10,6 +10,7 @@
 
 use std::cmp::Ordering;
 
+use super::buckets::Buckets;
 use super::ids::{EdgeId, FaceId, HalfEdgeId, VertexId};
 use super::lattice::{LatticePoint, LatticeSegment, cross};
 use super::noding::Piece;
@@ -63,25 +64,26 @@ impl Links {
         let origins: Vec<_> =
             pieces.iter().flat_map(|piece| [id_of(piece.segment.low), id_of(piece.segment.high)]).collect();
 
-        // All half-edges in the order of their origin, and counter-clockwise around it.
-        let mut spokes: Vec<_> = (0..origins.len() as u32).map(HalfEdgeId).collect();
-        let spoke_direction = |half: HalfEdgeId| pieces[half.edge().index()].segment.direction();
-        spokes.sort_unstable_by(|&first, &second| {
-            let origin = |half: HalfEdgeId| origins[half.index()];
-            // Upward half-edges leave at angles in [0, pi), downward ones in [pi, 2 pi); within either, the sign of
-            // the cross product decides, and that is the same for a direction and its reverse.
-            let by_place = (origin(first), first.0 & 1).cmp(&(origin(second), second.0 & 1));
-            by_place.then_with(|| 0.cmp(&cross(spoke_direction(first), spoke_direction(second))))
-        });
-
+        // Around each vertex, counter-clockwise: upward half-edges leave at angles in [0, pi), downward ones in
+        // [pi, 2 pi); within either the sign of the cross product decides, the same for a direction and its reverse.
+        let leaving: Vec<_> = origins.iter().map(|vertex| vertex.0).zip(0..).collect();
+        let mut spokes = Buckets::pack(vertices.len(), &leaving);
+        let direction = |half: u32| pieces[HalfEdgeId(half).edge().index()].segment.direction();
         let mut next = vec![HalfEdgeId(0); origins.len()];
         let mut previous = next.clone();
-        for around in spokes.chunk_by(|first, second| origins[first.index()] == origins[second.index()]) {
+        for vertex in 0..vertices.len() {
+            let around = spokes.of_mut(vertex);
+            around.sort_unstable_by(|&first, &second| {
+                let by_half_plane = (first & 1).cmp(&(second & 1));
+                by_half_plane.then_with(|| 0.cmp(&cross(direction(first), direction(second))))
+            });
             // Coming in along the twin of a spoke, the next edge of the face on the left is the clockwise neighbour.
-            let clockwise = std::iter::once(&around[around.len() - 1]).chain(around);
-            for (&spoke, &neighbor) in around.iter().zip(clockwise) {
-                next[spoke.twin().index()] = neighbor;
-                previous[neighbor.index()] = spoke.twin();
+            let mut clockwise = around.last().copied().unwrap_or_default();
+            for &spoke in &*around {
+                let twin = HalfEdgeId(spoke).twin();
+                next[twin.index()] = HalfEdgeId(clockwise);
+                previous[clockwise as usize] = twin;
+                clockwise = spoke;
             }
         }
         Self { vertices, origins, next, previous }

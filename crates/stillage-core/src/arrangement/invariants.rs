@@ -104,12 +104,12 @@ impl Subdivision {
     fn area_of_cycles(&self, starts: &[HalfEdgeId]) -> i128 {
         let lattice = |vertex: VertexId| {
             let position = self.position(vertex) / self.step;
-            (position.x as i128, position.y as i128)
+            (position.x as i64, position.y as i64)
         };
         let half_edges = starts.iter().flat_map(|&start| self.cycle(start));
         let term = |half: HalfEdgeId| {
             let (from, to) = (lattice(self.half_edge(half).origin), lattice(self.target(half)));
-            from.0 * to.1 - from.1 * to.0
+            i128::from(from.0 * to.1 - from.1 * to.0)
         };
         half_edges.map(term).sum()
     }

@@ -25,6 +25,9 @@ const SAME_DIRECTION: f64 = PI / 60.0;
 /// 0.8 m deep) and the narrowest aisle (1.2 m) lie between them.
 const NEXT_AISLE: f64 = 2.0;
 
+/// Largest offset between aisles in one line, metres: less than half the narrowest aisle (1.2 m).
+const SAME_LINE: f64 = 0.5;
+
 /// The number of one location.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Slot {
@@ -121,19 +124,28 @@ fn by_direction(mut fronts: Vec<Front>) -> Vec<(f64, Vec<Front>)> {
     directions
 }
 
-/// Cuts fronts of one direction into aisles, ascending from the bottom or the left of the map.
+/// Cuts fronts of one direction into aisles, ascending from the bottom or the left of the map; aisles in one line
+/// follow each other in their direction.
 fn aisles_along((angle, fronts): (f64, Vec<Front>)) -> Vec<Aisle> {
     let mut by_place: BTreeMap<u32, Vec<Front>> = BTreeMap::new();
     for front in fronts {
         by_place.entry(front.place).or_default().push(front);
     }
     let mut aisles: Vec<Aisle> = by_place.into_values().flat_map(|fronts| aisles_of_place(angle, fronts)).collect();
-    let upwards = direction(right_or_up(angle + FRAC_PI_2));
+    let across = right_or_up(angle + FRAC_PI_2);
+    sort_along(&mut aisles, across);
+    let across = direction(across);
+    for line in aisles.chunk_by_mut(|first, second| across.dot(&(second.center() - first.center())) <= SAME_LINE) {
+        sort_along(line, angle);
+    }
+    aisles
+}
+
+fn sort_along(aisles: &mut [Aisle], angle: f64) {
+    let position = |aisle: &Aisle| direction(angle).dot(&aisle.center().coords);
     aisles.sort_by(|first, second| {
-        let position = |aisle: &Aisle| aisle.mean(|front| upwards.dot(&front.middle.coords));
         position(first).total_cmp(&position(second)).then(first.first_face().cmp(&second.first_face()))
     });
-    aisles
 }
 
 /// Cuts the fronts of one place where, going across, the next aisle begins.
@@ -177,6 +189,11 @@ impl Front {
 impl Aisle {
     fn mean(&self, value: impl Fn(&Front) -> f64) -> f64 {
         self.fronts.iter().map(value).sum::<f64>() / self.fronts.len() as f64
+    }
+
+    /// Mean of the middles of its fronts.
+    fn center(&self) -> Point {
+        Point::new(self.mean(|front| front.middle.x), self.mean(|front| front.middle.y))
     }
 
     fn first_face(&self) -> Option<FaceId> {

@@ -9,6 +9,8 @@
 
 mod access;
 mod aisles;
+#[cfg(test)]
+mod tests;
 
 use serde::{Deserialize, Serialize};
 

@@ -39,8 +39,14 @@ pub fn apply(
         .collect();
     let connectivity: Vec<Option<Connectivity>> =
         edges().map(|edge| (!is_outer(edge)).then(|| cogency[edge.index()].into())).collect();
-    let disagreements =
-        cogency.iter().zip(&analysis.edges).map(|(&cogency, edge)| contradicts(cogency, edge)).collect();
+    let is_storage = |face: FaceId| rule_set.label(labels[face.index()]).is_storage();
+    let disagreements = edges()
+        .map(|edge| {
+            // Between two places of goods, the goods stand along the edge: that contradicts nothing.
+            !sides(edge).into_iter().all(is_storage)
+                && contradicts(cogency[edge.index()], &analysis.edges[edge.index()])
+        })
+        .collect();
     let (face_places, places) = merge_places(analysis, rule_set, &labels, &connectivity);
     Ok(SemanticMap {
         rule_set: rule_set.clone(),
@@ -206,5 +212,192 @@ impl DisjointSets {
     fn join(&mut self, first: usize, second: usize) {
         let (first, second) = (self.find(first), self.find(second));
         self.0[first.max(second)] = first.min(second);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::semantics::pictures::DrawnMap;
+    use expect_test::{Expect, expect};
+
+    /// Two rows of two pallet places along a corridor that ends in a junction, a wall beyond it, and a nook that
+    /// nobody named.
+    fn corner_of_a_warehouse() -> DrawnMap {
+        DrawnMap::new(
+            "
+            ####....#..
+            ####....#..
+            ........#..
+            ........#..
+            #.##....#..
+            #.##....#..
+            ",
+            "
+            ppqqjjjjwxx
+            ppqqjjjjwxx
+            ccccjjjjwxx
+            ccccjjjjwxx
+            ppqqjjjjwxx
+            ppqqjjjjwxx
+            ",
+        )
+    }
+
+    fn report(map: &DrawnMap, semantic: &SemanticMap) -> String {
+        let mut report = String::new();
+        for edge in map.analysis.subdivision.edges() {
+            let [left, right] = map.analysis.subdivision.sides(edge);
+            let (index, letter) = (edge.index(), |face| map.letter(face));
+            if let Some(connectivity) = semantic.connectivity[index] {
+                report += &format!(
+                    "{}{left}|{}{right} {:?}, {connectivity:?}{}\n",
+                    letter(left),
+                    letter(right),
+                    semantic.cogency[index],
+                    if semantic.disagreements[index] { ", but the cells disagree" } else { "" },
+                );
+            } else {
+                assert_eq!(semantic.cogency[index], Cogency::Cogent);
+            }
+        }
+        for (number, place) in semantic.places.iter().enumerate() {
+            let faces: Vec<u32> = place.faces.iter().map(|face| face.0).collect();
+            report += &format!(
+                "place {number}: {} {faces:?} {:.2} m2\n",
+                semantic.rule_set.label(place.label).id,
+                place.area
+            );
+        }
+        report
+    }
+
+    #[test]
+    fn edges_links_and_places_follow_from_the_labels() {
+        let map = corner_of_a_warehouse();
+        let semantic = map.semantic(&RuleSet::warehouse());
+        expect![[r#"
+            p1|q2 Invalid, Connected
+            q2|j3 Cogent, Disconnected
+            j3|w4 Cogent, Disconnected
+            w4|x5 Cogent, Disconnected
+            c6|p1 StorageAccess, StorageAccess
+            c6|q2 StorageAccess, StorageAccess
+            c6|j3 Invalid, Connected
+            p7|c6 StorageAccess, StorageAccess
+            q8|c6 StorageAccess, StorageAccess
+            p7|q8 Invalid, Connected
+            q8|j3 Cogent, Disconnected
+            place 0: pc [1, 2] 2.00 m2
+            place 1: ju [3] 6.00 m2
+            place 2: pc [4] 1.50 m2
+            place 3: co [6] 2.00 m2
+            place 4: pc [7, 8] 2.00 m2
+        "#]]
+        .assert_eq(&report(&map, &semantic));
+    }
+
+    #[test]
+    fn a_wall_divides_a_corridor_but_goods_do_not_divide_a_block_of_storage() {
+        let map = DrawnMap::new(
+            "
+            ..#...
+            ..#...
+            ..#.##
+            ..#.##
+            ",
+            "
+            ccdddd
+            ccdddd
+            ccddpq
+            ccddpq
+            ",
+        );
+        let semantic = map.semantic(&RuleSet::warehouse());
+        expect![[r#"
+            c1|d2 Invalid, Connected, but the cells disagree
+            d2|p3 StorageAccess, StorageAccess
+            p3|q4 Invalid, Connected
+            d2|p3 StorageAccess, StorageAccess
+            d2|q4 StorageAccess, StorageAccess
+            place 0: co [1] 2.00 m2
+            place 1: co [2] 3.00 m2
+            place 2: pc [3, 4] 1.00 m2
+        "#]]
+        .assert_eq(&report(&map, &semantic));
+    }
+
+    fn check_problems(assignment: &[(u8, &str)], overrides: &[(u32, &str)], expected: &Expect) {
+        let map = corner_of_a_warehouse();
+        let assignment = Assignment {
+            assignment: assignment.iter().map(|&(category, id)| (category, id.to_owned())).collect(),
+            overrides: overrides.iter().map(|&(face, id)| (face, id.to_owned())).collect(),
+        };
+        let report = match apply(&map.analysis, &RuleSet::warehouse(), &assignment) {
+            Ok(_) => "valid".to_owned(),
+            Err(problems) => problems.iter().map(|problem| format!("{problem}\n")).collect(),
+        };
+        expected.assert_eq(&report);
+    }
+
+    #[test]
+    fn every_problem_of_an_assignment_is_named_with_its_pointer() {
+        check_problems(&[(0, "co"), (6, "un")], &[(8, "pc")], &expect!["valid"]);
+        check_problems(
+            &[(1, "shelf"), (7, "co")],
+            &[(0, "co"), (9, "co"), (3, "")],
+            &expect![[r#"
+            /assignment/1: no label has the id "shelf"; there are co, ju, pc, un
+            /assignment/7: no category 7: they run from 0 to 6
+            /overrides/0: no face 0: they run from 1 to 8
+            /overrides/3: no label has the id ""; there are co, ju, pc, un
+            /overrides/9: no face 9: they run from 1 to 8
+        "#]],
+        );
+    }
+
+    #[test]
+    fn categories_without_a_label_are_unidentified_and_overrides_are_stronger() {
+        let map = corner_of_a_warehouse();
+        let corridor = map.face_at(0, 2);
+        let assignment =
+            Assignment { assignment: [(1, "ju".to_owned())].into(), overrides: [(corridor.0, "co".to_owned())].into() };
+        let semantic = apply(&map.analysis, &RuleSet::warehouse(), &assignment).unwrap();
+        let labels: String =
+            map.draw(|column, row| semantic.label(map.cells.at(column, row)).id.chars().next().unwrap());
+        expect![[r#"
+            uuuujjjjuuu
+            uuuujjjjuuu
+            ccccjjjjuuu
+            ccccjjjjuuu
+            uuuujjjjuuu
+            uuuujjjjuuu
+        "#]]
+        .assert_eq(&labels);
+        assert_eq!(semantic.confidences[corridor.index()], 1.0);
+    }
+
+    #[test]
+    fn clusters_of_one_label_add_their_votes() {
+        let mut map = corner_of_a_warehouse();
+        let corridor = map.face_at(0, 2);
+        map.analysis.faces[corridor.index()].category_shares = vec![0.5, 0.25, 0.25, 0.0, 0.0];
+        let confidence = |assignment: &[(u8, &str)]| {
+            let assignment = assignment.iter().map(|&(category, id)| (category, id.to_owned())).collect();
+            let assignment = Assignment { assignment, ..Assignment::default() };
+            apply(&map.analysis, &RuleSet::warehouse(), &assignment).unwrap().confidences[corridor.index()]
+        };
+        assert_eq!(confidence(&[(0, "co"), (1, "ju")]), 0.5);
+        assert_eq!(confidence(&[(0, "co"), (1, "co")]), 0.75);
+    }
+
+    #[test]
+    fn a_map_without_faces_has_no_places() {
+        let map = DrawnMap::new(".", ".");
+        let mut analysis = map.analysis;
+        analysis.subdivision = crate::arrangement::Subdivision::default();
+        (analysis.faces, analysis.edges) = (Vec::new(), Vec::new());
+        let semantic = apply(&analysis, &RuleSet::warehouse(), &Assignment::default()).unwrap();
+        assert!(semantic.places.is_empty() && semantic.labels.is_empty());
     }
 }

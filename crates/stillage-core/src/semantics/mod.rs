@@ -5,6 +5,8 @@
 
 mod apply;
 mod draft;
+#[cfg(test)]
+pub(crate) mod pictures;
 mod rule_set;
 mod suggestion;
 

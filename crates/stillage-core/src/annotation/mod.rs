@@ -1,39 +1,26 @@
-//! Annotation: what the cells say about faces and edges. (to be written)
-use crate::arrangement::{FaceId, Subdivision};
+//! Annotation: what the cells say about faces and edges (paper, II-B).
+//!
+//! [`CellFaces`] tells the face of each cell; [`annotate`] lets the cells of a face vote on its category and measures
+//! how far the map supports each edge.
+
+mod edges;
+mod faces;
+mod raster;
+mod shape;
+
+#[cfg(test)]
+mod tests;
+
+use serde::{Deserialize, Serialize};
+
+pub use raster::CellFaces;
+
+use crate::arrangement::Subdivision;
 use crate::categorization::CategoryMap;
 use crate::grid::OccupancyGrid;
 use crate::segmentation::RegionMap;
-use crate::spec::AnnotationOptions;
+use crate::spec::{AnnotationMethod, AnnotationOptions};
 use crate::watch::{Stopped, Watch};
-use serde::{Deserialize, Serialize};
-
-/// The membership function M(f), inverted: the face of every cell (by its centre).
-#[derive(Debug, Clone, PartialEq)]
-pub struct CellFaces {
-    width: usize,
-    faces: Vec<FaceId>,
-}
-
-impl CellFaces {
-    /// Finds the face of every cell centre of a `width` x `height` grid.
-    #[must_use]
-    pub fn rasterize(subdivision: &Subdivision, width: usize, height: usize, resolution: f64) -> Self {
-        let _ = (subdivision, width, height, resolution);
-        todo!()
-    }
-
-    /// The face of a cell; [`FaceId::OUTER`] outside the decomposed part of the map.
-    #[must_use]
-    pub fn at(&self, column: usize, row: usize) -> FaceId {
-        self.faces[row * self.width + column]
-    }
-
-    /// The faces of all cells, row-major, lowest row first.
-    #[must_use]
-    pub fn as_slice(&self) -> &[FaceId] {
-        &self.faces
-    }
-}
 
 /// How sure the geometry of a face or edge is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -101,6 +88,8 @@ pub fn annotate(
     options: &AnnotationOptions,
     watch: &Watch<'_>,
 ) -> Result<(Vec<FaceAnnotation>, Vec<EdgeAnnotation>), Stopped> {
-    let _ = (grid, categories, regions, subdivision, cells, options, watch);
-    todo!()
+    let AnnotationMethod::Vote = options.method;
+    let faces = faces::annotate_faces(grid, categories, regions, subdivision, cells, watch)?;
+    let edges = edges::annotate_edges(grid, subdivision, options, watch)?;
+    Ok((faces, edges))
 }

@@ -1,0 +1,210 @@
+//! What the cells say about faces: L(f) = Mode { L(p) | p in M(f) } (paper, II-B), and statistics.
+//!
+//! The vote is over the categorized cells, which are free; ties go to the lower id. (The author's published code takes
+//! the median of the labels, which is no mode for more than two.) A face without a vote is occupied or unknown.
+//! Counts are whole numbers, added up in any order: the result does not hang on the number of threads.
+//! Cost: O(cells + corners).
+
+use std::sync::atomic::{AtomicU32, Ordering};
+
+use rayon::prelude::*;
+
+use super::shape::SmallestBox;
+use super::{CellFaces, Evidence, FaceAnnotation};
+use crate::adjacency::pole;
+use crate::arrangement::{FaceId, Subdivision};
+use crate::categorization::CategoryMap;
+use crate::geometry::Point;
+use crate::grid::{Occupancy, OccupancyGrid};
+use crate::segmentation::RegionMap;
+use crate::watch::{Stopped, Watch};
+
+/// Annotates every face; entry 0, the unbounded face, is empty.
+pub(super) fn annotate_faces(
+    grid: &OccupancyGrid,
+    categories: &CategoryMap,
+    regions: &RegionMap,
+    subdivision: &Subdivision,
+    cells: &CellFaces,
+    watch: &Watch<'_>,
+) -> Result<Vec<FaceAnnotation>, Stopped> {
+    let tallies = Tallies::count(grid, categories, regions, subdivision, cells, watch)?;
+    let annotate = |face: usize| {
+        if face % 256 == 0 {
+            watch.check()?;
+        }
+        let face = FaceId(face as u32);
+        let rings = if face == FaceId::OUTER { Vec::new() } else { subdivision.rings(face) };
+        let mut tally = tallies.of(face);
+        if tally.total() == 0 && face != FaceId::OUTER {
+            // Too small for a cell centre: it lies where a point inside it lies.
+            tally.regions[region_slot(regions, region_at(grid, regions, pole(&rings)))] += 1;
+        }
+        Ok(face_annotation(&tally, &rings, categories))
+    };
+    (0..subdivision.face_count()).into_par_iter().map(annotate).collect()
+}
+
+fn region_at(grid: &OccupancyGrid, regions: &RegionMap, point: Point) -> u8 {
+    let region = grid.cell_at(point).and_then(|(column, row)| regions.region_of_cell(column, row));
+    region.unwrap_or(RegionMap::NONE)
+}
+
+/// Where the cells of a region are counted: in its own slot, or in the last one outside all regions.
+fn region_slot(regions: &RegionMap, region: u8) -> usize {
+    usize::from(region).min(regions.regions.len())
+}
+
+/// Counts of one face.
+struct Tally {
+    categories: Vec<u32>,
+    /// Free, occupied, unknown.
+    occupancy: [u32; 3],
+    /// By region, and outside all.
+    regions: Vec<u32>,
+}
+
+impl Tally {
+    fn total(&self) -> u32 {
+        self.occupancy.iter().sum()
+    }
+
+    fn known(&self) -> u32 {
+        self.occupancy[Occupancy::Free as usize] + self.occupancy[Occupancy::Occupied as usize]
+    }
+}
+
+/// The counts of all faces, in one table that all tasks add to.
+struct Tallies {
+    counts: Vec<AtomicU32>,
+    categories: usize,
+    regions: usize,
+}
+
+impl Tallies {
+    fn count(
+        grid: &OccupancyGrid,
+        categories: &CategoryMap,
+        regions: &RegionMap,
+        subdivision: &Subdivision,
+        cells: &CellFaces,
+        watch: &Watch<'_>,
+    ) -> Result<Self, Stopped> {
+        let (category_count, region_count) = (categories.categories.len(), regions.regions.len() + 1);
+        let size = subdivision.face_count() * (category_count + 3 + region_count);
+        let counts = std::iter::repeat_with(|| AtomicU32::new(0)).take(size).collect();
+        let tallies = Self { counts, categories: category_count, regions: region_count };
+        let width = grid.width();
+        (0..grid.height()).into_par_iter().try_for_each(|row| {
+            watch.check()?;
+            let faces = &cells.as_slice()[row * width..(row + 1) * width];
+            let votes = categories.cells.get(row * width..(row + 1) * width).unwrap_or_default();
+            let mut votes_by_category = [0; 256];
+            let mut column = 0;
+            for run in faces.chunk_by(PartialEq::eq) {
+                let columns = column..column + run.len();
+                column = columns.end;
+                if run[0] != FaceId::OUTER {
+                    let votes = votes.get(columns.clone()).unwrap_or_default();
+                    tallies.add_run(run[0], votes, &grid.row(row)[columns.clone()], &mut votes_by_category);
+                    tallies.add_regions(run[0], regions, row, columns);
+                }
+            }
+            Ok(())
+        })?;
+        Ok(tallies)
+    }
+
+    fn stride(&self) -> usize {
+        self.categories + 3 + self.regions
+    }
+
+    fn add(&self, face: FaceId, slot: usize, count: u32) {
+        if count > 0 {
+            // Only sums leave the tasks, and rayon joins them before these are read.
+            self.counts[face.index() * self.stride() + slot].fetch_add(count, Ordering::Relaxed);
+        }
+    }
+
+    /// Adds the cells of a face in one row. `votes_by_category` is scratch, all zero up to the number of categories.
+    fn add_run(&self, face: FaceId, votes: &[u8], cells: &[Occupancy], votes_by_category: &mut [u32; 256]) {
+        for &vote in votes {
+            votes_by_category[usize::from(vote)] += 1;
+        }
+        for (category, count) in votes_by_category[..self.categories].iter_mut().enumerate() {
+            self.add(face, category, std::mem::take(count));
+        }
+        let count = |occupancy| cells.iter().map(|&cell| u32::from(cell == occupancy)).sum::<u32>();
+        let (free, occupied) = (count(Occupancy::Free), count(Occupancy::Occupied));
+        let unknown = cells.len() as u32 - free - occupied;
+        for (slot, count) in [free, occupied, unknown].into_iter().enumerate() {
+            self.add(face, self.categories + slot, count);
+        }
+    }
+
+    /// Adds the regions of the cells of a face in one row, tile by tile.
+    fn add_regions(&self, face: FaceId, regions: &RegionMap, row: usize, columns: std::ops::Range<usize>) {
+        let tile = regions.tile_cells.max(1);
+        let mut column = columns.start;
+        while column < columns.end {
+            let end = ((column / tile + 1) * tile).min(columns.end);
+            let region = regions.region_of_cell(column, row).unwrap_or(RegionMap::NONE);
+            self.add(face, self.categories + 3 + region_slot(regions, region), (end - column) as u32);
+            column = end;
+        }
+    }
+
+    fn of(&self, face: FaceId) -> Tally {
+        let counts = &self.counts[face.index() * self.stride()..][..self.stride()];
+        let counts: Vec<u32> = counts.iter().map(|count| count.load(Ordering::Relaxed)).collect();
+        let (categories, rest) = counts.split_at(self.categories);
+        let (occupancy, regions) = rest.split_at(3);
+        Tally {
+            categories: categories.to_vec(),
+            occupancy: [occupancy[0], occupancy[1], occupancy[2]],
+            regions: regions.to_vec(),
+        }
+    }
+}
+
+/// Index of the greatest count, the first of equals; `None` when all are 0.
+fn mode(counts: &[u32]) -> Option<usize> {
+    let most = counts.iter().copied().max().filter(|&most| most > 0)?;
+    counts.iter().position(|&count| count == most)
+}
+
+fn share(count: u32, of: u32) -> f64 {
+    if of == 0 { 0.0 } else { f64::from(count) / f64::from(of) }
+}
+
+fn face_annotation(tally: &Tally, rings: &[Vec<Point>], categories: &CategoryMap) -> FaceAnnotation {
+    let votes: u32 = tally.categories.iter().sum();
+    let [free, occupied, unknown] = tally.occupancy;
+    let (category, confidence) = match mode(&tally.categories) {
+        Some(winner) => (winner as u8, share(tally.categories[winner], votes)),
+        None if occupied > free => (categories.occupied(), share(occupied, tally.known())),
+        None => (categories.unknown(), 0.0),
+    };
+    let smallest_box = SmallestBox::around(rings.first().map_or(&[], Vec::as_slice));
+    let total = tally.total();
+    let region = mode(&tally.regions).filter(|&slot| slot + 1 < tally.regions.len());
+    FaceAnnotation {
+        category,
+        category_shares: tally.categories.iter().map(|&count| share(count, votes) as f32).collect(),
+        cells: total as usize,
+        free_fraction: share(free, total),
+        occupied_fraction: share(occupied, total),
+        unknown_fraction: if total == 0 { 1.0 } else { share(unknown, total) },
+        area: rings.iter().map(|ring| crate::geometry::ring_area(ring)).sum(),
+        elongation: smallest_box.elongation(),
+        heading: smallest_box.heading,
+        extent: smallest_box.extent,
+        region: region.map_or(RegionMap::NONE, |region| region as u8),
+        confidence,
+        evidence: if total > 0 && 2 * u64::from(tally.known()) >= u64::from(total) {
+            Evidence::Observed
+        } else {
+            Evidence::Interpolated
+        },
+    }
+}

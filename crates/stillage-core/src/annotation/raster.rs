@@ -1,0 +1,126 @@
+//! The membership function M(f), inverted: which face does each cell lie in, by its centre.
+//!
+//! Method: an edge that crosses the level of a row's centres separates the face on its left from the one on its right.
+//! The exclusive or of both ids is noted at the first centre at or beyond the crossing, and the running exclusive or
+//! along the row is then the id of the face: every other id has come and gone. So the order of crossings between two
+//! centres is of no consequence, nothing is sorted, and each centre lies in exactly one face. Ties are half-open: a
+//! centre on an edge belongs to the face on the right of it, one on a level edge to the face above.
+//!
+//! Cost: O(cells + crossings), in parallel by bands of rows.
+
+use rayon::prelude::*;
+
+use crate::arrangement::{EdgeId, FaceId, Subdivision};
+use crate::geometry::Point;
+
+/// Rows that one task fills: a band of a wide map (4,000 columns) fits a second-level cache.
+const BAND_ROWS: usize = 64;
+
+/// The membership function M(f), inverted: the face of every cell (by its centre).
+#[derive(Debug, Clone, PartialEq)]
+pub struct CellFaces {
+    width: usize,
+    faces: Vec<FaceId>,
+}
+
+impl CellFaces {
+    /// Finds the face of every cell centre of a `width` x `height` grid; `resolution` in metres.
+    #[must_use]
+    pub fn rasterize(subdivision: &Subdivision, width: usize, height: usize, resolution: f64) -> Self {
+        let centers = Centers { width, height, resolution };
+        let crossers: Vec<Crosser> =
+            subdivision.edges().filter_map(|edge| Crosser::new(subdivision, edge, centers)).collect();
+        let mut bands = vec![Vec::new(); height.div_ceil(BAND_ROWS)];
+        for (crosser, number) in crossers.iter().zip(0_u32..) {
+            for band in &mut bands[crosser.first_row / BAND_ROWS..=(crosser.end_row - 1) / BAND_ROWS] {
+                band.push(number);
+            }
+        }
+        let mut ids = vec![0_u32; width * height];
+        ids.par_chunks_mut((BAND_ROWS * width).max(1)).zip(&bands).enumerate().for_each(|(band, (ids, numbers))| {
+            let rows = band * BAND_ROWS..((band + 1) * BAND_ROWS).min(height);
+            for &number in numbers {
+                crossers[number as usize].mark(ids, rows.clone(), centers);
+            }
+            for row in ids.chunks_exact_mut(width.max(1)) {
+                let mut face = 0;
+                for id in row {
+                    face ^= *id;
+                    *id = face;
+                }
+            }
+        });
+        Self { width, faces: ids.into_iter().map(FaceId).collect() }
+    }
+
+    /// The face of a cell; [`FaceId::OUTER`] outside the decomposed part of the map.
+    #[must_use]
+    pub fn at(&self, column: usize, row: usize) -> FaceId {
+        self.faces[row * self.width + column]
+    }
+
+    /// The faces of all cells, row-major, lowest row first.
+    #[must_use]
+    pub fn as_slice(&self) -> &[FaceId] {
+        &self.faces
+    }
+}
+
+/// The lattice of cell centres.
+#[derive(Debug, Clone, Copy)]
+struct Centers {
+    width: usize,
+    height: usize,
+    resolution: f64,
+}
+
+impl Centers {
+    /// Number of the first centre at or beyond a coordinate, of `count`; `count` when there is none.
+    fn first_from(self, coordinate: f64, count: usize) -> usize {
+        // Saturates at both ends.
+        ((coordinate / self.resolution - 0.5).ceil() as usize).min(count)
+    }
+}
+
+/// An edge that crosses the level of at least one row of centres.
+struct Crosser {
+    low: Point,
+    high: Point,
+    /// Along x per y.
+    slope: f64,
+    first_row: usize,
+    end_row: usize,
+    /// Exclusive or of the faces on its two sides.
+    sides: u32,
+}
+
+impl Crosser {
+    fn new(subdivision: &Subdivision, edge: EdgeId, centers: Centers) -> Option<Self> {
+        let [low, high] = subdivision.segment(edge);
+        let [left, right] = subdivision.sides(edge);
+        // Rows follow from the vertices alone, so that edges that meet in a vertex agree on its row.
+        let first_row = centers.first_from(low.y, centers.height);
+        let end_row = centers.first_from(high.y, centers.height);
+        let slope = (high.x - low.x) / (high.y - low.y);
+        (first_row < end_row).then_some(Self { low, high, slope, first_row, end_row, sides: left.0 ^ right.0 })
+    }
+
+    /// Where it crosses a level. Reckoned from the nearer end: of two edges that leave a vertex, the steeper one never
+    /// comes out on the wrong side of the other; edges that share none are half a lattice step apart.
+    fn x_at(&self, y: f64) -> f64 {
+        let (rise, fall) = (y - self.low.y, self.high.y - y);
+        let x = if rise <= fall { self.low.x + rise * self.slope } else { self.high.x - fall * self.slope };
+        x.clamp(self.low.x.min(self.high.x), self.low.x.max(self.high.x))
+    }
+
+    /// Notes the change of face in the rows of a band.
+    fn mark(&self, ids: &mut [u32], rows: std::ops::Range<usize>, centers: Centers) {
+        for row in self.first_row.max(rows.start)..self.end_row.min(rows.end) {
+            let x = self.x_at((row as f64 + 0.5) * centers.resolution);
+            let column = centers.first_from(x, centers.width);
+            if column < centers.width {
+                ids[(row - rows.start) * centers.width + column] ^= self.sides;
+            }
+        }
+    }
+}

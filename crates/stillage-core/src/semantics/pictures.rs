@@ -1,0 +1,180 @@
+//! Maps drawn in characters, for the tests of the human level.
+
+use crate::adjacency::AdjacencyGraph;
+use crate::analysis::Analysis;
+use crate::annotation::{self, CellFaces};
+use crate::arrangement::{self, EdgeSource, FaceId, SourceSegment};
+use crate::categorization::{Category, CategoryMap};
+use crate::geometry::{OrientedBox, Point};
+use crate::grid::{Occupancy, OccupancyGrid};
+use crate::layout::{self, Location};
+use crate::orientation::Orientations;
+use crate::routing::RoutingMap;
+use crate::segmentation::{Region, RegionMap};
+use crate::semantics::{Assignment, RuleSet, SemanticMap, apply};
+use crate::spec::AnalysisOptions;
+use crate::watch::Watch;
+
+/// Side of a cell, metres: coarse, so that a pallet place is four characters.
+pub(crate) const RESOLUTION: f64 = 0.5;
+
+/// An analysis whose faces were drawn: a face for each piece of one letter.
+pub(crate) struct DrawnMap {
+    pub grid: OccupancyGrid,
+    pub analysis: Analysis,
+    pub cells: CellFaces,
+    /// Letter of every cell, row-major, lowest row first.
+    letters: Vec<u8>,
+}
+
+/// Letters by category: corridors c and d, junctions j, pallet cells p and q, offices o, anything else.
+fn category(letter: u8) -> u8 {
+    match letter {
+        b'c' | b'd' => 0,
+        b'j' => 1,
+        b'p' | b'q' => 2,
+        b'o' => 3,
+        _ => 4,
+    }
+}
+
+impl DrawnMap {
+    /// Draws cells (`#` occupied, `.` free, else unknown) and faces (letters; a space is outside).
+    pub fn new(cells: &str, faces: &str) -> Self {
+        let grid = OccupancyGrid::from_ascii(cells, RESOLUTION);
+        let rows: Vec<&[u8]> =
+            faces.lines().map(str::trim).filter(|line| !line.is_empty()).map(str::as_bytes).collect();
+        assert!(rows.len() == grid.height() && rows.iter().all(|row| row.len() == grid.width()));
+        let letters: Vec<u8> = rows.iter().rev().flat_map(|row| row.iter().copied()).collect();
+        let subdivision = arrangement::arrange(&borders(&letters, grid.width()), &Watch::unwatched()).unwrap();
+        let graph = AdjacencyGraph::dual(&subdivision);
+        let cells = CellFaces::rasterize(&subdivision, grid.width(), grid.height(), RESOLUTION);
+        let (categories, regions) = (categories(&grid, &letters), one_region(&grid));
+        let options = AnalysisOptions::default();
+        let (faces, edges) = annotation::annotate(
+            &grid,
+            &categories,
+            &regions,
+            &subdivision,
+            &cells,
+            &options.annotation,
+            &Watch::unwatched(),
+        )
+        .unwrap();
+        let analysis = Analysis {
+            frame: *grid.frame(),
+            width: grid.width(),
+            height: grid.height(),
+            options,
+            categories,
+            orientations: Orientations::default(),
+            regions,
+            radiograms: Vec::new(),
+            lines: Vec::new(),
+            subdivision,
+            graph,
+            faces,
+            edges,
+            diagnostics: Vec::new(),
+        };
+        Self { grid, analysis, cells, letters }
+    }
+
+    /// Reads the letters as the labels they stand for; faces without free cells are pallet cells.
+    pub fn semantic(&self, rule_set: &RuleSet) -> SemanticMap {
+        let storage = self.analysis.categories.occupied()..=self.analysis.categories.unknown();
+        let names = ["co", "ju", "pc", "of", "un"];
+        let by_letter = names.iter().enumerate().map(|(category, id)| (category as u8, *id));
+        let assignment = by_letter
+            .chain(storage.map(|category| (category, "pc")))
+            .filter(|(_, id)| rule_set.find(id).is_some())
+            .map(|(category, id)| (category, id.to_owned()))
+            .collect();
+        apply(&self.analysis, rule_set, &Assignment { assignment, ..Assignment::default() }).unwrap()
+    }
+
+    pub fn locations(&self, semantic: &SemanticMap) -> Vec<Location> {
+        layout::locations(&self.analysis, semantic)
+    }
+
+    pub fn routing<'a>(&'a self, semantic: &'a SemanticMap) -> RoutingMap<'a> {
+        RoutingMap { grid: &self.grid, cells: &self.cells, analysis: &self.analysis, semantic }
+    }
+
+    /// The face of the cell at a column and row of the drawing, the first line on top.
+    pub fn face_at(&self, column: usize, line: usize) -> FaceId {
+        self.cells.at(column, self.grid.height() - 1 - line)
+    }
+
+    /// Centre of the cell at a column and row of the drawing, the first line on top.
+    pub fn point_at(&self, column: usize, line: usize) -> Point {
+        self.grid.center(column, self.grid.height() - 1 - line)
+    }
+
+    /// The letter a face was drawn with.
+    pub fn letter(&self, face: FaceId) -> char {
+        let cell = self.cells.as_slice().iter().position(|&other| other == face);
+        cell.map_or('?', |cell| self.letters[cell].into())
+    }
+
+    /// A picture with one character per cell, the first line on top.
+    pub fn draw(&self, character: impl Fn(usize, usize) -> char) -> String {
+        let line = |row| (0..self.grid.width()).map(|column| character(column, row)).collect::<String>() + "\n";
+        (0..self.grid.height()).rev().map(line).collect()
+    }
+}
+
+/// The borders between different letters, each as long as it lies between the same two.
+fn borders(letters: &[u8], width: usize) -> Vec<SourceSegment> {
+    let height = letters.len() / width;
+    // One cell of outside all around.
+    let at = |column: usize, row: usize| {
+        let inside = (1..=width).contains(&column) && (1..=height).contains(&row);
+        if inside { letters[(row - 1) * width + column - 1] } else { b' ' }
+    };
+    let corner = |column: usize, row: usize| Point::new(column as f64, row as f64) * RESOLUTION;
+    let mut segments = Vec::new();
+    let mut runs = |pairs: Vec<(u8, u8)>, corner: &dyn Fn(usize) -> Point| {
+        let mut start = 0;
+        for run in pairs.chunk_by(|first, second| first == second) {
+            let end = start + run.len();
+            if run[0].0 != run[0].1 {
+                let (start, end) = (corner(start), corner(end));
+                segments.push(SourceSegment { start, end, source: EdgeSource::Boundary });
+            }
+            start = end;
+        }
+    };
+    for row in 0..=height {
+        let pairs = (1..=width).map(|column| (at(column, row), at(column, row + 1))).collect();
+        runs(pairs, &|column| corner(column, row));
+    }
+    for column in 0..=width {
+        let pairs = (1..=height).map(|row| (at(column, row), at(column + 1, row))).collect();
+        runs(pairs, &|row| corner(column, row));
+    }
+    segments
+}
+
+fn categories(grid: &OccupancyGrid, letters: &[u8]) -> CategoryMap {
+    let cells: Vec<u8> = letters
+        .iter()
+        .zip(grid.cells())
+        .map(|(&letter, &cell)| if cell == Occupancy::Free { category(letter) } else { CategoryMap::NONE })
+        .collect();
+    let categories = (0..5)
+        .map(|category| Category {
+            cells: cells.iter().filter(|&&cell| cell == category).count(),
+            mean_features: Vec::new(),
+        })
+        .collect();
+    CategoryMap { cells, categories, feature_names: Vec::new() }
+}
+
+fn one_region(grid: &OccupancyGrid) -> RegionMap {
+    let tile_cells = grid.width().max(grid.height()).max(1);
+    let far = Point::new(grid.width() as f64, grid.height() as f64) * RESOLUTION;
+    let bounds = OrientedBox::around([Point::origin(), far], 0.0).unwrap();
+    let region = Region { orientations: vec![0.0], bounds, share: 1.0 };
+    RegionMap { tile_cells, columns: 1, rows: 1, tiles: vec![0], regions: vec![region] }
+}
