@@ -13,10 +13,8 @@ type Counts = [usize; 3];
 
 /// The text of a test case; `None` where the shared maps are missing.
 fn case(name: &str) -> Option<String> {
-    let shared = std::env::var_os("STILLAGE_SHARED").map_or_else(
-        || PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../../shared"),
-        PathBuf::from,
-    );
+    let shared = std::env::var_os("STILLAGE_SHARED")
+        .map_or_else(|| PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../../shared"), PathBuf::from);
     let path = shared.join("maps/golden/arrangement-testcases").join(name);
     let text = std::fs::read_to_string(&path).ok();
     if text.is_none() {

@@ -150,13 +150,15 @@ mod tests {
     fn a_corner_belongs_to_the_pixel_on_its_upper_right() {
         // Descends through (1/2, 1/2), the corner of (0, 0), (1, 0), (0, 1) and (1, 1).
         let descending = segment((0, 1), (1, 0));
-        assert_eq!([at(0, 0), at(1, 0), at(0, 1), at(1, 1)].map(|pixel| descending.meets_pixel(pixel)), [
-            false, true, true, true
-        ]);
+        assert_eq!(
+            [at(0, 0), at(1, 0), at(0, 1), at(1, 1)].map(|pixel| descending.meets_pixel(pixel)),
+            [false, true, true, true]
+        );
         let ascending = segment((0, 0), (1, 1));
-        assert_eq!([at(0, 0), at(1, 0), at(0, 1), at(1, 1)].map(|pixel| ascending.meets_pixel(pixel)), [
-            true, false, false, true
-        ]);
+        assert_eq!(
+            [at(0, 0), at(1, 0), at(0, 1), at(1, 1)].map(|pixel| ascending.meets_pixel(pixel)),
+            [true, false, false, true]
+        );
     }
 
     #[test]

@@ -247,8 +247,15 @@ fn overlapping_lines_become_one_edge_of_the_least_source() {
         .filter(|&edge| subdivision.segment(edge).iter().all(|end| end.y == 0.0))
         .map(|edge| (subdivision.length(edge), subdivision.source(edge)))
         .collect();
-    use EdgeSource::{Boundary, Line};
-    assert_eq!(level, [(2.0, Line(0)), (2.0, Line(0)), (2.0, Boundary), (4.0, Boundary)]);
+    assert_eq!(
+        level,
+        [
+            (2.0, EdgeSource::Line(0)),
+            (2.0, EdgeSource::Line(0)),
+            (2.0, EdgeSource::Boundary),
+            (4.0, EdgeSource::Boundary)
+        ]
+    );
 }
 
 #[test]
@@ -332,15 +339,17 @@ fn assert_no_edges_meet_but_in_their_ends(subdivision: &Subdivision) {
 fn segment_sets() -> impl Strategy<Value = Vec<[f64; 4]>> {
     let anywhere = || (-8.0..8.0, -8.0..8.0, -8.0..8.0, -8.0..8.0).prop_map(|(a, b, c, d)| [a, b, c, d]);
     let shared_ends = (-3_i8..3, -3_i8..3, -3_i8..3, -3_i8..3).prop_map(|(a, b, c, d)| [a, b, c, d].map(f64::from));
-    let few_directions = (0_u8..4, -4_i8..4, -6.0..6.0, 0.1..9.0).prop_map(|(turn, offset, start, length): (_, _, f64, f64)| {
-        let angle = f64::from(turn) * 0.8 + 0.1;
-        let [along, across] = [crate::geometry::direction(angle), crate::geometry::normal(angle)];
-        let foot = Point::from(across * f64::from(offset));
-        let [start, end] = [foot + along * start, foot + along * (start + length)];
-        [start.x, start.y, end.x, end.y]
+    let few_directions =
+        (0_u8..4, -4_i8..4, -6.0..6.0, 0.1..9.0).prop_map(|(turn, offset, start, length): (_, _, f64, f64)| {
+            let angle = f64::from(turn) * 0.8 + 0.1;
+            let [along, across] = [crate::geometry::direction(angle), crate::geometry::normal(angle)];
+            let foot = Point::from(across * f64::from(offset));
+            let [start, end] = [foot + along * start, foot + along * (start + length)];
+            [start.x, start.y, end.x, end.y]
+        });
+    let near = (anywhere(), prop::array::uniform4(-3e-4..3e-4)).prop_map(|(ends, shift): ([f64; 4], [f64; 4])| {
+        std::array::from_fn(|index| ends[index].round() + shift[index])
     });
-    let near = (anywhere(), prop::array::uniform4(-3e-4..3e-4))
-        .prop_map(|(ends, shift): ([f64; 4], [f64; 4])| std::array::from_fn(|index| ends[index].round() + shift[index]));
     let tiny = prop::array::uniform4(-1e-3..1e-3);
     prop::collection::vec(prop_oneof![anywhere(), shared_ends, few_directions, near, tiny], 0..40)
 }
