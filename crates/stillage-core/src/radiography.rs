@@ -273,7 +273,7 @@ mod tests {
     }
 
     fn find(grid: &OccupancyGrid, regions: &RegionMap, smoothing_m: f64) -> (Vec<Radiogram>, Vec<Line>) {
-        let options = DecompositionOptions { smoothing_m, min_distance_m: 1.0, min_peak: 0.3 };
+        let options = DecompositionOptions { smoothing_m, min_distance_m: 0.9, min_peak: 0.3 };
         lines(grid, regions, &options, &Watch::unwatched()).unwrap()
     }
 
@@ -303,15 +303,38 @@ mod tests {
         ";
 
     #[test]
-    fn walls_become_lines_at_the_middle_of_their_cells() {
+    fn walls_become_lines_within_their_cells() {
         let grid = OccupancyGrid::from_ascii(ROOMS, 0.5);
-        check(&grid, &regions("00000 00000 00000 00000", 2, &[-90.0, 0.0]), &expect![""]);
+        check(
+            &grid,
+            &regions("00000 00000 00000 00000", 2, &[-90.0, 0.0]),
+            &expect![[r#"
+            0 at -90, 0.32 m: 3.5 m in -3.5..0.0
+            0 at -90, 1.75 m: 1.5 m in -3.5..0.0
+            0 at -90, 2.75 m: 2.5 m in -3.5..0.0
+            0 at -90, 4.68 m: 3.5 m in -3.5..0.0
+            0 at 0, 0.28 m: 5.0 m in 0.0..5.0
+            0 at 0, 1.25 m: 5.0 m in 0.0..5.0
+            0 at 0, 3.21 m: 5.0 m in 0.0..5.0
+        "#]],
+        );
     }
 
     #[test]
     fn lines_end_with_their_region() {
         let grid = OccupancyGrid::from_ascii(ROOMS, 1.0);
-        check(&grid, &regions("00-11 00-11 00011 00011", 2, &[0.0]), &expect![""]);
+        check(
+            &grid,
+            &regions("00-11 00-11 00011 00011", 2, &[0.0]),
+            &expect![[r#"
+            0 at 0, 0.55 m: 6.0 m in 0.0..6.0
+            0 at 0, 2.50 m: 6.0 m in 0.0..6.0
+            0 at 0, 6.43 m: 4.0 m in 0.0..4.0
+            1 at 0, 0.57 m: 4.0 m in 6.0..10.0
+            1 at 0, 2.50 m: 4.0 m in 6.0..10.0
+            1 at 0, 6.43 m: 4.0 m in 6.0..10.0
+        "#]],
+        );
     }
 
     #[test]
@@ -329,8 +352,20 @@ mod tests {
             ",
             1.0,
         );
-        check(&grid, &regions("0- 00", 4, &[45.0]), &expect![""]);
-        check(&grid, &regions("-0 0-", 4, &[45.0]), &expect![""]);
+        check(
+            &grid,
+            &regions("0- 00", 4, &[45.0]),
+            &expect![[r#"
+            0 at 45, 0.00 m: 2.0 m in 0.0..5.7
+        "#]],
+        );
+        check(
+            &grid,
+            &regions("-0 0-", 4, &[45.0]),
+            &expect![[r#"
+            0 at 45, 0.00 m: 4.0 m in 0.0..11.3
+        "#]],
+        );
     }
 
     #[test]
@@ -371,7 +406,7 @@ mod tests {
             map.tiles = (0..map.columns * map.rows).map(|tile| if tile % 5 == 3 { RegionMap::NONE } else { 0 }).collect();
             let (_, lines) = find(&grid, &map, 0.7);
             for pair in lines.windows(2) {
-                prop_assert!(pair[1].offset - pair[0].offset > 1.0 - 1e-9);
+                prop_assert!(pair[1].offset - pair[0].offset > 0.9 - 1e-9);
             }
             for line in &lines {
                 prop_assert!(line.extents.windows(2).all(|pair| pair[0][1] < pair[1][0]));

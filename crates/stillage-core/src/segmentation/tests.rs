@@ -46,14 +46,45 @@ fn summary(map: &RegionMap) -> String {
 #[test]
 fn two_halls_are_two_regions() {
     let map = find(&two_halls(), RegionOptions::default());
-    expect![""].assert_eq(&summary(&map));
-    expect![""].assert_eq(&picture(&map));
+    expect![[r#"
+        0.48 at -28.0 62.1
+        0.52 at -85.0 5.0
+    "#]]
+    .assert_eq(&summary(&map));
+    expect![[r#"
+                                   AAAAAA
+                         BBBBB    AAAAAAAAA
+              BBBBBBBBBBBBBBBB   AAAAAAAAAAA
+         BBBBBBBBBBBBBBBBBBBBB   AAAAAAAAAAAAA
+         BBBBBBBBBBBBBBBBBBBBB  AAAAAAAAAAAAAAAA
+         BBBBBBBBBBBBBBBBBBBBB  AAAAAAAAAAAAAAAAAA
+         BBBBBBBBBBBBBBBBBBBBB AAAAAAAAAAAAAAAAAAAAA
+         BBBBBBBBBBBBBBBBBBBBB AAAAAAAAAAAAAAAAAAAAAAA
+         BBBBBBBBBBBBBBBBBBBBBBAAAAAAAAAAAAAAAAAAAAAAA
+         BBBBBBBBBBBBBBBBBBBBBBAAAAAAAAAAAAAAAAAAAAAAA
+         BBBBBBBBBBBBBBBBBBBBBBAAAAAAAAAAAAAAAAAAAAAA
+         BBBBBBBBBBBBBBBBBBBBBBAAAAAAAAAAAAAAAAAAAAAA
+          BBBBBBBBBBBBBBBBBBBBBBAAAAAAAAAAAAAAAAAAAA
+          BBBBBBBBBBBBBBBBBBBBBBAAAAAAAAAAAAAAAAAAAA
+          BBBBBBBBBBBBBBBBBBBBBBAAAAAAAAAAAAAAAAAAA
+          BBBBBBBBBBBBBBBBBBBBBBAAAAAAAAAAAAAAAAAAA
+          BBBBBBBBBBBBBBBBBBBBB AAAAAAAAAAAAAAAAAA
+          BBBBBBBBBBBBBBBBBBBBB   AAAAAAAAAAAAAAAA
+          BBBBBBBBBBBBBBBBBBBBB     AAAAAAAAAAAAA
+          BBBBBBBBBBBBBBBB            AAAAAAAAAAA
+          BBBBB                        AAAAAAAAA
+                                         AAAAAA
+    "#]]
+    .assert_eq(&picture(&map));
 }
 
 #[test]
 fn a_hall_of_one_pattern_is_one_region() {
     let map = find(&one_hall(), RegionOptions::default());
-    expect![""].assert_eq(&summary(&map));
+    expect![[r#"
+        1.00 at -72.8 17.2
+    "#]]
+    .assert_eq(&summary(&map));
 }
 
 #[test]
@@ -71,7 +102,10 @@ fn a_given_number_of_regions_is_kept_and_a_single_one_is_the_whole_map() {
     let two = find(&one_hall(), RegionOptions { count: Some(2), ..RegionOptions::default() });
     assert_eq!(two.regions.len(), 2);
     let one = find(&two_halls(), RegionOptions { method: RegionMethod::Single, ..RegionOptions::default() });
-    expect![""].assert_eq(&summary(&one));
+    expect![[r#"
+        1.00 at -85.0 -28.0 5.0 62.1
+    "#]]
+    .assert_eq(&summary(&one));
     assert_eq!(find(&two_halls(), RegionOptions { count: Some(1), ..RegionOptions::default() }), one);
 }
 
@@ -102,7 +136,11 @@ fn a_region_without_orientations_takes_those_of_the_map() {
     });
     let grid = OccupancyGrid::new(grid.width(), grid.height(), *grid.frame(), cells.collect());
     let map = find(&grid, RegionOptions { count: Some(2), ..RegionOptions::default() });
-    expect![""].assert_eq(&summary(&map));
+    expect![[r#"
+        0.42 at -85.1 5.0
+        0.58 at -85.1 5.0
+    "#]]
+    .assert_eq(&summary(&map));
 }
 
 #[test]
@@ -140,8 +178,33 @@ fn regions_of_real_maps() {
             wanted.assert_eq(&summary(&find(&grid, RegionOptions::default())));
         }
     };
-    check("office__halmstad_F5_05", 0.02, expect![""]);
-    check("office__pal_office", 0.05, expect![""]);
-    check("warehouse__aws_small_005_rotated", 0.05, expect![""]);
-    check("warehouse__svl_warehouse_dt_pallets", 0.05, expect![""]);
+    check(
+        "office__halmstad_F5_05",
+        0.02,
+        expect![[r#"
+        0.65 at -4.3 85.1
+        0.35 at -88.8 0.0
+    "#]],
+    );
+    check(
+        "office__pal_office",
+        0.05,
+        expect![[r#"
+        1.00 at -76.0 13.9
+    "#]],
+    );
+    check(
+        "warehouse__aws_small_005_rotated",
+        0.05,
+        expect![[r#"
+        1.00 at -90.0 0.0
+    "#]],
+    );
+    check(
+        "warehouse__svl_warehouse_dt_pallets",
+        0.05,
+        expect![[r#"
+        1.00 at -90.0 0.0
+    "#]],
+    );
 }
