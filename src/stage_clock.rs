@@ -49,10 +49,18 @@ impl StageClock {
         Self::default()
     }
 
+<<<<<<< Updated upstream
     /// The stages that ended, in their order.
     #[must_use]
     pub fn reports(&self) -> Vec<StageReport> {
         self.times().finished.clone()
+=======
+    fn report(self, name: &str) -> StageReport {
+        // Microseconds: finer digits are noise.
+        let rounded = |seconds: f64| (seconds * 1e6).round() / 1e6;
+        let (wall_s, cpu_s) = (self.wall.elapsed().as_secs_f64(), cpu_seconds() - self.cpu_s);
+        StageReport { name: name.to_owned(), wall_s: rounded(wall_s), cpu_s: rounded(cpu_s) }
+>>>>>>> Stashed changes
     }
 
     /// The stage that runs, if one does.

@@ -2,6 +2,7 @@
 
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::IsTerminal;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use stillage_core::Stage;
 use stillage_core::watch::Observer;
 
@@ -12,6 +13,8 @@ pub(super) struct Progress {
     clock: StageClock,
     /// `None` where nobody would see it move.
     bar: Option<ProgressBar>,
+    /// Stages whose line was printed.
+    printed: AtomicUsize,
 }
 
 impl Progress {
@@ -20,12 +23,30 @@ impl Progress {
             let style = ProgressStyle::with_template("{bar:40} {percent:>3} % {msg}");
             ProgressBar::new(100).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
         });
+<<<<<<< Updated upstream
         Self { clock: StageClock::new(), bar }
     }
 
     /// What the stages cost so far.
     pub(super) const fn clock(&self) -> &StageClock {
         &self.clock
+=======
+        Self { bar, printed: AtomicUsize::new(0) }
+    }
+
+    /// A stage is done to a fraction.
+    pub(super) fn show(&self, stage: Stage, fraction: f64) {
+        let Some(bar) = &self.bar else {
+            // A stage may say twice that it is done.
+            let done = stage as usize + 1;
+            if fraction >= 1.0 && self.printed.fetch_max(done, Ordering::Relaxed) < done {
+                eprintln!("{} done", stage.name());
+            }
+            return;
+        };
+        bar.set_message(stage.name());
+        bar.set_position(stage as u64 * STEPS + (fraction.clamp(0.0, 1.0) * STEPS as f64) as u64);
+>>>>>>> Stashed changes
     }
 
     /// A remark between.

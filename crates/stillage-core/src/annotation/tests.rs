@@ -1,3 +1,4 @@
+<<<<<<< Updated upstream
 //! Faces and edges of small maps; one cell is one metre.
 
 use expect_test::expect;
@@ -237,3 +238,6 @@ proptest! {
         }
     }
 }
+=======
+
+>>>>>>> Stashed changes
