@@ -162,12 +162,10 @@ fn categories(grid: &OccupancyGrid, letters: &[u8]) -> CategoryMap {
         .zip(grid.cells())
         .map(|(&letter, &cell)| if cell == Occupancy::Free { category(letter) } else { CategoryMap::NONE })
         .collect();
-    let categories = (0..5)
-        .map(|category| Category {
-            cells: cells.iter().filter(|&&cell| cell == category).count(),
-            mean_features: Vec::new(),
-        })
-        .collect();
+    let mut categories = vec![Category { cells: 0, mean_features: Vec::new() }; 5];
+    for &cell in cells.iter().filter(|&&cell| cell != CategoryMap::NONE) {
+        categories[usize::from(cell)].cells += 1;
+    }
     CategoryMap { cells, categories, feature_names: Vec::new() }
 }
 
