@@ -51,16 +51,22 @@ impl CategoryMap {
         self.categories.len() as u8
     }
 
-    /// The face-level category of faces that hold no known cell at all.
+    /// The face-level category of faces among known places that hold no known cell at all.
     #[must_use]
     pub fn unknown(&self) -> u8 {
         self.categories.len() as u8 + 1
     }
 
-    /// Number of categories a face may have: the clusters, `occupied` and `unknown`.
+    /// The face-level category of unexplored faces that are joined with the ground outside the map.
+    #[must_use]
+    pub fn outside(&self) -> u8 {
+        self.categories.len() as u8 + 2
+    }
+
+    /// Number of categories a face may have: the clusters, `occupied`, `unknown` and `outside`.
     #[must_use]
     pub fn face_categories(&self) -> usize {
-        self.categories.len() + 2
+        self.categories.len() + 3
     }
 }
 
