@@ -1,11 +1,11 @@
 //! Regions: blocks of the map with a pattern of their own, found by Gabor texture.
 //!
-//! Source: the paper, II-D: a Gabor bank of 5 frequencies and 8 orientations ([`gabor`]), principal components,
+//! Source: the paper, II-D: a Gabor bank of 5 frequencies and 8 orientations (`gabor`), principal components,
 //! k-means. Lines of one region then do not cut the others.
 //!
 //! Departures: texture is clustered per tile instead of per pixel (its energy is smoothed over several tiles anyway);
 //! regions are contiguous sets of tiles instead of the bounding boxes around them, which would overlap (the box of
-//! each is reported); and the number of regions need not be given ([`patterns`]).
+//! each is reported); and the number of regions need not be given (`patterns`).
 //!
 //! Cost: the transforms, O(40 pixels log pixels) at about 0.4 m per pixel, then O(tiles). Limits: a border between two
 //! regions is found to about half the smoothing length; at most 255 regions.
