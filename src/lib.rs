@@ -10,14 +10,18 @@ pub mod ingest;
 pub mod geojson;
 pub mod render;
 
+pub mod records;
+
+mod fail_point;
+
 pub mod store;
 
 pub mod jobs;
-
 pub mod stage_clock;
 
 pub mod app;
 
 pub mod http;
+pub mod server;
 
 pub mod cli;

@@ -1,10 +1,157 @@
-//! The HTTP edge. (to be written)
-use crate::app::App;
+//! The HTTP edge: one list of routes, one file per resource.
+//!
+//! Handlers are thin: typed extractors, one call into [`crate::app`], one conversion out. What holds for every request
+//! lies around them (see [`router`]), and every refusal leaves as a problem detail ([`problem`]). The OpenAPI document
+//! is collected from the same list of routes.
+
+#![allow(unused_qualifications, reason = "the macro of utoipa repeats the types of arguments")]
+
+mod analyses;
+mod bbox;
+mod collections;
+mod conditional;
+mod crs;
+mod docs;
+mod extractors;
+mod guards;
+mod health;
+mod items;
+mod jobs;
+mod links;
+mod maps;
+mod negotiation;
+mod observe;
+mod openapi;
+mod options;
+mod pictures;
+mod problem;
+mod routes;
+mod rule_sets;
+mod semantics;
+mod upload;
+mod views;
+
 use std::sync::Arc;
 
-/// The routes of the service.
+use axum::Router;
+use axum::extract::DefaultBodyLimit;
+use axum::http::{HeaderName, HeaderValue, header};
+use axum::middleware::{from_fn, from_fn_with_state};
+use axum::routing::get;
+use axum::{Extension, extract::Request, middleware::Next, response::Response};
+use tower::ServiceBuilder;
+use tower_http::catch_panic::CatchPanicLayer;
+use tower_http::compression::CompressionLayer;
+use tower_http::limit::RequestBodyLimitLayer;
+use utoipa_axum::router::{OpenApiRouter, UtoipaMethodRouterExt};
+use utoipa_axum::routes;
+
+use crate::app::App;
+
+/// Bytes that a body may have where nothing else is said: overrides for a hundred thousand faces.
+const BODY_BYTES: usize = 8 << 20;
+
+/// The list of routes.
+fn routes(upload_bytes: usize) -> OpenApiRouter<Arc<App>> {
+    // Refuses by the declared length before anything is read, and while reading where none was declared.
+    let upload_limit =
+        ServiceBuilder::new().layer(RequestBodyLimitLayer::new(upload_bytes)).layer(DefaultBodyLimit::disable());
+    OpenApiRouter::with_openapi(openapi::head())
+        .routes(routes!(docs::landing))
+        .routes(routes!(docs::openapi))
+        .routes(routes!(problem::describe))
+        .routes(routes!(health::live))
+        .routes(routes!(health::ready))
+        .routes(routes!(observe::metrics))
+        .routes(routes!(maps::list, maps::create).layer(upload_limit))
+        .routes(routes!(maps::get, maps::update, maps::delete))
+        .routes(routes!(analyses::list, analyses::create))
+        .routes(routes!(analyses::diagnostics))
+        .routes(routes!(pictures::image))
+        .routes(routes!(pictures::categories))
+        .routes(routes!(pictures::regions))
+        .routes(routes!(pictures::semantic))
+        .routes(routes!(semantics::categories))
+        .routes(routes!(semantics::get, semantics::assign))
+        .routes(routes!(semantics::versions))
+        .routes(routes!(collections::list))
+        .routes(routes!(collections::get))
+        .routes(routes!(items::list))
+        .routes(routes!(items::get))
+        .routes(routes!(routes::get))
+        .routes(routes!(jobs::list))
+        .routes(routes!(jobs::get, jobs::dismiss))
+        .routes(routes!(jobs::events))
+        .routes(routes!(rule_sets::list, rule_sets::create))
+        .routes(routes!(rule_sets::get, rule_sets::replace, rule_sets::delete))
+}
+
+/// The OpenAPI 3.1 document of the service, as it is served and as it lies in `openapi/openapi.json`.
 #[must_use]
-pub fn router(app: Arc<App>) -> axum::Router {
-    let _ = app;
-    todo!()
+pub fn openapi_json() -> String {
+    openapi::write(&document(routes(BODY_BYTES)).1)
+}
+
+fn document<S: Clone + Send + Sync + 'static>(routes: OpenApiRouter<S>) -> (Router<S>, utoipa::openapi::OpenApi) {
+    let (router, mut document) = routes.split_for_parts();
+    openapi::complete(&mut document);
+    (router, document)
+}
+
+/// The routes of the service, with all that lies around them.
+///
+/// From the outside in: id, log line and metrics of the request; headers for browsers; entity tags by coding, around
+/// the compression; bodies of problems; panics; checks of host and origin; patience; unknown parameters; `Accept`.
+#[must_use]
+pub fn router(app: Arc<App>) -> Router {
+    let upload_bytes = app.config().limits.max_bytes + upload::FORM_OVERHEAD_BYTES;
+    let (router, document) = document(routes(upload_bytes));
+    let known = Arc::new(guards::KnownParameters::of(&document));
+    let metrics = observe::Metrics::new();
+    let layers = ServiceBuilder::new()
+        .layer(from_fn_with_state(metrics.clone(), observe::observe))
+        .layer(from_fn(browser_headers))
+        .layer(from_fn(conditional::tag_encodings))
+        .layer(CompressionLayer::new())
+        .layer(from_fn(problem::render))
+        .layer(CatchPanicLayer::custom(problem::of_panic))
+        .layer(from_fn(guards::one_host))
+        .layer(from_fn(guards::other_origins))
+        .layer(from_fn(guards::in_time))
+        .layer(from_fn_with_state(known, guards::known_parameters))
+        .layer(from_fn(negotiation::negotiate))
+        .layer(DefaultBodyLimit::max(BODY_BYTES))
+        .layer(Extension(metrics))
+        .layer(Extension(docs::Document(openapi::write(&document).into())));
+    router
+        // Clients that take a map for the root of an API ask for it with a slash.
+        .route("/v1/maps/{mapId}/", get(maps::get))
+        .merge(docs::reference_page())
+        .layer(layers)
+        .with_state(app)
+}
+
+/// Middleware: nothing is sniffed, framed or loaded from elsewhere.
+async fn browser_headers(request: Request, next: Next) -> Response {
+    let mut response = next.run(request).await;
+    // The styles and icons that swagger-ui writes into its page.
+    let policy = "default-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' data:; frame-ancestors 'none'";
+    response.headers_mut().extend([
+        (header::X_CONTENT_TYPE_OPTIONS, HeaderValue::from_static("nosniff")),
+        (header::CONTENT_SECURITY_POLICY, HeaderValue::from_static(policy)),
+        (HeaderName::from_static("cross-origin-resource-policy"), HeaderValue::from_static("cross-origin")),
+        (header::REFERRER_POLICY, HeaderValue::from_static("no-referrer")),
+    ]);
+    response
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_document_in_the_repository_is_that_of_the_code() {
+        // `UPDATE_EXPECT=1 cargo test`, or `stillage openapi --write`, writes it anew.
+        expect_test::expect_file!["../../openapi/openapi.json"].assert_eq(&openapi_json());
+    }
 }

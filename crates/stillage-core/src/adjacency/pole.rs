@@ -76,7 +76,9 @@ impl Polygon<'_> {
     }
 
     fn sides(&self) -> impl Iterator<Item = (Point, Point)> + '_ {
-        self.rings.iter().flat_map(|ring| ring.iter().zip(ring.iter().cycle().skip(1)).map(|(&start, &end)| (start, end)))
+        self.rings
+            .iter()
+            .flat_map(|ring| ring.iter().zip(ring.iter().cycle().skip(1)).map(|(&start, &end)| (start, end)))
     }
 
     /// Lower left and upper right corner of the box around it.
@@ -117,9 +119,8 @@ impl Polygon<'_> {
         let above = self.corners().map(|corner| corner.y).filter(|&y| y > middle).fold(high.y, f64::min);
         let level = f64::midpoint(below, above);
         let crossed = self.sides().filter(|(start, end)| (start.y > level) != (end.y > level));
-        let mut crossings: Vec<f64> = crossed
-            .map(|(start, end)| start.x + (level - start.y) / (end.y - start.y) * (end.x - start.x))
-            .collect();
+        let mut crossings: Vec<f64> =
+            crossed.map(|(start, end)| start.x + (level - start.y) / (end.y - start.y) * (end.x - start.x)).collect();
         crossings.sort_unstable_by(f64::total_cmp);
         let widest = crossings
             .as_chunks::<2>()
@@ -132,12 +133,12 @@ impl Polygon<'_> {
     /// Splits squares until none promises more than the best point found.
     fn search(&self, (low, high): (Point, Point)) -> Point {
         let size = high - low;
-        let side = size.min().max(size.max() / 32.0);
+        let grain = size.min().max(size.max() / 32.0);
         let square = |center: Point, half: f64| Square { center, half, clearance: self.clearance(center) };
-        let [columns, rows] = [size.x, size.y].map(|extent| (extent / side).ceil() as usize);
+        let [columns, rows] = [size.x, size.y].map(|extent| (extent / grain).ceil() as usize);
         let mut queue: BinaryHeap<Square> = (0..rows * columns)
-            .map(|number| Vector::new((number % columns) as f64 + 0.5, (number / columns) as f64 + 0.5) * side)
-            .map(|offset| square(low + offset, side / 2.0))
+            .map(|number| Vector::new((number % columns) as f64 + 0.5, (number / columns) as f64 + 0.5) * grain)
+            .map(|offset| square(low + offset, grain / 2.0))
             .collect();
         let mut best = square(self.some_inner_point((low, high)), 0.0);
         for _ in 0..MOST_PROBES / 4 {

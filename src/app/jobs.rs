@@ -1,0 +1,89 @@
+//! Analyses and the jobs that make them.
+
+use std::collections::BTreeMap;
+use std::time::Duration;
+
+use stillage_core::AnalysisOptions;
+use uuid::Uuid;
+
+use super::{AnalysisRecord, AnalysisTicket, App, AppError, JobFilter, JobRecord, JobState, RETRY_AFTER_S};
+use crate::store::{Request, now};
+
+/// How long the dismissal of a running job is waited for.
+const DISMISSAL: Duration = Duration::from_secs(1);
+
+/// Most records that one page holds.
+const MAX_PAGE: u32 = 10_000;
+
+impl App {
+    /// Analyses again with other options; identical options answer the existing analysis, which then is the one in
+    /// force.
+    ///
+    /// Human decisions belong to the analysis whose categories they name: a new analysis begins with its suggestion, and
+    /// going back to an earlier one brings its decisions back.
+    pub async fn create_analysis(&self, map: Uuid, options: AnalysisOptions) -> Result<AnalysisTicket, AppError> {
+        options.clone().check()?;
+        let record = self.map(map).await?;
+        self.check_memory(u64::from(record.width), u64::from(record.height))?;
+        let request = self.store.request_analysis(map, &options, self.config.max_queued_jobs, now()).await?;
+        match request {
+            None => Err(AppError::not_found("map", map)),
+            Some(Request::QueueFull) => Err(AppError::Busy { retry_after_s: RETRY_AFTER_S }),
+            Some(Request::Pending(job)) => Ok(AnalysisTicket::Job(job)),
+            Some(Request::New(job)) => {
+                self.signals.queued();
+                Ok(AnalysisTicket::Job(job))
+            }
+            Some(Request::Existing(analysis)) => {
+                self.contexts.invalidate(map);
+                Ok(AnalysisTicket::Existing(analysis))
+            }
+        }
+    }
+
+    /// The analyses of a map, newest first.
+    pub async fn analyses(&self, map: Uuid) -> Result<Vec<AnalysisRecord>, AppError> {
+        self.map(map).await?;
+        Ok(self.store.analyses(map).await?)
+    }
+
+    /// Jobs, newest first.
+    pub async fn jobs(&self, mut filter: JobFilter) -> Result<Vec<JobRecord>, AppError> {
+        filter.limit = filter.limit.min(MAX_PAGE);
+        Ok(self.store.jobs(&filter).await?)
+    }
+
+    /// A job.
+    pub async fn job(&self, id: Uuid) -> Result<JobRecord, AppError> {
+        self.store.job(id).await?.ok_or_else(|| AppError::not_found("job", id))
+    }
+
+    /// Dismisses: queued at once, running within a second (which is waited for). A finished job is a conflict.
+    pub async fn dismiss_job(&self, id: Uuid) -> Result<JobRecord, AppError> {
+        let before = self.job(id).await?;
+        if before.state.is_final() {
+            return Err(AppError::Conflict(format!("the job is {} already", before.state.name())));
+        }
+        let mut changes = self.signals.changes();
+        let asked = self.store.dismiss(id, now()).await?.ok_or_else(|| AppError::not_found("job", id))?;
+        self.signals.changed();
+        let ended = async {
+            loop {
+                let job = self.job(id).await?;
+                if job.state.is_final() || changes.changed().await.is_err() {
+                    return Ok(job);
+                }
+            }
+        };
+        tokio::time::timeout(DISMISSAL, ended).await.unwrap_or(Ok(asked))
+    }
+
+    /// Counts by job state, for the metrics.
+    pub async fn job_counts(&self) -> Result<BTreeMap<&'static str, u64>, AppError> {
+        let mut counts: BTreeMap<_, _> = JobState::ALL.iter().map(|state| (state.name(), 0)).collect();
+        for (state, jobs) in self.store.job_counts().await? {
+            counts.insert(state.name(), jobs);
+        }
+        Ok(counts)
+    }
+}

@@ -1,0 +1,177 @@
+//! Maps: upload, list, rename, georeference, delete.
+
+use uuid::Uuid;
+
+use super::{App, AppError, JobRecord, MapPatch, MapRecord, NewMap, RETRY_AFTER_S};
+use crate::geojson::Georeference;
+use crate::ingest::{self, DecodedMap, MapSource};
+use crate::jobs::job_bytes;
+use crate::store::{Blob, IdempotencyKey, NewMapRow, Upload, now, off_the_runtime};
+use stillage_core::AnalysisOptions;
+
+/// Longest name of a map, characters: fits one line of a list.
+const MAX_NAME: usize = 200;
+
+/// Longest idempotency key, characters (Stripe's limit, which clients know).
+const MAX_KEY: usize = 255;
+
+/// Most records that one page holds.
+const MAX_PAGE: u32 = 10_000;
+
+impl App {
+    /// Decodes and stores a map and its first job, in one transaction. `true` when the job is new (202), `false` when
+    /// the idempotency key had been seen with the same content. The same key with other content is
+    /// [`AppError::Invalid`].
+    pub async fn create_map(&self, map: NewMap) -> Result<(JobRecord, bool), AppError> {
+        check_name(&map.name)?;
+        check_georeference(map.georeference.as_ref())?;
+        map.options.clone().check()?;
+        let key = idempotency_key(&map)?;
+        if let Some(key) = &key
+            && let Some(seen) = self.store.seen_upload(key, now()).await?
+        {
+            return answer(seen);
+        }
+        self.store.check_space()?;
+        let (name, options, georeference) = (map.name.trim().to_owned(), map.options, map.georeference);
+        let (decoded, blob) = self.decode_upload(map.source, &options).await?;
+        let (width, height) = (decoded.grid.width(), decoded.grid.height());
+        self.check_memory(width as u64, height as u64)?;
+        let row = NewMapRow {
+            id: Uuid::now_v7(),
+            name,
+            width: width as u32,
+            height: height as u32,
+            resolution: decoded.grid.resolution(),
+            georeference,
+            warnings: decoded.warnings,
+            options,
+        };
+        let upload = self.store.create_map(&row, &blob, key.as_ref(), self.config.max_queued_jobs, now()).await?;
+        if let Upload::New(_) = upload {
+            self.signals.queued();
+        }
+        answer(upload)
+    }
+
+    /// Maps, newest first.
+    pub async fn maps(&self, limit: u32, after: Option<Uuid>) -> Result<Vec<MapRecord>, AppError> {
+        Ok(self.store.maps(limit.min(MAX_PAGE), after).await?)
+    }
+
+    /// A map.
+    pub async fn map(&self, id: Uuid) -> Result<MapRecord, AppError> {
+        self.store.map(id).await?.ok_or_else(|| AppError::not_found("map", id))
+    }
+
+    /// Renames or georeferences. `if_match` is optional here.
+    pub async fn update_map(
+        &self,
+        id: Uuid,
+        mut patch: MapPatch,
+        if_match: Option<u64>,
+    ) -> Result<MapRecord, AppError> {
+        if let Some(name) = &mut patch.name {
+            check_name(name)?;
+            *name = name.trim().to_owned();
+        }
+        check_georeference(patch.georeference.flatten().as_ref())?;
+        match self.store.update_map(id, &patch, if_match, now()).await? {
+            None => Err(AppError::not_found("map", id)),
+            Some(Err(current)) => Err(AppError::PreconditionFailed { current: current.version }),
+            Some(Ok(record)) => {
+                self.contexts.invalidate(id);
+                Ok(record)
+            }
+        }
+    }
+
+    /// Deletes everything of the map. Its jobs go with it: one that runs stops within a second.
+    pub async fn delete_map(&self, id: Uuid) -> Result<(), AppError> {
+        if !self.store.delete_map(id).await? {
+            return Err(AppError::not_found("map", id));
+        }
+        self.contexts.remove(id);
+        self.signals.changed();
+        Ok(())
+    }
+
+    /// Refuses a job that would need more memory than one may.
+    pub(super) fn check_memory(&self, width: u64, height: u64) -> Result<(), AppError> {
+        let (needed, allowed) = (job_bytes(width, height), self.config.max_job_bytes);
+        if needed <= allowed {
+            return Ok(());
+        }
+        Err(AppError::TooLarge(format!(
+            "the analysis of {width} x {height} cells needs about {} MiB of memory, and {} MiB are allowed for a job",
+            needed >> 20,
+            allowed >> 20
+        )))
+    }
+
+    /// Reads an upload, so that a bad map is refused at once, and packs it for the store.
+    async fn decode_upload(
+        &self,
+        source: MapSource,
+        options: &AnalysisOptions,
+    ) -> Result<(DecodedMap, Blob), AppError> {
+        let _permit = self.decoders.acquire().await.map_err(|_| AppError::Unavailable)?;
+        let (grid, limits) = (options.grid.clone(), self.config.limits);
+        let decode = move || Ok((ingest::decode(&source, &grid, &limits)?, Blob::encode(&source)));
+        off_the_runtime(decode).await
+    }
+}
+
+fn answer(upload: Upload) -> Result<(JobRecord, bool), AppError> {
+    match upload {
+        Upload::New(job) => Ok((job, true)),
+        Upload::Seen(job) => Ok((job, false)),
+        Upload::QueueFull => Err(AppError::Busy { retry_after_s: RETRY_AFTER_S }),
+        Upload::KeyReused => Err(AppError::Invalid {
+            detail: "this Idempotency-Key was used with another upload in the last 24 hours: use a new key".into(),
+            fields: Vec::new(),
+        }),
+    }
+}
+
+/// The key with a hash of all that it must stand for.
+fn idempotency_key(map: &NewMap) -> Result<Option<IdempotencyKey>, AppError> {
+    let Some(key) = &map.idempotency_key else { return Ok(None) };
+    if key.is_empty() || key.chars().count() > MAX_KEY {
+        let detail = format!("an Idempotency-Key has 1 to {MAX_KEY} characters");
+        return Err(AppError::Invalid { detail, fields: Vec::new() });
+    }
+    let parts: [&[u8]; 2] = match &map.source {
+        MapSource::Image { image, metadata } => [image, metadata],
+        MapSource::Message(message) => [message, b""],
+    };
+    let options = serde_json::to_vec(&(&map.name, &map.options, &map.georeference));
+    let options = options.map_err(|error| AppError::Internal(Box::new(error)))?;
+    let mut hasher = blake3::Hasher::new();
+    for part in [parts[0], parts[1], &options] {
+        hasher.update(&(part.len() as u64).to_le_bytes()).update(part);
+    }
+    Ok(Some(IdempotencyKey { key: key.clone(), content: hasher.finalize().to_hex().to_string() }))
+}
+
+fn check_name(name: &str) -> Result<(), AppError> {
+    if name.trim().is_empty() || name.chars().count() > MAX_NAME || name.chars().any(char::is_control) {
+        return Err(AppError::invalid("/name", format!("a name has 1 to {MAX_NAME} characters, none of them control")));
+    }
+    Ok(())
+}
+
+fn check_georeference(georeference: Option<&Georeference>) -> Result<(), AppError> {
+    let Some(Georeference { lon, lat, heading }) = georeference else { return Ok(()) };
+    if !(-180.0..=180.0).contains(lon) {
+        return Err(AppError::invalid("/georeference/lon", format!("{lon} is outside -180 to 180 degrees")));
+    }
+    // Beyond, the Web Mercator plane in which maps are drawn ends.
+    if !(-85.0..=85.0).contains(lat) {
+        return Err(AppError::invalid("/georeference/lat", format!("{lat} is outside -85 to 85 degrees")));
+    }
+    if !(-360.0..=360.0).contains(heading) {
+        return Err(AppError::invalid("/georeference/heading", format!("{heading} is outside -360 to 360 degrees")));
+    }
+    Ok(())
+}

@@ -1,0 +1,139 @@
+//! The use cases: one method for each thing a user can ask of the service.
+//!
+//! | file | what it answers |
+//! | --- | --- |
+//! | `maps` | upload, list, rename, delete |
+//! | `jobs` | analyses and the jobs that make them |
+//! | `rule_sets` | the vocabulary of labels |
+//! | `semantics` | the human decision on a map |
+//! | `context` | the analysed map in memory, for every question about it |
+//! | `features` | its collections |
+//!
+//! Nothing here knows HTTP; nothing here holds SQL.
+
+mod context;
+mod error;
+mod features;
+mod jobs;
+mod maps;
+mod rule_sets;
+mod semantics;
+#[cfg(test)]
+mod tests;
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
+
+use tokio::sync::{Semaphore, watch};
+
+use crate::config::Config;
+use crate::jobs::{Analyzer, Compute, Signals, Worker};
+use crate::store::{Store, now};
+
+pub use crate::records::{
+    AnalysisRecord, AnalysisTicket, JobFilter, JobRecord, JobState, MapPatch, MapRecord, NewMap, NewSemantics,
+    RuleSetRecord, SemanticsOrigin, SemanticsRecord, StageReport,
+};
+pub use context::MapContext;
+pub use error::{AppError, FieldProblem};
+
+use context::ContextCache;
+
+/// A blob whose row never came is removed at a start after this time.
+const ORPHAN_AGE: Duration = Duration::from_secs(24 * 3600);
+
+/// When a client may try again after finding the queue full, seconds: about the time of a job on a large map.
+const RETRY_AFTER_S: u32 = 10;
+
+/// The service without its edges.
+#[derive(Debug)]
+pub struct App {
+    config: Config,
+    store: Arc<Store>,
+    worker: Arc<Worker>,
+    signals: Arc<Signals>,
+    contexts: Arc<ContextCache>,
+    /// Bounds how many uploads and contexts are decoded at the same time, and with that their memory.
+    decoders: Semaphore,
+    is_stopping: AtomicBool,
+}
+
+impl App {
+    /// Opens the data folder (exclusively), migrates the database, takes up the jobs that an earlier process left, and
+    /// starts the worker.
+    pub async fn open(config: Config) -> Result<Arc<Self>, AppError> {
+        let analyzer = Analyzer { limits: config.limits };
+        Self::open_with(config, Arc::new(analyzer)).await
+    }
+
+    /// [`Self::open`] with another computation.
+    pub(crate) async fn open_with(config: Config, compute: Arc<dyn Compute>) -> Result<Arc<Self>, AppError> {
+        let store = Arc::new(Store::open(&config).await?);
+        let swept = store.sweep_blobs(ORPHAN_AGE).await?;
+        let requeued = store.requeue_orphans(config.max_attempts, now()).await?;
+        if swept + usize::try_from(requeued).unwrap_or(usize::MAX) > 0 {
+            tracing::info!(swept, requeued, "took up what an earlier process left");
+        }
+        for (map, options) in store.outdated().await? {
+            tracing::info!(%map, "will be analysed again by this version of the algorithms");
+            store.request_analysis(map, &options, u64::MAX, now()).await?;
+        }
+        let contexts = Arc::new(ContextCache::new(config.cached_maps));
+        let finished = Arc::clone(&contexts);
+        let signals = Arc::new(Signals::new(move |map| finished.invalidate(map)));
+        let worker = Worker::start(&config, Arc::clone(&store), compute, Arc::clone(&signals));
+        let decoders = Semaphore::new(config.compute_threads.max(1));
+        Ok(Arc::new(Self { config, store, worker, signals, contexts, decoders, is_stopping: AtomicBool::new(false) }))
+    }
+
+    /// The configuration it runs with.
+    #[must_use]
+    pub const fn config(&self) -> &Config {
+        &self.config
+    }
+
+    /// Says from now on that the service is not ready, so that nothing new is sent to it. Who follows a job is woken, so
+    /// that streams can end ([`Self::is_stopping`]).
+    pub fn announce_stop(&self) {
+        self.is_stopping.store(true, Ordering::Relaxed);
+        self.signals.changed();
+    }
+
+    /// Whether the service was asked to stop.
+    #[must_use]
+    pub fn is_stopping(&self) -> bool {
+        self.is_stopping.load(Ordering::Relaxed)
+    }
+
+    /// Stops claiming, and lets running jobs end within the grace period or puts them back.
+    pub async fn stop_jobs(&self) {
+        self.announce_stop();
+        self.worker.stop(self.config.shutdown_grace).await;
+    }
+
+    /// [`Self::stop_jobs`], then closes the store: the last call.
+    pub async fn shutdown(&self) {
+        self.stop_jobs().await;
+        self.store.close().await;
+    }
+
+    /// Whether the store answers, is migrated and has space.
+    pub async fn ready(&self) -> Result<(), AppError> {
+        if self.is_stopping() {
+            return Err(AppError::Unavailable);
+        }
+        Ok(self.store.check().await?)
+    }
+
+    /// Works on the queue in the calling task until no job is due, beside the configured job slots.
+    pub async fn run_until_empty(&self) -> Result<(), AppError> {
+        Ok(self.worker.run_until_empty().await?)
+    }
+
+    /// Wakes whenever some job changed; the receiver then reads [`Self::job`].
+    #[must_use]
+    pub fn job_changes(&self) -> watch::Receiver<u64> {
+        self.signals.changes()
+    }
+}

@@ -1,0 +1,223 @@
+//! `stillage serve`: the service, until it is told to stop.
+
+use std::io::{self, Write};
+use std::net::SocketAddr;
+use std::path::PathBuf;
+use std::time::Duration;
+
+use clap::{Args, ValueEnum};
+use tokio::net::TcpListener;
+use tokio::signal::unix::{Signal, SignalKind, signal};
+use tracing_subscriber::EnvFilter;
+
+use crate::app::{App, AppError};
+use crate::config::Config;
+use crate::ingest::Limits;
+use crate::server;
+
+/// Serves the API. Everything can also be set in the environment.
+#[derive(Debug, Clone, Args)]
+pub(super) struct ServeArgs {
+    /// Address and port; port 0 takes a free one and prints it.
+    #[arg(long, env = "STILLAGE_LISTEN", default_value = "127.0.0.1:8080", value_name = "ADDRESS")]
+    pub(super) listen: SocketAddr,
+    /// Listen on an address that others can reach. Everybody who reaches it may read, change and delete every map.
+    #[arg(long, env = "STILLAGE_ALLOW_PUBLIC")]
+    pub(super) allow_public: bool,
+    /// Folder of the database and the uploads; made where it is missing. One process at a time.
+    #[arg(long, env = "STILLAGE_DATA", default_value = "data", value_name = "FOLDER")]
+    pub(super) data: PathBuf,
+    /// Jobs that run at the same time.
+    #[arg(long, env = "STILLAGE_JOB_SLOTS", default_value_t = 1, value_name = "N")]
+    pub(super) job_slots: usize,
+    /// Compute threads, shared out among the job slots; all cores when absent.
+    #[arg(long, env = "STILLAGE_COMPUTE_THREADS", value_name = "N")]
+    pub(super) compute_threads: Option<usize>,
+    /// Jobs that may wait; further uploads are answered 503.
+    #[arg(long, env = "STILLAGE_MAX_QUEUED_JOBS", default_value_t = 1_000, value_name = "N")]
+    pub(super) max_queued_jobs: u64,
+    /// How often a job is tried that a fault of the machine interrupts.
+    #[arg(long, env = "STILLAGE_MAX_ATTEMPTS", default_value_t = 5, value_name = "N")]
+    pub(super) max_attempts: u32,
+    /// Memory that one job may need by estimate, MiB; larger maps are answered 413.
+    #[arg(long, env = "STILLAGE_MAX_JOB_MIB", default_value_t = 8_192, value_name = "MIB")]
+    pub(super) max_job_mib: u64,
+    /// Largest upload, MiB.
+    #[arg(long, env = "STILLAGE_MAX_UPLOAD_MIB", default_value_t = 128, value_name = "MIB")]
+    pub(super) max_upload_mib: usize,
+    /// Largest map, cells.
+    #[arg(long, env = "STILLAGE_MAX_CELLS", default_value_t = 100_000_000, value_name = "N")]
+    pub(super) max_cells: u64,
+    /// Free disk space below which uploads are answered 507, MiB.
+    #[arg(long, env = "STILLAGE_MIN_FREE_MIB", default_value_t = 256, value_name = "MIB")]
+    pub(super) min_free_mib: u64,
+    /// Analysed maps kept in memory.
+    #[arg(long, env = "STILLAGE_CACHED_MAPS", default_value_t = 8, value_name = "N")]
+    pub(super) cached_maps: usize,
+    /// Connections at the same time; further ones wait.
+    #[arg(long, env = "STILLAGE_MAX_CONNECTIONS", default_value_t = 1_024, value_name = "N")]
+    pub(super) max_connections: usize,
+    /// How long running jobs may go on after a request to stop, seconds; then they are put back.
+    #[arg(long, env = "STILLAGE_SHUTDOWN_GRACE_S", default_value_t = 25, value_name = "S")]
+    pub(super) shutdown_grace_s: u64,
+    /// What to log to standard error: a level, or directives such as `stillage=debug,sqlx=warn`.
+    #[arg(long, env = "STILLAGE_LOG", default_value = "info", value_name = "FILTER")]
+    pub(super) log: String,
+    /// The form of log lines.
+    #[arg(long, env = "STILLAGE_LOG_FORMAT", default_value = "text")]
+    pub(super) log_format: LogFormat,
+}
+
+/// The form of log lines.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum LogFormat {
+    /// For people.
+    Text,
+    /// One JSON object a line.
+    Json,
+}
+
+/// Why the service did not start.
+#[derive(Debug, thiserror::Error)]
+pub(super) enum ServeError {
+    /// An address that others can reach, without saying so.
+    #[error(
+        "{0} can be reached from other machines, and there are no API keys yet: listen on 127.0.0.1 behind a proxy \
+        that knows its users, or pass --allow-public"
+    )]
+    Public(SocketAddr),
+    /// The port is taken, or the address is not of this machine.
+    #[error("cannot listen on {address}: {source}")]
+    Listen {
+        /// The address.
+        address: SocketAddr,
+        /// What the system says.
+        source: io::Error,
+    },
+    /// The logging directives make no sense.
+    #[error("--log: {0}")]
+    Log(#[from] tracing_subscriber::filter::ParseError),
+    /// The store does not open.
+    #[error("{}", root(.0))]
+    App(#[from] AppError),
+    /// Threads, signals.
+    #[error("the system refused: {0}")]
+    System(#[from] io::Error),
+}
+
+/// An internal error hides its cause from clients, not from whoever starts the service.
+fn root(error: &AppError) -> &dyn std::fmt::Display {
+    match error {
+        AppError::Internal(source) => source,
+        other => other,
+    }
+}
+
+impl ServeArgs {
+    /// The configuration that the arguments mean.
+    #[must_use]
+    pub fn config(&self) -> Config {
+        let defaults = Config::new(&self.data);
+        Config {
+            limits: Limits {
+                max_bytes: self.max_upload_mib.saturating_mul(1 << 20),
+                max_cells: self.max_cells,
+                ..defaults.limits
+            },
+            job_slots: self.job_slots,
+            compute_threads: self.compute_threads.unwrap_or(defaults.compute_threads),
+            max_attempts: self.max_attempts,
+            max_queued_jobs: self.max_queued_jobs,
+            min_free_bytes: self.min_free_mib.saturating_mul(1 << 20),
+            max_job_bytes: self.max_job_mib.saturating_mul(1 << 20),
+            cached_maps: self.cached_maps,
+            shutdown_grace: Duration::from_secs(self.shutdown_grace_s),
+            ..defaults
+        }
+    }
+}
+
+/// Serves until SIGTERM or SIGINT; a second one ends the process at once (jobs survive that too).
+pub(super) fn run(args: &ServeArgs) -> Result<(), ServeError> {
+    if !args.allow_public && !args.listen.ip().is_loopback() {
+        return Err(ServeError::Public(args.listen));
+    }
+    start_logging(&args.log, args.log_format)?;
+    tokio::runtime::Builder::new_multi_thread().enable_all().build()?.block_on(serve(args))
+}
+
+async fn serve(args: &ServeArgs) -> Result<(), ServeError> {
+    let address = args.listen;
+    let listener = TcpListener::bind(address).await.map_err(|source| ServeError::Listen { address, source })?;
+    let mut signals = StopSignals::listen()?;
+    let app = App::open(args.config()).await?;
+    // Whoever started the service may not listen any more.
+    let _ = writeln!(io::stdout(), "listening on http://{}", listener.local_addr()?);
+    let stop = async {
+        signals.next().await;
+        tracing::info!("stopping: running requests and jobs may end");
+        tokio::spawn(async move {
+            signals.next().await;
+            tracing::warn!("stopped at once");
+            std::process::exit(130);
+        });
+    };
+    server::serve(listener, app, args.max_connections, stop).await;
+    tracing::info!("stopped");
+    Ok(())
+}
+
+/// The two signals that ask a service to stop.
+struct StopSignals {
+    terminate: Signal,
+    interrupt: Signal,
+}
+
+impl StopSignals {
+    fn listen() -> io::Result<Self> {
+        Ok(Self { terminate: signal(SignalKind::terminate())?, interrupt: signal(SignalKind::interrupt())? })
+    }
+
+    async fn next(&mut self) {
+        tokio::select! {
+            _ = self.terminate.recv() => {}
+            _ = self.interrupt.recv() => {}
+        }
+    }
+}
+
+fn start_logging(filter: &str, format: LogFormat) -> Result<(), ServeError> {
+    let lines = tracing_subscriber::fmt().with_env_filter(EnvFilter::try_new(filter)?).with_writer(io::stderr);
+    // Set already only when a test starts two services in one process.
+    let _ = match format {
+        LogFormat::Text => lines.try_init(),
+        LogFormat::Json => lines.json().try_init(),
+    };
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::Parser;
+
+    use super::*;
+
+    #[derive(Parser)]
+    struct Line {
+        #[command(flatten)]
+        serve: ServeArgs,
+    }
+
+    #[test]
+    fn the_defaults_of_the_command_line_are_those_of_the_configuration() {
+        let args = Line::parse_from(["stillage"]).serve;
+        assert_eq!(format!("{:?}", args.config()), format!("{:?}", Config::new("data")));
+    }
+
+    #[test]
+    fn an_address_that_others_reach_must_be_asked_for() {
+        let args = Line::parse_from(["stillage", "--listen", "0.0.0.0:0"]).serve;
+        let refusal = run(&args).expect_err("it is public").to_string();
+        assert!(refusal.starts_with("0.0.0.0:0 can be reached from other machines"), "{refusal}");
+    }
+}

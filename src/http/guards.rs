@@ -1,0 +1,229 @@
+//! What is checked of every request before a handler sees it: host, origin, parameters, pace and patience.
+
+use std::collections::{HashMap, HashSet};
+use std::pin::Pin;
+use std::sync::Arc;
+use std::task::{Context, Poll};
+use std::time::Duration;
+
+use axum::body::{Body, BodyDataStream, Bytes};
+use axum::extract::{MatchedPath, Query, Request, State};
+use axum::http::{HeaderName, HeaderValue, Method, StatusCode, Uri, Version, header};
+use axum::middleware::Next;
+use axum::response::{IntoResponse, Response};
+use futures::Stream;
+use utoipa::openapi::path::ParameterIn;
+use utoipa::openapi::{OpenApi, RefOr};
+
+use super::problem::{Problem, ProblemType};
+
+/// Longest time in which a request is answered, once its body is there.
+const PATIENCE: Duration = Duration::from_secs(30);
+/// Time that a body has before its pace counts.
+const PACE_GRACE: Duration = Duration::from_secs(15);
+/// Slowest pace of a body, bytes per second: a mobile link of the slow kind.
+const PACE: f64 = 16_384.0;
+
+/// Middleware: exactly one valid `Host` (RFC 9112, 3.2). Requests that smuggle a second one end here.
+pub async fn one_host(request: Request, next: Next) -> Response {
+    let mut hosts = request.headers().get_all(header::HOST).iter();
+    let valid = |host: &HeaderValue| {
+        host.to_str().ok().and_then(|host| host.parse::<axum::http::uri::Authority>().ok()).is_some()
+    };
+    let allowed = match (hosts.next(), hosts.next()) {
+        (Some(host), None) => valid(host),
+        // HTTP/2 names the authority in the address, HTTP/1.0 not at all.
+        (None, None) => request.version() != Version::HTTP_11,
+        _ => false,
+    };
+    if allowed {
+        return next.run(request).await;
+    }
+    Problem::new(ProblemType::BadRequest, "a request needs exactly one valid Host header").into_response()
+}
+
+/// Middleware: what pages of other sites may do (CORS), and `OPTIONS`.
+///
+/// They may read, without credentials; they may not write. A form of another site can post without asking first, so
+/// a write whose `Origin` is not this host is refused. Programs send no `Origin` and are not touched.
+pub async fn other_origins(request: Request, next: Next) -> Response {
+    let is_options = request.method() == Method::OPTIONS;
+    if !request.method().is_safe() && !is_own_origin(&request) {
+        let detail = "a page of another site may read this service, not write to it";
+        return Problem::new(ProblemType::CrossOrigin, detail).into_response();
+    }
+    let mut response = next.run(request).await;
+    let fixed =
+        |name: &'static str, value: &'static str| (HeaderName::from_static(name), HeaderValue::from_static(value));
+    if is_options && response.status() == StatusCode::METHOD_NOT_ALLOWED {
+        let allow = response.headers_mut().remove(header::ALLOW);
+        response = StatusCode::NO_CONTENT.into_response();
+        response.headers_mut().extend(allow.map(|allow| (header::ALLOW, allow)));
+        response.headers_mut().extend([
+            fixed("access-control-allow-methods", "GET, HEAD"),
+            fixed("access-control-allow-headers", "accept, if-none-match, last-event-id"),
+            fixed("access-control-max-age", "86400"),
+        ]);
+    }
+    response.headers_mut().extend([
+        fixed("access-control-allow-origin", "*"),
+        fixed(
+            "access-control-expose-headers",
+            "content-crs, etag, idempotent-replayed, link, location, retry-after, x-request-id",
+        ),
+    ]);
+    response
+}
+
+/// Whether a request comes from a page of this service, or from no page at all.
+fn is_own_origin(request: &Request) -> bool {
+    let Some(origin) = request.headers().get(header::ORIGIN) else { return true };
+    let origin = origin.to_str().ok().and_then(|origin| origin.parse::<Uri>().ok());
+    let host = request.headers().get(header::HOST).and_then(|host| host.to_str().ok());
+    let host = host.or_else(|| request.uri().authority().map(|authority| authority.as_str()));
+    origin.as_ref().and_then(Uri::authority).map(|authority| authority.as_str()) == host
+}
+
+/// The query parameters of every operation, as the OpenAPI document lists them.
+#[derive(Debug, Default)]
+pub struct KnownParameters(HashMap<(String, Method), HashSet<String>>);
+
+impl KnownParameters {
+    /// Reads them from the document.
+    #[must_use]
+    pub fn of(document: &OpenApi) -> Self {
+        let mut known = HashMap::new();
+        for (path, item) in &document.paths.paths {
+            let operations = [
+                (Method::GET, &item.get),
+                (Method::PUT, &item.put),
+                (Method::POST, &item.post),
+                (Method::PATCH, &item.patch),
+                (Method::DELETE, &item.delete),
+            ];
+            for (method, operation) in operations {
+                let Some(operation) = operation else { continue };
+                let parameters = operation.parameters.iter().flatten().filter_map(|parameter| match parameter {
+                    RefOr::T(parameter) => Some(parameter),
+                    RefOr::Ref(_) => None,
+                });
+                let names = parameters.filter(|parameter| parameter.parameter_in == ParameterIn::Query);
+                known.insert((path.clone(), method), names.map(|parameter| parameter.name.clone()).collect());
+            }
+        }
+        Self(known)
+    }
+
+    /// A parameter of the query that the operation does not have.
+    fn stranger(&self, path: &str, method: &Method, uri: &Uri) -> Option<String> {
+        let method = if *method == Method::HEAD { Method::GET } else { method.clone() };
+        let path = if path.len() > 1 { path.trim_end_matches('/') } else { path };
+        let known = self.0.get(&(path.to_owned(), method))?;
+        let Query(pairs) = Query::<Vec<(String, String)>>::try_from_uri(uri).ok()?;
+        pairs.into_iter().map(|(name, _)| name).find(|name| !known.contains(name))
+    }
+}
+
+/// Middleware: a query parameter that the operation does not have is an error, never ignored.
+pub async fn known_parameters(
+    State(known): State<Arc<KnownParameters>>,
+    path: Option<MatchedPath>,
+    request: Request,
+    next: Next,
+) -> Response {
+    let stranger = path.and_then(|path| known.stranger(path.as_str(), request.method(), request.uri()));
+    match stranger {
+        Some(name) => Problem::parameter(&name, "is not a parameter of this operation").into_response(),
+        None => next.run(request).await,
+    }
+}
+
+/// Middleware: a body has to keep a pace, and an answer has to come in time.
+///
+/// An upload may be large, so no clock runs while its body arrives; [`Paced`] ends the slow ones. Streams of events
+/// are answered at once and go on as long as they like.
+pub async fn in_time(path: Option<MatchedPath>, request: Request, next: Next) -> Response {
+    let is_upload = request.method() == Method::POST && path.is_some_and(|path| path.as_str() == "/v1/maps");
+    let is_read = request.method().is_safe();
+    let paced = |body| Body::from_stream(Paced::new(body, PACE_GRACE, PACE));
+    let answer = next.run(if is_read { request } else { request.map(paced) });
+    if is_upload {
+        return answer.await;
+    }
+    tokio::time::timeout(PATIENCE, answer).await.unwrap_or_else(|_| {
+        Problem::new(ProblemType::Unavailable, "the answer took too long").retry_after(10).into_response()
+    })
+}
+
+/// The body arrived below its pace.
+#[derive(Debug, thiserror::Error)]
+#[error("the body arrived too slowly: after {PACE_GRACE:?} it has to keep to {PACE} bytes per second")]
+pub struct TooSlow;
+
+/// A body that fails once it falls behind its pace.
+struct Paced {
+    body: BodyDataStream,
+    /// Bytes per second.
+    pace: f64,
+    deadline: Pin<Box<tokio::time::Sleep>>,
+}
+
+impl Paced {
+    fn new(body: Body, grace: Duration, pace: f64) -> Self {
+        Self { body: body.into_data_stream(), pace, deadline: Box::pin(tokio::time::sleep(grace)) }
+    }
+}
+
+impl Stream for Paced {
+    type Item = Result<Bytes, axum::BoxError>;
+
+    fn poll_next(mut self: Pin<&mut Self>, context: &mut Context<'_>) -> Poll<Option<Self::Item>> {
+        if let Poll::Ready(chunk) = Pin::new(&mut self.body).poll_next(context) {
+            if let Some(Ok(bytes)) = &chunk {
+                // Each byte that arrives moves the deadline.
+                let deadline = self.deadline.deadline() + Duration::from_secs_f64(bytes.len() as f64 / self.pace);
+                self.deadline.as_mut().reset(deadline);
+            }
+            return Poll::Ready(chunk.map(|chunk| chunk.map_err(Into::into)));
+        }
+        self.deadline.as_mut().poll(context).map(|()| Some(Err(TooSlow.into())))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn request(headers: &[(&'static str, &'static str)]) -> Request {
+        let builder = Request::builder().uri("/v1/maps");
+        headers
+            .iter()
+            .fold(builder, |builder, (name, value)| builder.header(*name, *value))
+            .body(Body::empty())
+            .expect("is a request")
+    }
+
+    #[test]
+    fn only_pages_of_this_host_are_its_own() {
+        let own = |origin| is_own_origin(&request(&[("host", "localhost:8080"), ("origin", origin)]));
+        assert!(is_own_origin(&request(&[("host", "localhost:8080")])));
+        assert!(own("http://localhost:8080"));
+        assert!(!own("http://localhost:9090"));
+        assert!(!own("https://example.org"));
+        assert!(!own("null"));
+    }
+
+    #[tokio::test]
+    async fn a_trickle_is_ended_and_a_flow_is_not() {
+        async fn read(chunk: usize) -> Result<usize, axum::Error> {
+            let chunks = futures::stream::unfold(0, move |sent| async move {
+                tokio::time::sleep(Duration::from_millis(1)).await;
+                (sent < 50).then(|| (Ok::<_, std::io::Error>(vec![0_u8; chunk]), sent + 1))
+            });
+            let paced = Paced::new(Body::from_stream(chunks), Duration::from_millis(10), 10_000.0);
+            axum::body::to_bytes(Body::from_stream(paced), usize::MAX).await.map(|bytes| bytes.len())
+        }
+        assert!(read(1).await.is_err());
+        assert_eq!(read(10_000).await.expect("is fast enough"), 500_000);
+    }
+}

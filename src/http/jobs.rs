@@ -1,0 +1,327 @@
+//! Jobs in the shape of OGC API Processes, and their progress as server-sent events.
+
+use std::convert::Infallible;
+use std::sync::Arc;
+use std::time::Duration;
+
+use axum::Json;
+use axum::extract::State;
+use axum::http::{HeaderMap, StatusCode, header};
+use axum::response::sse::{Event, KeepAlive, Sse};
+use axum::response::{IntoResponse, Response};
+use futures::Stream;
+use jiff::Timestamp;
+use serde::{Deserialize, Serialize};
+use utoipa::{IntoParams, ToSchema};
+
+use super::extractors::{Id, ListLimit, Path, Query};
+use super::links::{Base, JSON, Link};
+use super::problem::Problem;
+use super::views::{StageView, cut};
+use crate::app::{App, JobFilter, JobRecord, JobState};
+
+/// The one process of this service.
+const PROCESS: &str = "semantic-map";
+/// How often an idle stream of events says that it is still there.
+const HEARTBEAT: Duration = Duration::from_secs(15);
+/// How soon a client comes back to a stream that broke off.
+const RETRY: Duration = Duration::from_secs(2);
+
+/// A job: `statusInfo` of OGC API Processes.
+#[derive(Debug, Serialize, ToSchema)]
+#[schema(as = Job)]
+#[serde(rename_all = "camelCase")]
+pub struct JobView {
+    #[serde(rename = "jobID")]
+    job_id: Id,
+    /// `semantic-map`
+    #[serde(rename = "processID")]
+    #[schema(example = "semantic-map")]
+    process_id: &'static str,
+    /// `process`
+    #[schema(example = "process")]
+    r#type: &'static str,
+    #[schema(inline)]
+    status: JobStatus,
+    /// Percent.
+    #[schema(minimum = 0, maximum = 100)]
+    progress: u8,
+    /// For people.
+    message: String,
+    #[schema(value_type = String, format = DateTime)]
+    created: Timestamp,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schema(value_type = Option<String>, format = DateTime)]
+    started: Option<Timestamp>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schema(value_type = Option<String>, format = DateTime)]
+    finished: Option<Timestamp>,
+    #[schema(value_type = String, format = DateTime)]
+    updated: Timestamp,
+    /// The map that is analysed.
+    map_id: Id,
+    /// The analysis that was made.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    analysis_id: Option<Id>,
+    /// The stage it is in.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    stage: Option<String>,
+    /// What the finished stages cost.
+    stages: Vec<StageView>,
+    /// How often it was begun.
+    attempt: u32,
+    links: Vec<Link>,
+}
+
+/// State of a job.
+#[derive(Debug, Clone, Copy, Serialize, Deserialize, ToSchema)]
+#[serde(rename_all = "lowercase")]
+#[schema(as = StatusCode)]
+pub enum JobStatus {
+    Accepted,
+    Running,
+    Successful,
+    Failed,
+    Dismissed,
+}
+
+impl From<JobState> for JobStatus {
+    fn from(state: JobState) -> Self {
+        match state {
+            JobState::Accepted => Self::Accepted,
+            JobState::Running => Self::Running,
+            JobState::Successful => Self::Successful,
+            JobState::Failed => Self::Failed,
+            JobState::Dismissed => Self::Dismissed,
+        }
+    }
+}
+
+impl JobView {
+    /// The job as the client sees it.
+    #[must_use]
+    pub fn new(base: &Base, job: JobRecord) -> Self {
+        let path = format!("/v1/jobs/{}", job.id);
+        let mut links = vec![
+            base.link("self", &path, JSON),
+            base.link("monitor", &format!("{path}/events"), "text/event-stream"),
+            base.link("related", &format!("/v1/maps/{}", job.map), JSON).titled("The map"),
+        ];
+        if job.state == JobState::Successful {
+            let path = format!("/v1/maps/{}/collections", job.map);
+            links.push(base.link("http://www.opengis.net/def/rel/ogc/1.0/results", &path, JSON));
+        }
+        Self {
+            job_id: Id(job.id),
+            process_id: PROCESS,
+            r#type: "process",
+            status: job.state.into(),
+            progress: job.progress,
+            message: job.message,
+            created: job.created,
+            started: job.started,
+            finished: job.finished,
+            updated: job.updated,
+            map_id: Id(job.map),
+            analysis_id: job.analysis.map(Id),
+            stage: job.stage,
+            stages: job.stages.iter().map(Into::into).collect(),
+            attempt: job.attempt,
+            links,
+        }
+    }
+
+    /// 202 with the address of the job.
+    #[must_use]
+    pub fn accepted(base: &Base, job: JobRecord) -> Response {
+        let location = [(header::LOCATION, format!("/v1/jobs/{}", job.id))];
+        (StatusCode::ACCEPTED, location, Json(Self::new(base, job))).into_response()
+    }
+}
+
+/// `/v1/jobs/{jobId}`
+#[derive(Debug, Deserialize, IntoParams)]
+#[into_params(parameter_in = Path)]
+#[serde(rename_all = "camelCase")]
+pub struct JobPath {
+    /// The job.
+    pub job_id: Id,
+}
+
+/// Which jobs to list.
+#[derive(Debug, Deserialize, IntoParams)]
+#[into_params(parameter_in = Query)]
+#[serde(deny_unknown_fields)]
+pub struct JobQuery {
+    /// States, separated by commas.
+    #[param(value_type = Option<Vec<JobStatus>>, style = Form, explode = false)]
+    status: Option<States>,
+    /// Type of the jobs: all are `process`.
+    #[serde(rename = "type")]
+    #[param(inline, rename = "type")]
+    _type: Option<JobType>,
+    /// Most entries of the answer.
+    #[serde(default)]
+    #[param(value_type = Option<u32>, minimum = 1, maximum = 1000, default = 100)]
+    limit: ListLimit,
+    /// Id of the last job of the page before: taken from the `next` link.
+    after: Option<Id>,
+}
+
+/// Type of a job.
+#[derive(Debug, Deserialize, ToSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum JobType {
+    /// A run of a process.
+    Process,
+}
+
+/// A list of states as a parameter.
+#[derive(Debug, Deserialize)]
+#[serde(try_from = "String")]
+struct States {
+    states: Vec<JobState>,
+    text: String,
+}
+
+impl TryFrom<String> for States {
+    type Error = String;
+
+    fn try_from(text: String) -> Result<Self, String> {
+        let state = |name: &str| match name {
+            "accepted" => Ok(JobState::Accepted),
+            "running" => Ok(JobState::Running),
+            "successful" => Ok(JobState::Successful),
+            "failed" => Ok(JobState::Failed),
+            "dismissed" => Ok(JobState::Dismissed),
+            _ => Err(format!("{name:?} is none of accepted, running, successful, failed, dismissed")),
+        };
+        Ok(Self { states: text.split(',').map(state).collect::<Result<_, _>>()?, text })
+    }
+}
+
+/// A page of jobs.
+#[derive(Debug, Serialize, ToSchema)]
+pub struct JobList {
+    jobs: Vec<JobView>,
+    links: Vec<Link>,
+}
+
+/// List jobs
+///
+/// Newest first.
+#[utoipa::path(get, path = "/v1/jobs", tag = "jobs", operation_id = "listJobs", params(JobQuery),
+    responses((status = 200, description = "A page of jobs", body = JobList,
+        headers(("Link" = Option<String>, description = "The next page")))))]
+pub async fn list(State(app): State<Arc<App>>, base: Base, Query(query): Query<JobQuery>) -> Result<Response, Problem> {
+    let limit = query.limit.0;
+    let (states, text) = query.status.map(|status| (status.states, status.text)).unwrap_or_default();
+    let filter = JobFilter { states, map: None, limit: limit + 1, after: query.after.map(|id| id.0) };
+    let (jobs, more) = cut(app.jobs(filter).await?, limit);
+    let status = if text.is_empty() { String::new() } else { format!("&status={text}") };
+    let next = jobs.last().filter(|_| more).map(|last| format!("/v1/jobs?limit={limit}{status}&after={}", last.id));
+    let next = next.map(|path| base.link("next", &path, JSON));
+    let headers: HeaderMap = next.iter().map(|link| (header::LINK, link.header())).collect();
+    let links = std::iter::once(base.link("self", "/v1/jobs", JSON)).chain(next).collect();
+    let jobs = jobs.into_iter().map(|job| JobView::new(&base, job)).collect();
+    Ok((headers, Json(JobList { jobs, links })).into_response())
+}
+
+/// A job
+#[utoipa::path(get, path = "/v1/jobs/{jobId}", tag = "jobs", operation_id = "getJob", params(JobPath),
+    responses((status = 200, description = "The job", body = JobView)))]
+pub async fn get(State(app): State<Arc<App>>, base: Base, Path(path): Path<JobPath>) -> Result<Response, Problem> {
+    let job = app.job(path.job_id.0).await?;
+    Ok(([(header::CACHE_CONTROL, "no-store")], Json(JobView::new(&base, job))).into_response())
+}
+
+/// Dismiss a job
+///
+/// A queued job is dismissed at once, a running one within a second. A job that is over stays as it is: 409.
+#[utoipa::path(delete, path = "/v1/jobs/{jobId}", tag = "jobs", operation_id = "dismissJob", params(JobPath),
+    responses((status = 200, description = "The job, dismissed or about to be", body = JobView),
+        (status = 409, description = "The job is over", body = super::problem::ProblemDocument,
+            content_type = "application/problem+json")))]
+pub async fn dismiss(
+    State(app): State<Arc<App>>,
+    base: Base,
+    Path(path): Path<JobPath>,
+) -> Result<Json<JobView>, Problem> {
+    Ok(Json(JobView::new(&base, app.dismiss_job(path.job_id.0).await?)))
+}
+
+/// Watch a job
+///
+/// Server-sent events: `progress` with the job as its data and its time of change as its id. The stream ends with the
+/// final state. A client that comes back with `Last-Event-ID` is sent what is newer; when nothing more will come, 204
+/// tells it to stay away.
+#[utoipa::path(get, path = "/v1/jobs/{jobId}/events", tag = "jobs", operation_id = "watchJob",
+    params(JobPath, ("Last-Event-ID" = Option<String>, Header, description = "Id of the last event that arrived")),
+    responses((status = 200, description = "The events", body = String, content_type = "text/event-stream"),
+        (status = 204, description = "The job is over, and the client knows")))]
+pub async fn events(
+    State(app): State<Arc<App>>,
+    base: Base,
+    Path(path): Path<JobPath>,
+    headers: HeaderMap,
+) -> Result<Response, Problem> {
+    let job = app.job(path.job_id.0).await?;
+    let last = headers.get("last-event-id").and_then(|id| id.to_str().ok()?.parse::<i64>().ok());
+    if job.state.is_final() && last.is_some_and(|last| last >= event_id(&job)) {
+        return Ok(StatusCode::NO_CONTENT.into_response());
+    }
+    let events = Sse::new(watch(app, base, path.job_id, last));
+    // Proxies that buffer would hold the events back.
+    let headers = [("x-accel-buffering", "no"), ("cache-control", "no-store")];
+    Ok((headers, events.keep_alive(KeepAlive::new().interval(HEARTBEAT))).into_response())
+}
+
+/// Ids of events ascend with the changes of the job.
+fn event_id(job: &JobRecord) -> i64 {
+    job.updated.as_microsecond()
+}
+
+/// The states of a job from `last` on, up to the final one.
+fn watch(app: Arc<App>, base: Base, id: Id, last: Option<i64>) -> impl Stream<Item = Result<Event, Infallible>> {
+    struct Watching {
+        changes: tokio::sync::watch::Receiver<u64>,
+        last: Option<i64>,
+        over: bool,
+    }
+    let start = Watching { changes: app.job_changes(), last, over: false };
+    futures::stream::unfold(start, move |mut watching| {
+        let (app, base) = (Arc::clone(&app), base.clone());
+        async move {
+            while !watching.over && !app.is_stopping() {
+                // Marked before the job is read: a change after the reading wakes again.
+                watching.changes.mark_unchanged();
+                let job = app.job(id.0).await.ok()?;
+                if watching.last.is_none_or(|last| event_id(&job) > last) {
+                    watching.last = Some(event_id(&job));
+                    watching.over = job.state.is_final();
+                    let event = Event::default().event("progress").id(event_id(&job).to_string()).retry(RETRY);
+                    let event = event.json_data(JobView::new(&base, job)).ok()?;
+                    return Some((Ok(event), watching));
+                }
+                watching.over = job.state.is_final();
+                if !watching.over {
+                    watching.changes.changed().await.ok()?;
+                }
+            }
+            None
+        }
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn states_are_listed_with_commas() {
+        let states = States::try_from("running,failed".to_owned()).expect("are states");
+        assert_eq!(states.states, [JobState::Running, JobState::Failed]);
+        let refused = States::try_from("runing".to_owned()).expect_err("is none");
+        assert_eq!(refused, "\"runing\" is none of accepted, running, successful, failed, dismissed");
+    }
+}

@@ -1,0 +1,111 @@
+//! Links between resources, absolute, under the name by which the client reached the service.
+
+use std::convert::Infallible;
+
+use axum::extract::FromRequestParts;
+use axum::http::request::Parts;
+use axum::http::{HeaderValue, header};
+use serde::Serialize;
+use utoipa::ToSchema;
+
+/// JSON.
+pub const JSON: &str = "application/json";
+/// GeoJSON (RFC 7946).
+pub const GEO_JSON: &str = "application/geo+json";
+/// Comma-separated values (RFC 4180).
+pub const CSV: &str = "text/csv";
+/// Portable Network Graphics.
+pub const PNG: &str = "image/png";
+/// An OpenAPI 3.1 document.
+pub const OPENAPI: &str = "application/vnd.oai.openapi+json;version=3.1";
+
+/// A link to another resource.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, ToSchema)]
+pub struct Link {
+    /// Where it leads.
+    #[schema(format = "uri")]
+    pub href: String,
+    /// How the target relates to this resource.
+    #[schema(example = "self")]
+    pub rel: &'static str,
+    /// Media type of the target.
+    #[schema(example = "application/json")]
+    pub r#type: &'static str,
+    /// The target, for people.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub title: Option<&'static str>,
+}
+
+impl Link {
+    /// Names the target for people.
+    #[must_use]
+    pub const fn titled(mut self, title: &'static str) -> Self {
+        self.title = Some(title);
+        self
+    }
+
+    /// The link as the value of a `Link` header (RFC 8288).
+    #[must_use]
+    pub fn header(&self) -> HeaderValue {
+        let text = format!("<{}>; rel=\"{}\"; type=\"{}\"", self.href, self.rel, self.r#type);
+        HeaderValue::try_from(text).expect("addresses are percent-encoded")
+    }
+}
+
+/// Scheme and authority of the service as the client sees it: the `Host` header, and the scheme that a proxy in front
+/// reports in `X-Forwarded-Proto`.
+#[derive(Debug, Clone)]
+pub struct Base(String);
+
+impl Base {
+    /// A link to a path of the service.
+    #[must_use]
+    pub fn link(&self, rel: &'static str, path: &str, media_type: &'static str) -> Link {
+        Link { href: format!("{}{path}", self.0), rel, r#type: media_type, title: None }
+    }
+}
+
+impl<S: Sync> FromRequestParts<S> for Base {
+    type Rejection = Infallible;
+
+    async fn from_request_parts(parts: &mut Parts, _: &S) -> Result<Self, Infallible> {
+        let text = |name| parts.headers.get(name).and_then(|value: &HeaderValue| value.to_str().ok());
+        let authority = text(header::HOST).or_else(|| parts.uri.authority().map(|authority| authority.as_str()));
+        let scheme = match text(header::HeaderName::from_static("x-forwarded-proto")) {
+            Some("https") => "https",
+            _ => "http",
+        };
+        Ok(Self(authority.map(|authority| format!("{scheme}://{authority}")).unwrap_or_default()))
+    }
+}
+
+/// Writes a value for use in a query string.
+#[must_use]
+pub fn encode(value: &str) -> String {
+    let mut encoded = String::with_capacity(value.len());
+    for byte in value.bytes() {
+        match byte {
+            b'A'..=b'Z' | b'a'..=b'z' | b'0'..=b'9' | b'-' | b'.' | b'_' | b'~' | b',' | b':' | b'/' => {
+                encoded.push(char::from(byte));
+            }
+            byte => encoded.push_str(&format!("%{byte:02X}")),
+        }
+    }
+    encoded
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_are_percent_encoded() {
+        assert_eq!(encode("01-002&limit=ü"), "01-002%26limit%3D%C3%BC");
+    }
+
+    #[test]
+    fn a_link_is_a_header_too() {
+        let link = Base("http://robots:8080".into()).link("next", "/v1/maps?after=1", JSON);
+        assert_eq!(link.header(), "<http://robots:8080/v1/maps?after=1>; rel=\"next\"; type=\"application/json\"");
+    }
+}

@@ -1,0 +1,253 @@
+//! Maps: upload, list, landing page, rename, georeference, delete.
+
+use std::sync::Arc;
+
+use axum::Json;
+use axum::extract::{Request, State};
+use axum::http::{HeaderValue, StatusCode, header};
+use axum::response::{IntoResponse, Response};
+use jiff::Timestamp;
+use serde::{Deserialize, Serialize};
+use utoipa::{IntoParams, ToSchema};
+
+use super::conditional::{EntityTag, IfMatch, IfNoneMatch};
+use super::extractors::{Id, JsonBody, MapPath, Name, Paging, Path, Query, present};
+use super::jobs::JobView;
+use super::links::{Base, JSON, Link, PNG};
+use super::problem::Problem;
+use super::views::{DiagnosticView, GeoreferenceView, cut};
+use super::{pictures, upload};
+use crate::app::{App, MapPatch, MapRecord};
+
+/// A map: its landing page.
+#[derive(Debug, Serialize, ToSchema)]
+#[schema(as = Map)]
+#[serde(rename_all = "camelCase")]
+pub struct MapView {
+    id: Id,
+    /// Name for people.
+    name: String,
+    #[schema(value_type = String, format = DateTime)]
+    created: Timestamp,
+    #[schema(value_type = String, format = DateTime)]
+    updated: Timestamp,
+    /// Columns of the grid.
+    width: u32,
+    /// Rows of the grid.
+    height: u32,
+    /// Side of a cell, metres.
+    resolution_m: f64,
+    georeference: GeoreferenceView,
+    /// The analysis that answers; absent until the first one is finished.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    analysis_id: Option<Id>,
+    /// Remarks of the upload.
+    warnings: Vec<DiagnosticView>,
+    /// Raised with every change; the ETag.
+    version: u64,
+    links: Vec<Link>,
+}
+
+impl MapView {
+    fn new(base: &Base, map: MapRecord) -> Self {
+        let links = map_links(base, &map);
+        Self {
+            id: Id(map.id),
+            name: map.name,
+            created: map.created,
+            updated: map.updated,
+            width: map.width,
+            height: map.height,
+            resolution_m: map.resolution,
+            georeference: GeoreferenceView::of(map.georeference),
+            analysis_id: map.analysis.map(Id),
+            warnings: map.warnings.iter().map(Into::into).collect(),
+            version: map.version,
+            links,
+        }
+    }
+}
+
+/// Everything below a map.
+fn map_links(base: &Base, map: &MapRecord) -> Vec<Link> {
+    let to = |rel, below: &str, media_type| base.link(rel, &format!("/v1/maps/{}{below}", map.id), media_type);
+    let mut links = vec![
+        to("self", "", JSON),
+        to("data", "/collections", JSON).titled("Faces, edges, locations and the other features"),
+        to("related", "/analyses", JSON).titled("Analyses"),
+        to("related", "/diagnostics", JSON).titled("Signals and timings of the analysis"),
+        to("related", "/categories", JSON).titled("Categories with suggested labels"),
+        to("related", "/semantics", JSON).titled("Labels of the categories"),
+        to("version-history", "/semantics/versions", JSON).titled("Versions of the labels"),
+        to("related", "/routes", super::links::GEO_JSON).titled("Routes between two places"),
+    ];
+    links.extend(pictures::NAMES.map(|(name, title)| to("preview", &format!("/{name}"), PNG).titled(title)));
+    links.push(base.link("up", "/v1/maps", JSON));
+    links
+}
+
+/// A page of maps.
+#[derive(Debug, Serialize, ToSchema)]
+#[serde(rename_all = "camelCase")]
+pub struct MapList {
+    maps: Vec<MapView>,
+    links: Vec<Link>,
+}
+
+/// Parameters of an upload.
+#[derive(Debug, Deserialize, IntoParams)]
+#[into_params(parameter_in = Query)]
+#[serde(deny_unknown_fields)]
+pub struct UploadQuery {
+    /// Name for people. A message has no other place for it; in a form it stands before the part `name`.
+    name: Option<Name>,
+}
+
+/// Upload a map
+///
+/// Stores the map and puts its analysis in the queue. As a form: `image` and `metadata` are the two files of
+/// `map_server`. As JSON: a `nav_msgs/OccupancyGrid` message as rosbridge sends it. Limits: 128 MiB by default for the
+/// image or the message, 64 KiB for `metadata` and `options`.
+#[utoipa::path(post, path = "/v1/maps", tag = "maps", operation_id = "createMap",
+    params(UploadQuery,
+        ("Idempotency-Key" = Option<String>, Header, min_length = 1, max_length = 255,
+            description = "A key of the client's choice: the same key with the same content answers the same job")),
+    request_body(content(
+        (upload::MapUploadView = "multipart/form-data"),
+        (OccupancyGridMessage = "application/json")), description = "The map"),
+    responses(
+        (status = 202, description = "Stored; the job will analyse it", body = JobView,
+            headers(("Location" = String, description = "The job"),
+                ("Idempotent-Replayed" = Option<String>, description = "`true` when the key had been seen before"))),
+        (status = 409, description = "The key was used with other content", body = super::problem::ProblemDocument,
+            content_type = "application/problem+json"),
+        (status = 507, description = "Short of disk space", body = super::problem::ProblemDocument,
+            content_type = "application/problem+json")))]
+pub async fn create(
+    State(app): State<Arc<App>>,
+    base: Base,
+    Query(query): Query<UploadQuery>,
+    request: Request,
+) -> Result<Response, Problem> {
+    let map = upload::read(request, &app, query.name, &app.config().limits).await?;
+    let (job, is_new) = app.create_map(map).await?;
+    let mut response = JobView::accepted(&base, job);
+    if !is_new {
+        response.headers_mut().insert("idempotent-replayed", HeaderValue::from_static("true"));
+    }
+    Ok(response)
+}
+
+/// List maps
+///
+/// Newest first.
+#[utoipa::path(get, path = "/v1/maps", tag = "maps", operation_id = "listMaps", params(Paging),
+    responses((status = 200, description = "A page of maps", body = MapList,
+        headers(("Link" = Option<String>, description = "The next page")))))]
+pub async fn list(State(app): State<Arc<App>>, base: Base, Query(paging): Query<Paging>) -> Result<Response, Problem> {
+    let limit = paging.limit.0;
+    let (maps, more) = cut(app.maps(limit + 1, paging.after.map(|id| id.0)).await?, limit);
+    let next = maps.last().filter(|_| more).map(|last| format!("/v1/maps?limit={limit}&after={}", last.id));
+    let next = next.map(|path| base.link("next", &path, JSON));
+    let headers: axum::http::HeaderMap = next.iter().map(|link| (header::LINK, link.header())).collect();
+    let links = std::iter::once(base.link("self", "/v1/maps", JSON)).chain(next).collect();
+    let maps = maps.into_iter().map(|map| MapView::new(&base, map)).collect();
+    Ok((headers, Json(MapList { maps, links })).into_response())
+}
+
+/// A map
+///
+/// Its landing page: what it is, and links to all that can be asked of it.
+#[utoipa::path(get, path = "/v1/maps/{mapId}", tag = "maps", operation_id = "getMap", params(MapPath),
+    responses((status = 200, description = "The map", body = MapView,
+        headers(("ETag" = String, description = "Its version")))))]
+pub async fn get(
+    State(app): State<Arc<App>>,
+    base: Base,
+    Path(path): Path<MapPath>,
+    if_none_match: IfNoneMatch,
+) -> Result<Response, Problem> {
+    let map = app.map(path.map_id.0).await?;
+    Ok(EntityTag::of_version(map.version).answer(&if_none_match, || Json(MapView::new(&base, map)).into_response()))
+}
+
+/// Changes to a map, as a JSON merge patch (RFC 7396).
+#[derive(Debug, Deserialize, ToSchema)]
+#[serde(deny_unknown_fields)]
+pub struct MapPatchBody {
+    /// A new name.
+    name: Option<Name>,
+    /// Where the map lies on Earth; null makes it nominal.
+    #[serde(default, deserialize_with = "present")]
+    #[schema(value_type = Option<GeoreferenceView>)]
+    georeference: Option<Option<GeoreferenceView>>,
+}
+
+/// Rename or georeference a map
+///
+/// With `If-Match` only if nobody else changed it since.
+#[utoipa::path(patch, path = "/v1/maps/{mapId}", tag = "maps", operation_id = "updateMap",
+    params(MapPath, ("If-Match" = Option<String>, Header, description = "The ETag that was read")),
+    request_body(content((MapPatchBody = "application/merge-patch+json"), (MapPatchBody = "application/json"))),
+    responses((status = 200, description = "The map as it is now", body = MapView,
+        headers(("ETag" = String, description = "Its version")))))]
+pub async fn update(
+    State(app): State<Arc<App>>,
+    base: Base,
+    Path(path): Path<MapPath>,
+    if_match: IfMatch,
+    JsonBody(body): JsonBody<MapPatchBody>,
+) -> Result<Response, Problem> {
+    let id = path.map_id.0;
+    let georeference = match body.georeference {
+        Some(Some(georeference)) => Some(georeference.check("/georeference")?),
+        Some(None) => Some(None),
+        None => None,
+    };
+    let version = app.map(id).await?.version;
+    let if_match = if_match.against(&EntityTag::of_version(version), version)?;
+    let patch = MapPatch { name: body.name.map(|name| name.0), georeference };
+    let map = app.update_map(id, patch, if_match).await?;
+    let tag = [(header::ETAG, EntityTag::of_version(map.version).header())];
+    Ok((tag, Json(MapView::new(&base, map))).into_response())
+}
+
+/// Delete a map
+///
+/// Dismisses its jobs and deletes everything of it.
+#[utoipa::path(delete, path = "/v1/maps/{mapId}", tag = "maps", operation_id = "deleteMap", params(MapPath),
+    responses((status = 204, description = "Deleted")))]
+pub async fn delete(State(app): State<Arc<App>>, Path(path): Path<MapPath>) -> Result<StatusCode, Problem> {
+    app.delete_map(path.map_id.0).await?;
+    Ok(StatusCode::NO_CONTENT)
+}
+
+/// A `nav_msgs/OccupancyGrid` message, for the document: it is read by [`crate::ingest`].
+#[derive(Debug, ToSchema)]
+#[allow(dead_code, reason = "it describes the message")]
+pub struct OccupancyGridMessage {
+    /// Frame and time; not used.
+    header: Option<serde_json::Value>,
+    info: OccupancyGridInfo,
+    /// Cells, row-major from the lower left corner: -1 unknown, 0 free to 100 occupied.
+    #[schema(example = json!([0, 100, 0, -1]))]
+    data: Vec<i8>,
+}
+
+/// `nav_msgs/MapMetaData`
+#[derive(Debug, ToSchema)]
+#[allow(dead_code, reason = "it describes the message")]
+pub struct OccupancyGridInfo {
+    /// Side of a cell, metres.
+    #[schema(exclusive_minimum = 0, example = 0.05)]
+    resolution: f64,
+    /// Columns.
+    #[schema(minimum = 1, example = 2)]
+    width: u32,
+    /// Rows.
+    #[schema(minimum = 1, example = 2)]
+    height: u32,
+    /// Pose of the lower left corner: `position {x, y, z}`, `orientation {x, y, z, w}`.
+    #[schema(example = json!({"position": {"x": 0, "y": 0, "z": 0}, "orientation": {"x": 0, "y": 0, "z": 0, "w": 1}}))]
+    origin: serde_json::Value,
+}

@@ -1,0 +1,167 @@
+//! The OpenAPI 3.1 document: collected from the routes, completed by rules that hold for every operation.
+
+use stillage_core::AnalysisOptions;
+use utoipa::openapi::path::{Operation, Parameter, ParameterBuilder, ParameterIn};
+use utoipa::openapi::schema::Type;
+use utoipa::openapi::{ContentBuilder, OpenApi, Ref, RefOr, Required, Response, ResponseBuilder, Schema};
+use utoipa::{OpenApi as _, ToSchema as _};
+
+use super::problem::{PROBLEM_JSON, ProblemDocument};
+
+/// What the document says of itself.
+#[derive(utoipa::OpenApi)]
+#[openapi(
+    info(
+        title = "stillage",
+        description = "An occupancy map goes in, a semantic map comes out: faces, edges, places, storage locations and \
+            routes as GeoJSON.\n\nEvery error is a problem detail (RFC 9457). Unknown query parameters and members are \
+            errors. Reads have strong ETags. Pages of other sites may read, not write.",
+        license(name = "MIT OR Apache-2.0", identifier = "MIT OR Apache-2.0")
+    ),
+    servers((url = "/", description = "This service")),
+    components(schemas(ProblemDocument)),
+    tags(
+        (name = "maps", description = "Upload maps and look at them"),
+        (name = "jobs", description = "Watch and dismiss analyses"),
+        (name = "semantics", description = "Give meaning: categories, labels, rule sets"),
+        (name = "features", description = "Faces, edges, locations and the rest as GeoJSON"),
+        (name = "fleet", description = "Routes for robots"),
+        (name = "service", description = "Health, metrics and this document")
+    )
+)]
+struct Api;
+
+/// The document before the routes are in it.
+#[must_use]
+pub fn head() -> OpenApi {
+    Api::openapi()
+}
+
+/// Completes the document once all routes are in it.
+pub fn complete(document: &mut OpenApi) {
+    for (path, item) in &mut document.paths.paths {
+        let operations = [
+            (&mut item.get, true),
+            (&mut item.put, false),
+            (&mut item.post, false),
+            (&mut item.patch, false),
+            (&mut item.delete, false),
+        ];
+        for (operation, is_read) in operations {
+            if let Some(operation) = operation {
+                complete_operation(operation, path, is_read);
+            }
+        }
+    }
+    let components = document.components.get_or_insert_default();
+    for (name, status, description) in PROBLEMS {
+        components.responses.insert((*name).to_owned(), problem_response(*status, description).into());
+    }
+    let defaults = serde_json::to_value(AnalysisOptions::default()).expect("options are plain data");
+    let group_of = |name: &str| match name {
+        "GridOptions" => Some("grid"),
+        "CategorizationOptions" => Some("categorization"),
+        "OrientationOptions" => Some("orientation"),
+        "RegionOptions" => Some("regions"),
+        "DecompositionOptions" => Some("decomposition"),
+        "AnnotationOptions" => Some("annotation"),
+        _ => None,
+    };
+    for (name, schema) in &mut components.schemas {
+        let group =
+            if name == "AnalysisOptions" { Some(&defaults) } else { group_of(name).map(|group| &defaults[group]) };
+        if let (RefOr::T(Schema::Object(object)), Some(group)) = (schema, group) {
+            for (field, schema) in &mut object.properties {
+                if let RefOr::T(Schema::Object(schema)) = schema {
+                    schema.default = group.get(field).filter(|value| !value.is_null()).cloned();
+                }
+            }
+        }
+    }
+}
+
+/// The problems that follow from the shape of an operation, by the name of their component.
+const PROBLEMS: &[(&str, u16, &str)] = &[
+    ("BadRequest", 400, "The request is malformed, or a parameter is unknown or has a bad value"),
+    ("Forbidden", 403, "A page of another site tried to write, or the resource is read-only"),
+    ("NotFound", 404, "There is no such resource"),
+    ("NotAcceptable", 406, "No representation of an accepted media type"),
+    ("Timeout", 408, "The body arrived too slowly"),
+    ("NotAnalysed", 409, "The map has no finished analysis yet"),
+    ("PreconditionFailed", 412, "The resource has changed since the ETag in If-Match was read"),
+    ("TooLarge", 413, "The request is over a limit"),
+    ("UnsupportedMediaType", 415, "The format is not supported"),
+    ("Invalid", 422, "The content is invalid"),
+    ("Internal", 500, "The service failed"),
+    ("Unavailable", 503, "The service cannot answer now, or the queue is full"),
+];
+
+fn problem_response(status: u16, description: &str) -> Response {
+    let schema = Ref::from_schema_name(ProblemDocument::name());
+    let builder = ResponseBuilder::new().description(description);
+    let builder = builder.content(PROBLEM_JSON, ContentBuilder::new().schema(Some(schema)).build());
+    let seconds = utoipa::openapi::ObjectBuilder::new().schema_type(Type::Integer);
+    let retry_after = utoipa::openapi::HeaderBuilder::new().schema(Some(seconds)).description(Some("Seconds to wait"));
+    match status {
+        503 => builder.header("Retry-After", retry_after.build()).build(),
+        _ => builder.build(),
+    }
+}
+
+/// Adds what follows from the shape of an operation: the problems it can answer, and the conditional read.
+fn complete_operation(operation: &mut Operation, path: &str, is_read: bool) {
+    for parameter in operation.parameters.iter_mut().flatten() {
+        // A header is there or not; it is never null.
+        if let RefOr::T(parameter @ Parameter { parameter_in: ParameterIn::Header, .. }) = parameter
+            && let Some(RefOr::T(Schema::Object(schema))) = &mut parameter.schema
+        {
+            schema.schema_type = Type::String.into();
+        }
+    }
+    let below_map = path.starts_with("/v1/maps/{mapId}/") && !path.ends_with("/analyses");
+    let has_if_match = operation.parameters.iter().flatten().any(|parameter| {
+        matches!(parameter, RefOr::T(Parameter { name, parameter_in: ParameterIn::Header, .. }) if name == "If-Match")
+    });
+    let rules = [
+        (true, "BadRequest"),
+        (!is_read, "Forbidden"),
+        (path.contains('{'), "NotFound"),
+        (is_read, "NotAcceptable"),
+        (operation.request_body.is_some(), "Timeout"),
+        (below_map, "NotAnalysed"),
+        (has_if_match, "PreconditionFailed"),
+        (operation.request_body.is_some(), "TooLarge"),
+        (operation.request_body.is_some(), "UnsupportedMediaType"),
+        (operation.request_body.is_some(), "Invalid"),
+        (true, "Internal"),
+        (true, "Unavailable"),
+    ];
+    for ((holds, name), (component, status, _)) in rules.into_iter().zip(PROBLEMS) {
+        debug_assert_eq!(name, *component, "the rules follow the order of the problems");
+        if holds {
+            let reference = || RefOr::Ref(Ref::from_response_name(*component));
+            operation.responses.responses.entry(status.to_string()).or_insert_with(reference);
+        }
+    }
+    let has_tag =
+        matches!(operation.responses.responses.get("200"), Some(RefOr::T(ok)) if ok.headers.contains_key("ETag"));
+    if is_read && has_tag {
+        let unchanged = ResponseBuilder::new().description("The client has the newest state already").build();
+        operation.responses.responses.insert("304".to_owned(), unchanged.into());
+        let condition = ParameterBuilder::new()
+            .name("If-None-Match")
+            .parameter_in(ParameterIn::Header)
+            .required(Required::False)
+            .description(Some("ETags that the client has"))
+            .schema(Some(utoipa::openapi::ObjectBuilder::new().schema_type(Type::String)));
+        operation.parameters.get_or_insert_default().push(condition.build().into());
+    }
+}
+
+/// The document as it is served and stored: pretty, with a last line break.
+#[must_use]
+pub fn write(document: &OpenApi) -> String {
+    let mut text = document.to_pretty_json().expect("the document is plain data");
+    text.push('\n');
+    text
+}

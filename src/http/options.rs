@@ -1,0 +1,238 @@
+//! The options of an analysis as the document shows them: a view of [`stillage_core::AnalysisOptions`], which reads and
+//! checks them. A test keeps the two alike; the defaults are put in from the core.
+
+#![allow(dead_code, reason = "it describes; the core reads")]
+
+use serde::Serialize;
+use utoipa::ToSchema;
+
+/// Everything that decides the result of an analysis beside the map itself. Every field is optional.
+#[derive(Debug, Default, Serialize, ToSchema)]
+#[schema(as = AnalysisOptions)]
+#[serde(deny_unknown_fields, rename_all = "camelCase")]
+pub struct AnalysisOptionsView {
+    /// Seed of every random choice.
+    seed: Option<u64>,
+    grid: Option<GridOptionsView>,
+    categorization: Option<CategorizationOptionsView>,
+    orientation: Option<OrientationOptionsView>,
+    regions: Option<RegionOptionsView>,
+    decomposition: Option<DecompositionOptionsView>,
+    annotation: Option<AnnotationOptionsView>,
+}
+
+/// Overrides of the thresholds in the map's own metadata.
+#[derive(Debug, Default, Serialize, ToSchema)]
+#[schema(as = GridOptions)]
+#[serde(deny_unknown_fields, rename_all = "camelCase")]
+pub struct GridOptionsView {
+    /// Replaces `occupied_thresh`.
+    #[schema(minimum = 0, maximum = 1)]
+    occupied_threshold: Option<f64>,
+    /// Replaces `free_thresh`. Set 0.196 where a file's 0.25 turns unknown cells (grey 205) free.
+    #[schema(minimum = 0, maximum = 1)]
+    free_threshold: Option<f64>,
+}
+
+/// Place categories (paper, II-A).
+#[derive(Debug, Default, Serialize, ToSchema)]
+#[schema(as = CategorizationOptions)]
+#[serde(deny_unknown_fields, rename_all = "camelCase")]
+pub struct CategorizationOptionsView {
+    /// `paper13`: the thirteen features of the paper's Table I. `halmstad2017`: those of the author's code of 2017.
+    #[schema(inline)]
+    profile: Option<FeatureProfile>,
+    /// Beams per cell.
+    #[schema(minimum = 8, maximum = 3600)]
+    beams: Option<u32>,
+    /// Longest beam, metres; unlimited when absent.
+    #[schema(minimum = 0.1, maximum = 10_000)]
+    max_range_m: Option<f64>,
+    /// Whether unknown cells stop beams.
+    unknown_blocks: Option<bool>,
+    /// Every how many columns and rows a free cell is measured.
+    #[schema(minimum = 1, maximum = 64)]
+    stride: Option<u32>,
+    /// Smallest difference of consecutive beams that counts as a gap, metres.
+    #[schema(minimum = 0, maximum = 1000)]
+    gap_m: Option<f64>,
+    /// Number of categories.
+    #[schema(minimum = 2, maximum = 32)]
+    k: Option<u32>,
+    /// How features are made comparable.
+    #[schema(inline)]
+    scaling: Option<Scaling>,
+    /// Restarts of k-means.
+    #[schema(minimum = 1, maximum = 100)]
+    restarts: Option<u32>,
+    /// Most iterations of one k-means run.
+    #[schema(minimum = 1, maximum = 10_000)]
+    max_iterations: Option<u32>,
+}
+
+/// Set of features.
+#[derive(Debug, Serialize, ToSchema)]
+#[serde(rename_all = "lowercase")]
+enum FeatureProfile {
+    Paper13,
+    Halmstad2017,
+}
+
+/// How features are made comparable.
+#[derive(Debug, Serialize, ToSchema)]
+#[serde(rename_all = "camelCase")]
+enum Scaling {
+    None,
+    DivideByMean,
+    ZScore,
+    LogZScore,
+}
+
+/// Dominant orientations (paper, II-B).
+#[derive(Debug, Default, Serialize, ToSchema)]
+#[schema(as = OrientationOptions)]
+#[serde(deny_unknown_fields, rename_all = "camelCase")]
+pub struct OrientationOptionsView {
+    /// Standard deviation of the Gaussian derivative, metres.
+    #[schema(minimum = 0.001, maximum = 10)]
+    gradient_scale_m: Option<f64>,
+    /// Bins of the histogram over half a turn.
+    #[schema(minimum = 36, maximum = 7200)]
+    bins: Option<u32>,
+    /// Most components of the mixture.
+    #[schema(minimum = 1, maximum = 32)]
+    max_components: Option<u32>,
+    /// Smallest height of a peak above the floor, as a share of the highest.
+    #[schema(minimum = 0, maximum = 1)]
+    min_peak: Option<f64>,
+    /// Smallest angle between two orientations, degrees.
+    #[schema(minimum = 0.1, maximum = 89)]
+    min_separation_deg: Option<f64>,
+    /// Whether each orientation is refined to the nearby maximum of radiogram energy.
+    refine: Option<bool>,
+}
+
+/// Texture regions (paper, II-D).
+#[derive(Debug, Default, Serialize, ToSchema)]
+#[schema(as = RegionOptions)]
+#[serde(deny_unknown_fields, rename_all = "camelCase")]
+pub struct RegionOptionsView {
+    /// `single`: the whole map is one region. `gabor`: by texture.
+    #[schema(inline)]
+    method: Option<RegionMethod>,
+    /// Number of texture clusters; chosen automatically when absent.
+    #[schema(minimum = 1, maximum = 16)]
+    count: Option<u32>,
+    /// Most texture clusters when the number is chosen automatically.
+    #[schema(minimum = 1, maximum = 16)]
+    max_count: Option<u32>,
+    /// Shortest and longest wavelength of the Gabor bank, metres.
+    #[schema(min_items = 2, max_items = 2)]
+    wavelengths_m: Option<Vec<f64>>,
+    /// Smoothing of the texture energy, metres.
+    #[schema(minimum = 0.1, maximum = 100)]
+    smoothing_m: Option<f64>,
+    /// Side of a tile, the grain of region boundaries, metres.
+    #[schema(minimum = 0.1, maximum = 100)]
+    tile_m: Option<f64>,
+    /// Smallest region, as a share of the known area.
+    #[schema(minimum = 0, maximum = 1)]
+    min_share: Option<f64>,
+}
+
+/// How regions are found.
+#[derive(Debug, Serialize, ToSchema)]
+#[serde(rename_all = "camelCase")]
+enum RegionMethod {
+    Single,
+    Gabor,
+}
+
+/// Radiography and lines (paper, II-B).
+#[derive(Debug, Default, Serialize, ToSchema)]
+#[schema(as = DecompositionOptions)]
+#[serde(deny_unknown_fields, rename_all = "camelCase")]
+pub struct DecompositionOptionsView {
+    /// Width of the Hann window over a radiogram, metres.
+    #[schema(minimum = 0, maximum = 10)]
+    smoothing_m: Option<f64>,
+    /// Smallest distance between two parallel lines, metres.
+    #[schema(minimum = 0.01, maximum = 100)]
+    min_distance_m: Option<f64>,
+    /// Smallest peak, as a share of the highest of its radiogram.
+    #[schema(minimum = 0, maximum = 1)]
+    min_peak: Option<f64>,
+}
+
+/// Categories of faces (paper, II-B).
+#[derive(Debug, Default, Serialize, ToSchema)]
+#[schema(as = AnnotationOptions)]
+#[serde(deny_unknown_fields, rename_all = "camelCase")]
+pub struct AnnotationOptionsView {
+    /// `vote`: the category of most of its free cells.
+    #[schema(inline)]
+    method: Option<AnnotationMethod>,
+    /// Half width of the strip along an edge in which occupied cells support it, metres.
+    #[schema(minimum = 0, maximum = 10)]
+    support_width_m: Option<f64>,
+}
+
+/// How a face gets its category.
+#[derive(Debug, Serialize, ToSchema)]
+#[serde(rename_all = "camelCase")]
+enum AnnotationMethod {
+    Vote,
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::Value;
+    use stillage_core::AnalysisOptions;
+
+    use super::*;
+
+    /// Every path to a value that is no object.
+    fn paths(prefix: &str, value: &Value) -> Vec<String> {
+        match value {
+            Value::Object(members) => {
+                members.iter().flat_map(|(name, value)| paths(&format!("{prefix}/{name}"), value)).collect()
+            }
+            _ => vec![prefix.to_owned()],
+        }
+    }
+
+    #[test]
+    fn the_view_has_the_fields_of_the_options_and_no_others() {
+        let view = AnalysisOptionsView {
+            seed: None,
+            grid: Some(GridOptionsView::default()),
+            categorization: Some(CategorizationOptionsView::default()),
+            orientation: Some(OrientationOptionsView::default()),
+            regions: Some(RegionOptionsView::default()),
+            decomposition: Some(DecompositionOptionsView::default()),
+            annotation: Some(AnnotationOptionsView::default()),
+        };
+        let view = serde_json::to_value(view).expect("can be written");
+        let options = serde_json::to_value(AnalysisOptions::default()).expect("can be written");
+        assert_eq!(paths("", &view), paths("", &options));
+    }
+
+    #[test]
+    fn every_choice_of_the_view_can_be_read() {
+        for (pointer, choices) in [
+            ("/categorization/profile", vec!["paper13", "halmstad2017"]),
+            ("/categorization/scaling", vec!["none", "divideByMean", "zScore", "logZScore"]),
+            ("/regions/method", vec!["single", "gabor"]),
+            ("/annotation/method", vec!["vote"]),
+        ] {
+            for choice in choices {
+                let mut options = serde_json::to_value(AnalysisOptions::default()).expect("can be written");
+                *options.pointer_mut(pointer).expect("is there") = choice.into();
+                assert!(serde_json::from_value::<AnalysisOptions>(options).is_ok(), "{pointer} = {choice}");
+            }
+        }
+        let written = |value| serde_json::to_value(value).expect("can be written");
+        assert_eq!(written(FeatureProfile::Halmstad2017), "halmstad2017");
+        assert_eq!(serde_json::to_value(Scaling::LogZScore).expect("can be written"), "logZScore");
+    }
+}

@@ -1,0 +1,215 @@
+//! The life of one claimed job, from the claim to its end.
+
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use stillage_core::StopFlag;
+use tokio::sync::oneshot;
+use tokio::time::MissedTickBehavior;
+use uuid::Uuid;
+
+use super::compute::{ComputeError, ComputePool, Computed, Task};
+use super::worker::Worker;
+use crate::fail_point;
+use crate::records::JobState;
+use crate::stage_clock::StageClock;
+use crate::store::queue::{Claim, Progress};
+use crate::store::{Blob, NewAnalysis, StoreError, now};
+
+/// How long a computation may take to notice its stop flag when the service ends.
+const LAST_MOMENTS: Duration = Duration::from_secs(1);
+
+/// A job in progress.
+pub(super) struct Running<'a> {
+    worker: &'a Worker,
+    claim: Claim,
+    clock: Arc<StageClock>,
+    stop: StopFlag,
+    /// What the row says, and since when.
+    written: Progress,
+    renewed: Instant,
+}
+
+impl<'a> Running<'a> {
+    pub(super) fn new(worker: &'a Worker, claim: Claim) -> Self {
+        let clock = Arc::new(StageClock::new());
+        let (stop, written) = (StopFlag::default(), Progress::default());
+        Self { worker, claim, clock, stop, written, renewed: Instant::now() }
+    }
+
+    /// Sees the job to its end. An error means that its end could not be written; the lease will bring it back.
+    pub(super) async fn run(mut self, pool: &ComputePool) -> Result<(), StoreError> {
+        fail_point::pass("before-compute");
+        let source = match self.worker.store().blobs().get(&self.claim.source).await {
+            Ok(source) => source,
+            Err(error) => return self.end_with_fault(error).await,
+        };
+        let Some(result) = self.compute(pool, source).await? else { return Ok(()) };
+        match result {
+            Ok(computed) => match self.store_result(computed).await {
+                // Cancelled in the last moment, or not ours any more: then this changes nothing.
+                Err(StoreError::ClaimLost) => self.dismiss().await,
+                Err(error) => self.end_with_fault(error).await,
+                Ok(()) => Ok(()),
+            },
+            Err(error) => self.fail(&error).await,
+        }
+    }
+
+    /// Computes under the heartbeat. `None` when the job was taken out of this worker's hands; its row is settled then.
+    async fn compute(
+        &mut self,
+        pool: &ComputePool,
+        source: Blob,
+    ) -> Result<Option<Result<Computed, ComputeError>>, StoreError> {
+        let spec = match self.claim.options.clone().check() {
+            Ok(spec) => spec,
+            Err(problems) => {
+                let all: Vec<String> = problems.iter().map(ToString::to_string).collect();
+                self.end(JobState::Failed, &format!("the options are out of range: {}", all.join("; "))).await?;
+                return Ok(None);
+            }
+        };
+        let compute = Arc::clone(self.worker.compute());
+        let mut result =
+            pool.start(Task { compute, source, spec, stop: self.stop.clone(), clock: Arc::clone(&self.clock) });
+        let mut ticks = tokio::time::interval(self.worker.settings().heartbeat);
+        ticks.set_missed_tick_behavior(MissedTickBehavior::Delay);
+        loop {
+            tokio::select! {
+                result = &mut result => return Ok(Some(received(result))),
+                _ = ticks.tick() => match self.heartbeat().await {
+                    Ok(false) => {}
+                    Ok(true) => {
+                        self.stop.raise();
+                        let dismissed = self.dismiss().await;
+                        self.drain(result).await;
+                        return dismissed.map(|()| None);
+                    }
+                    Err(_) => {
+                        self.drain(result).await;
+                        return Ok(None);
+                    }
+                },
+                () = self.worker.grace_is_over() => {
+                    let requeued = self.give_back().await;
+                    self.drain(result).await;
+                    return requeued.map(|()| None);
+                }
+            }
+        }
+    }
+
+    /// Tells the store where the job is, when that changed or the lease wants renewing; otherwise only asks whether it
+    /// is to be cancelled. An error means that the claim is lost.
+    async fn heartbeat(&mut self) -> Result<bool, StoreError> {
+        let lease = self.worker.settings().terms.lease;
+        let progress = Progress {
+            percent: self.clock.percent(),
+            stage: self.clock.stage().map(|stage| stage.name().to_owned()),
+            stages: self.clock.reports(),
+        };
+        let is_due = progress != self.written || self.renewed.elapsed() >= lease / 3;
+        let answer = if is_due {
+            self.worker.store().heartbeat(&self.claim, &progress, lease, now()).await
+        } else {
+            self.worker.store().is_cancel_requested(&self.claim).await
+        };
+        match answer {
+            Ok(cancel) => {
+                if is_due {
+                    self.written = progress;
+                    self.renewed = Instant::now();
+                    self.worker.signals().changed();
+                }
+                Ok(cancel)
+            }
+            // A store that is out of reach for a while is no reason to throw work away, as long as the lease holds.
+            Err(error) if error.is_transient() && self.renewed.elapsed() < lease => {
+                tracing::warn!(%error, job = %self.claim.job, "heartbeat failed");
+                Ok(false)
+            }
+            Err(error) => {
+                tracing::warn!(%error, job = %self.claim.job, "the job was taken away");
+                Err(error)
+            }
+        }
+    }
+
+    /// Waits until the computation has let go of the pool, but not beyond the end of the service.
+    async fn drain(&self, result: oneshot::Receiver<Result<Computed, ComputeError>>) {
+        self.stop.raise();
+        tokio::select! {
+            _ = result => {}
+            () = async {
+                self.worker.grace_is_over().await;
+                tokio::time::sleep(LAST_MOMENTS).await;
+            } => tracing::warn!(job = %self.claim.job, "the computation did not stop in time"),
+        }
+    }
+
+    /// Stores the blob, then commits the result with the end of the job.
+    async fn store_result(&self, computed: Computed) -> Result<(), StoreError> {
+        let store = self.worker.store();
+        let analysis =
+            NewAnalysis { id: Uuid::now_v7(), stages: self.clock.reports(), diagnostics: computed.diagnostics };
+        store.finish(&self.claim, &analysis, &computed.analysis, now()).await?;
+        tracing::info!(job = %self.claim.job, map = %self.claim.map, analysis = %analysis.id, "job finished");
+        self.worker.signals().finished(self.claim.map);
+        Ok(())
+    }
+
+    async fn fail(&self, error: &ComputeError) -> Result<(), StoreError> {
+        self.end(JobState::Failed, &error.to_string()).await
+    }
+
+    /// After a fault that may pass, the job waits and is tried again; any other, or the last attempt, ends it.
+    async fn end_with_fault(&self, error: StoreError) -> Result<(), StoreError> {
+        let terms = &self.worker.settings().terms;
+        let attempt = self.claim.attempt;
+        if !error.is_transient() {
+            return self.end(JobState::Failed, &error.to_string()).await;
+        }
+        if attempt >= terms.max_attempts {
+            return self.end(JobState::Failed, &format!("given up after {attempt} attempts: {error}")).await;
+        }
+        let wait = (terms.backoff)(self.claim.job, attempt);
+        let message = format!("attempt {attempt} of {} failed: {error}", terms.max_attempts);
+        tracing::warn!(job = %self.claim.job, attempt, ?wait, %error, "job will be tried again");
+        let requeued = self.worker.store().requeue(&self.claim, attempt, wait, &message, now()).await;
+        self.settled(requeued)
+    }
+
+    /// Puts the job back as if this attempt had not been: the service was asked to stop.
+    async fn give_back(&self) -> Result<(), StoreError> {
+        let attempt = self.claim.attempt.saturating_sub(1);
+        let message = "put back because the service was stopped";
+        let requeued = self.worker.store().requeue(&self.claim, attempt, Duration::ZERO, message, now()).await;
+        self.settled(requeued)
+    }
+
+    async fn dismiss(&self) -> Result<(), StoreError> {
+        self.end(JobState::Dismissed, "dismissed").await
+    }
+
+    async fn end(&self, state: JobState, message: &str) -> Result<(), StoreError> {
+        tracing::info!(job = %self.claim.job, state = state.name(), message, "job ended");
+        let ended = self.worker.store().end(&self.claim, state, message, now()).await;
+        self.settled(ended)
+    }
+
+    /// A claim that was lost is settled as well: by somebody else.
+    fn settled(&self, outcome: Result<(), StoreError>) -> Result<(), StoreError> {
+        self.worker.signals().changed();
+        match outcome {
+            Err(StoreError::ClaimLost) => Ok(()),
+            other => other,
+        }
+    }
+}
+
+fn received(
+    result: Result<Result<Computed, ComputeError>, oneshot::error::RecvError>,
+) -> Result<Computed, ComputeError> {
+    result.unwrap_or_else(|_| Err(ComputeError::Panicked("the computation vanished".to_owned())))
+}

@@ -1,0 +1,82 @@
+//! Why the store could not do it.
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+use super::BlobId;
+
+/// Why the store could not do it.
+#[derive(Debug, thiserror::Error)]
+pub enum StoreError {
+    #[error("the data folder {} is in use by another process{}: stop it, or choose another folder with --data",
+        .folder.display(), .holder.map(|pid| format!(" (pid {pid})")).unwrap_or_default())]
+    FolderInUse { folder: PathBuf, holder: Option<u32> },
+    #[error("the data folder cannot be used: {}: {source}", .path.display())]
+    Folder { path: PathBuf, source: io::Error },
+    #[error("the database {} was written by a newer stillage (schema {found}, this program knows up to {known}): \
+        run the newer program, or restore the backup made before the upgrade", .database.display())]
+    NewerDatabase { database: PathBuf, found: i64, known: i64 },
+    #[error("the database could not be brought up to date: {0}")]
+    Migration(#[source] sqlx::migrate::MigrateError),
+    /// Another process holds the database, or all connections are taken.
+    #[error("the database is busy")]
+    Busy,
+    #[error("the disk is full")]
+    NoSpace,
+    /// The claim was lost: the job was cancelled, deleted, or handed to another worker.
+    #[error("the job is no longer held by this claim")]
+    ClaimLost,
+    #[error("blob {blob} is damaged: {reason}")]
+    Damaged { blob: BlobId, reason: String },
+    #[error("column {column} of the database holds {value:?}")]
+    BadValue { column: &'static str, value: String },
+    #[error("blob storage: {0}")]
+    Blob(#[source] object_store::Error),
+    #[error("database: {0}")]
+    Database(#[source] sqlx::Error),
+}
+
+impl StoreError {
+    /// Whether the same call may succeed later without anyone mending anything by hand.
+    #[must_use]
+    pub const fn is_transient(&self) -> bool {
+        matches!(self, Self::Busy | Self::NoSpace | Self::Blob(_) | Self::Database(_) | Self::Folder { .. })
+    }
+
+    pub(super) fn folder(path: &Path, source: io::Error) -> Self {
+        if is_full(&source) { Self::NoSpace } else { Self::Folder { path: path.to_owned(), source } }
+    }
+}
+
+fn is_full(error: &io::Error) -> bool {
+    matches!(error.kind(), io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded)
+}
+
+impl From<sqlx::Error> for StoreError {
+    fn from(error: sqlx::Error) -> Self {
+        // Primary result codes are the low byte: https://sqlite.org/rescode.html
+        const BUSY: i64 = 5;
+        const LOCKED: i64 = 6;
+        const FULL: i64 = 13;
+        let code = error.as_database_error().and_then(|error| error.code()?.parse::<i64>().ok());
+        match (&error, code.map(|code| code & 0xff)) {
+            (_, Some(BUSY | LOCKED)) => Self::Busy,
+            (sqlx::Error::PoolTimedOut | sqlx::Error::PoolClosed, _) => Self::Busy,
+            (_, Some(FULL)) => Self::NoSpace,
+            _ => Self::Database(error),
+        }
+    }
+}
+
+impl From<object_store::Error> for StoreError {
+    fn from(error: object_store::Error) -> Self {
+        let mut source: Option<&(dyn std::error::Error + 'static)> = Some(&error);
+        while let Some(cause) = source {
+            if cause.downcast_ref::<io::Error>().is_some_and(is_full) {
+                return Self::NoSpace;
+            }
+            source = cause.source();
+        }
+        Self::Blob(error)
+    }
+}

@@ -1,0 +1,104 @@
+//! The data folder: owned by one process, with some space set aside.
+
+use std::fs::{self, File, OpenOptions};
+use std::io::{self, Read, Seek, Write};
+use std::path::{Path, PathBuf};
+
+use rustix::fs::{FlockOperation, flock, statvfs};
+
+use super::StoreError;
+
+/// Space set aside. Deleting rows from a full disk needs some for the write-ahead log: 1 MiB was measured to be enough
+/// for a small delete, the rest is margin.
+const RESERVE_BYTES: u64 = 4 << 20;
+
+/// The folder, locked until this value is dropped (or the process dies, however it dies).
+#[derive(Debug)]
+pub struct DataFolder {
+    path: PathBuf,
+    _lock: File,
+}
+
+impl DataFolder {
+    /// Makes the folder if need be and takes its lock.
+    ///
+    /// # Errors
+    /// [`StoreError::FolderInUse`] when another process holds the lock.
+    pub fn open(path: &Path) -> Result<Self, StoreError> {
+        fs::create_dir_all(path).map_err(|error| StoreError::folder(path, error))?;
+        let path = fs::canonicalize(path).map_err(|error| StoreError::folder(path, error))?;
+        let lock = take_lock(&path)?;
+        let folder = Self { path, _lock: lock };
+        fs::create_dir_all(folder.blobs()).map_err(|error| StoreError::folder(&folder.blobs(), error))?;
+        Ok(folder)
+    }
+
+    /// The database file.
+    #[must_use]
+    pub fn database(&self) -> PathBuf {
+        self.path.join("stillage.sqlite3")
+    }
+
+    /// The folder of the blobs.
+    #[must_use]
+    pub fn blobs(&self) -> PathBuf {
+        self.path.join("blobs")
+    }
+
+    /// Bytes that this user may still write.
+    ///
+    /// # Errors
+    /// When the file system does not answer.
+    pub fn free_bytes(&self) -> Result<u64, StoreError> {
+        let status = statvfs(&self.path).map_err(|error| StoreError::folder(&self.path, error.into()))?;
+        Ok(status.f_bavail.saturating_mul(status.f_frsize))
+    }
+
+    /// Gives up the space set aside, so that a full disk lets something be deleted. Answers whether there was any.
+    #[must_use]
+    pub fn release_reserve(&self) -> bool {
+        fs::remove_file(self.reserve()).is_ok()
+    }
+
+    /// Sets the space aside again, where there is enough.
+    ///
+    /// # Errors
+    /// When it cannot be written; what was written of it is removed.
+    pub fn restore_reserve(&self) -> io::Result<()> {
+        let path = self.reserve();
+        if fs::metadata(&path).is_ok_and(|metadata| metadata.len() == RESERVE_BYTES) {
+            return Ok(());
+        }
+        // Written, not only made long: a sparse file would hold nothing back.
+        let written =
+            File::create(&path).and_then(|mut file| io::copy(&mut io::repeat(0x5a).take(RESERVE_BYTES), &mut file));
+        if written.is_err() {
+            let _ = fs::remove_file(&path);
+        }
+        written.map(drop)
+    }
+
+    fn reserve(&self) -> PathBuf {
+        self.path.join("reserve")
+    }
+}
+
+/// Locks the folder and leaves the process id in the lock file, for the message of the process that comes second.
+fn take_lock(folder: &Path) -> Result<File, StoreError> {
+    let path = folder.join("lock");
+    let failed = |error: io::Error| StoreError::folder(&path, error);
+    let mut file =
+        OpenOptions::new().read(true).write(true).create(true).truncate(false).open(&path).map_err(failed)?;
+    match flock(&file, FlockOperation::NonBlockingLockExclusive) {
+        Ok(()) => {}
+        Err(rustix::io::Errno::WOULDBLOCK) => {
+            let mut holder = String::new();
+            let _ = file.read_to_string(&mut holder);
+            return Err(StoreError::FolderInUse { folder: folder.to_owned(), holder: holder.trim().parse().ok() });
+        }
+        Err(error) => return Err(failed(error.into())),
+    }
+    // Only a courtesy to people: a full disk must not keep the service from starting.
+    let _ = file.set_len(0).and_then(|()| file.rewind()).and_then(|()| writeln!(file, "{}", std::process::id()));
+    Ok(file)
+}

@@ -1,0 +1,244 @@
+//! Maps: the upload with its first job, and the record.
+
+use jiff::Timestamp;
+use sqlx::{Row, SqliteConnection};
+use stillage_core::AnalysisOptions;
+use stillage_core::analysis::Diagnostic;
+use uuid::Uuid;
+
+use super::queue::{NewJob, insert_job, is_queue_full};
+use super::rows::{Columns, job_record, json, map_record};
+use super::{AnalysisAddress, Blob, BlobId, Store, StoreError};
+use crate::fail_point;
+use crate::geojson::Georeference;
+use crate::records::{JobRecord, MapPatch, MapRecord};
+
+/// How long an idempotency key is remembered, microseconds: a day, as Stripe keeps them at least
+/// (docs.stripe.com/api/idempotent_requests).
+const KEY_LIFE_US: i64 = 24 * 3600 * 1_000_000;
+
+/// A map to be stored.
+#[derive(Debug, Clone)]
+pub struct NewMapRow {
+    pub id: Uuid,
+    pub name: String,
+    pub width: u32,
+    pub height: u32,
+    pub resolution: f64,
+    pub georeference: Option<Georeference>,
+    pub warnings: Vec<Diagnostic>,
+    /// Options of the first analysis.
+    pub options: AnalysisOptions,
+}
+
+/// The key of a request and the hash of what it asked.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct IdempotencyKey {
+    pub key: String,
+    pub content: String,
+}
+
+/// What became of an upload.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Upload {
+    /// Stored, with this job.
+    New(JobRecord),
+    /// The key was seen with the same content: this is its job.
+    Seen(JobRecord),
+    /// The key was seen with other content.
+    KeyReused,
+    /// Too many jobs wait.
+    QueueFull,
+}
+
+impl Store {
+    /// Stores an upload, its map, its first job and its idempotency key: all or nothing.
+    pub async fn create_map(
+        &self,
+        map: &NewMapRow,
+        source: &Blob,
+        key: Option<&IdempotencyKey>,
+        max_queued: u64,
+        now: Timestamp,
+    ) -> Result<Upload, StoreError> {
+        let _gate = self.blob_gate.read().await;
+        self.blobs.put(source).await?;
+        fail_point::pass("after-upload-blob");
+        let mut transaction = self.write().await?;
+        if let Some(key) = key {
+            forget_old_keys(&mut transaction, now).await?;
+            if let Some(seen) = find_key(&mut transaction, key).await? {
+                return Ok(seen);
+            }
+        }
+        if is_queue_full(&mut transaction, max_queued).await? {
+            return Ok(Upload::QueueFull);
+        }
+        insert_map(&mut transaction, map, source.id(), now).await?;
+        let address = AnalysisAddress::of(source.id(), &map.options);
+        let job = NewJob { id: Uuid::now_v7(), map: map.id, options: &map.options, address };
+        let job = insert_job(&mut transaction, &job, now).await?;
+        if let Some(key) = key {
+            sqlx::query("INSERT INTO idempotency_keys (key, content, job, created) VALUES ($1, $2, $3, $4)")
+                .bind(&key.key)
+                .bind(&key.content)
+                .bind(job.id.to_string())
+                .bind(now.as_microsecond())
+                .execute(&mut *transaction)
+                .await?;
+        }
+        fail_point::pass("before-upload-commit");
+        transaction.commit().await?;
+        fail_point::pass("after-upload-commit");
+        Ok(Upload::New(job))
+    }
+
+    /// The outcome of an earlier upload with this key, so that a repetition is answered even when the service is full.
+    pub async fn seen_upload(&self, key: &IdempotencyKey, now: Timestamp) -> Result<Option<Upload>, StoreError> {
+        let mut transaction = self.read().await?;
+        let young: bool =
+            sqlx::query_scalar("SELECT EXISTS (SELECT 1 FROM idempotency_keys WHERE key = $1 AND created > $2)")
+                .bind(&key.key)
+                .bind(now.as_microsecond() - KEY_LIFE_US)
+                .fetch_one(&mut *transaction)
+                .await?;
+        if young { find_key(&mut transaction, key).await } else { Ok(None) }
+    }
+
+    /// Maps, newest first, after one when paging.
+    pub async fn maps(&self, limit: u32, after: Option<Uuid>) -> Result<Vec<MapRecord>, StoreError> {
+        let rows = sqlx::query("SELECT * FROM maps WHERE $1 IS NULL OR id < $1 ORDER BY id DESC LIMIT $2")
+            .bind(after.map(|id| id.to_string()))
+            .bind(limit)
+            .fetch_all(&self.readers)
+            .await?;
+        rows.iter().map(map_record).collect()
+    }
+
+    /// A map.
+    pub async fn map(&self, id: Uuid) -> Result<Option<MapRecord>, StoreError> {
+        let row = sqlx::query("SELECT * FROM maps WHERE id = $1").bind(id.to_string());
+        row.fetch_optional(&self.readers).await?.as_ref().map(map_record).transpose()
+    }
+
+    /// The blob of a map's upload.
+    pub async fn map_source(&self, id: Uuid) -> Result<Option<BlobId>, StoreError> {
+        let row = sqlx::query("SELECT source FROM maps WHERE id = $1").bind(id.to_string());
+        row.fetch_optional(&self.readers).await?.map(|row| row.blob("source")).transpose()
+    }
+
+    /// Changes a map, when it is at the version in `if_match`: the record after the change, or the one that stands in
+    /// the way; `None` when there is no such map.
+    pub async fn update_map(
+        &self,
+        id: Uuid,
+        patch: &MapPatch,
+        if_match: Option<u64>,
+        now: Timestamp,
+    ) -> Result<Option<Result<MapRecord, MapRecord>>, StoreError> {
+        let mut transaction = self.write().await?;
+        let row = sqlx::query("SELECT * FROM maps WHERE id = $1").bind(id.to_string());
+        let Some(row) = row.fetch_optional(&mut *transaction).await? else { return Ok(None) };
+        let current = map_record(&row)?;
+        if if_match.is_some_and(|version| version != current.version) {
+            return Ok(Some(Err(current)));
+        }
+        let name = patch.name.as_ref().unwrap_or(&current.name);
+        let georeference = patch.georeference.unwrap_or(current.georeference);
+        let row = sqlx::query(
+            "UPDATE maps SET name = $2, georeference = $3, updated = $4, version = version + 1 WHERE id = $1 RETURNING *",
+        )
+        .bind(id.to_string())
+        .bind(name)
+        .bind(georeference.as_ref().map(json))
+        .bind(now.as_microsecond())
+        .fetch_one(&mut *transaction)
+        .await?;
+        transaction.commit().await?;
+        Ok(Some(Ok(map_record(&row)?)))
+    }
+
+    /// Deletes everything of a map: rows first, then the blobs that no other map shares. `false` when there is no such
+    /// map. Its running jobs find out with their next heartbeat.
+    ///
+    /// On a full disk the space set aside is given up, so that deleting can make room.
+    pub async fn delete_map(&self, id: Uuid) -> Result<bool, StoreError> {
+        let _gate = self.blob_gate.write().await;
+        let blobs = match self.delete_map_rows(id).await {
+            Err(StoreError::NoSpace) if self.folder.release_reserve() => self.delete_map_rows(id).await?,
+            other => other?,
+        };
+        let Some(blobs) = blobs else { return Ok(false) };
+        fail_point::pass("after-delete-commit");
+        for blob in blobs {
+            // The rows are gone and that is the answer; a blob that stays is swept later.
+            if let Err(error) = self.remove_unreferenced(&blob).await {
+                tracing::warn!(%error, %blob, "a blob of a deleted map could not be removed");
+            }
+        }
+        let _ = self.folder.restore_reserve();
+        Ok(true)
+    }
+
+    async fn delete_map_rows(&self, id: Uuid) -> Result<Option<Vec<BlobId>>, StoreError> {
+        let mut transaction = self.write().await?;
+        let rows =
+            sqlx::query("SELECT source AS blob FROM maps WHERE id = $1 UNION SELECT blob FROM analyses WHERE map = $1")
+                .bind(id.to_string())
+                .fetch_all(&mut *transaction)
+                .await?;
+        let blobs = rows.iter().map(|row| row.blob("blob")).collect::<Result<Vec<_>, _>>()?;
+        let deleted =
+            sqlx::query("DELETE FROM maps WHERE id = $1").bind(id.to_string()).execute(&mut *transaction).await?;
+        if deleted.rows_affected() == 0 {
+            return Ok(None);
+        }
+        transaction.commit().await?;
+        Ok(Some(blobs))
+    }
+}
+
+async fn insert_map(
+    connection: &mut SqliteConnection,
+    map: &NewMapRow,
+    source: &BlobId,
+    now: Timestamp,
+) -> Result<(), StoreError> {
+    sqlx::query(
+        "INSERT INTO maps (id, name, created, updated, width, height, resolution, georeference, warnings, source, version) \
+         VALUES ($1, $2, $3, $3, $4, $5, $6, $7, $8, $9, 1)",
+    )
+    .bind(map.id.to_string())
+    .bind(&map.name)
+    .bind(now.as_microsecond())
+    .bind(map.width)
+    .bind(map.height)
+    .bind(map.resolution)
+    .bind(map.georeference.as_ref().map(json))
+    .bind(json(&map.warnings))
+    .bind(source.as_str())
+    .execute(connection)
+    .await?;
+    Ok(())
+}
+
+async fn forget_old_keys(connection: &mut SqliteConnection, now: Timestamp) -> Result<(), StoreError> {
+    sqlx::query("DELETE FROM idempotency_keys WHERE created <= $1")
+        .bind(now.as_microsecond() - KEY_LIFE_US)
+        .execute(connection)
+        .await?;
+    Ok(())
+}
+
+async fn find_key(connection: &mut SqliteConnection, key: &IdempotencyKey) -> Result<Option<Upload>, StoreError> {
+    let row = sqlx::query(
+        "SELECT jobs.*, idempotency_keys.content AS content \
+         FROM idempotency_keys JOIN jobs ON jobs.id = idempotency_keys.job WHERE idempotency_keys.key = $1",
+    )
+    .bind(&key.key)
+    .fetch_optional(connection)
+    .await?;
+    let Some(row) = row else { return Ok(None) };
+    let same = row.try_get::<String, _>("content")? == key.content;
+    Ok(Some(if same { Upload::Seen(job_record(&row)?) } else { Upload::KeyReused }))
+}

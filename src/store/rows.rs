@@ -1,0 +1,142 @@
+//! Rows <-> records.
+
+use jiff::Timestamp;
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+use sqlx::Row;
+use sqlx::sqlite::SqliteRow;
+use uuid::Uuid;
+
+use super::{BlobId, StoreError};
+use crate::records::{AnalysisRecord, JobRecord, JobState, MapRecord, RuleSetRecord, SemanticsOrigin, SemanticsRecord};
+
+/// The time, to the microsecond that the database keeps.
+#[must_use]
+pub fn now() -> Timestamp {
+    let now = Timestamp::now();
+    Timestamp::from_microsecond(now.as_microsecond()).unwrap_or(now)
+}
+
+/// Writes a value into a JSON column.
+pub(super) fn json<T: Serialize>(value: &T) -> String {
+    serde_json::to_string(value).expect("records have string keys and finite depth")
+}
+
+/// Reads typed columns.
+pub(super) trait Columns {
+    fn text(&self, column: &'static str) -> Result<String, StoreError>;
+    fn uuid(&self, column: &'static str) -> Result<Uuid, StoreError>;
+    fn uuid_if(&self, column: &'static str) -> Result<Option<Uuid>, StoreError>;
+    fn time(&self, column: &'static str) -> Result<Timestamp, StoreError>;
+    fn time_if(&self, column: &'static str) -> Result<Option<Timestamp>, StoreError>;
+    fn whole<T: TryFrom<i64>>(&self, column: &'static str) -> Result<T, StoreError>;
+    fn json<T: DeserializeOwned>(&self, column: &'static str) -> Result<T, StoreError>;
+    fn blob(&self, column: &'static str) -> Result<BlobId, StoreError>;
+}
+
+impl Columns for SqliteRow {
+    fn text(&self, column: &'static str) -> Result<String, StoreError> {
+        Ok(self.try_get(column)?)
+    }
+
+    fn uuid(&self, column: &'static str) -> Result<Uuid, StoreError> {
+        let value = self.text(column)?;
+        Uuid::parse_str(&value).map_err(|_| StoreError::BadValue { column, value })
+    }
+
+    fn uuid_if(&self, column: &'static str) -> Result<Option<Uuid>, StoreError> {
+        let value: Option<String> = self.try_get(column)?;
+        value.map(|_| self.uuid(column)).transpose()
+    }
+
+    fn time(&self, column: &'static str) -> Result<Timestamp, StoreError> {
+        let value: i64 = self.try_get(column)?;
+        Timestamp::from_microsecond(value).map_err(|_| StoreError::BadValue { column, value: value.to_string() })
+    }
+
+    fn time_if(&self, column: &'static str) -> Result<Option<Timestamp>, StoreError> {
+        let value: Option<i64> = self.try_get(column)?;
+        value.map(|_| self.time(column)).transpose()
+    }
+
+    fn whole<T: TryFrom<i64>>(&self, column: &'static str) -> Result<T, StoreError> {
+        let value: i64 = self.try_get(column)?;
+        T::try_from(value).map_err(|_| StoreError::BadValue { column, value: value.to_string() })
+    }
+
+    fn json<T: DeserializeOwned>(&self, column: &'static str) -> Result<T, StoreError> {
+        let value = self.text(column)?;
+        serde_json::from_str(&value).map_err(|_| StoreError::BadValue { column, value })
+    }
+
+    fn blob(&self, column: &'static str) -> Result<BlobId, StoreError> {
+        Ok(BlobId::from_column(self.text(column)?))
+    }
+}
+
+pub(super) fn map_record(row: &SqliteRow) -> Result<MapRecord, StoreError> {
+    let georeference: Option<String> = row.try_get("georeference")?;
+    Ok(MapRecord {
+        id: row.uuid("id")?,
+        name: row.text("name")?,
+        created: row.time("created")?,
+        updated: row.time("updated")?,
+        width: row.whole("width")?,
+        height: row.whole("height")?,
+        resolution: row.try_get("resolution")?,
+        georeference: georeference.map(|_| row.json("georeference")).transpose()?,
+        analysis: row.uuid_if("analysis")?,
+        warnings: row.json("warnings")?,
+        version: row.whole("version")?,
+    })
+}
+
+pub(super) fn analysis_record(row: &SqliteRow) -> Result<AnalysisRecord, StoreError> {
+    Ok(AnalysisRecord {
+        id: row.uuid("id")?,
+        map: row.uuid("map")?,
+        created: row.time("created")?,
+        options: row.json("options")?,
+        stages: row.json("stages")?,
+        diagnostics: row.json("diagnostics")?,
+    })
+}
+
+pub(super) fn job_record(row: &SqliteRow) -> Result<JobRecord, StoreError> {
+    let state = row.text("state")?;
+    Ok(JobRecord {
+        id: row.uuid("id")?,
+        map: row.uuid("map")?,
+        state: JobState::find(&state).ok_or(StoreError::BadValue { column: "state", value: state })?,
+        progress: row.whole("progress")?,
+        stage: row.try_get("stage")?,
+        stages: row.json("stages")?,
+        message: row.text("message")?,
+        attempt: row.whole("attempt")?,
+        created: row.time("created")?,
+        started: row.time_if("started")?,
+        finished: row.time_if("finished")?,
+        updated: row.time("updated")?,
+        analysis: row.uuid_if("analysis")?,
+    })
+}
+
+pub(super) fn rule_set_record(row: &SqliteRow) -> Result<RuleSetRecord, StoreError> {
+    Ok(RuleSetRecord {
+        id: row.text("id")?,
+        draft: row.json("draft")?,
+        built_in: false,
+        version: row.whole("version")?,
+    })
+}
+
+pub(super) fn semantics_record(row: &SqliteRow) -> Result<SemanticsRecord, StoreError> {
+    Ok(SemanticsRecord {
+        rule_set: row.text("rule_set")?,
+        draft: row.json("draft")?,
+        assignment: row.json("assignment")?,
+        version: row.whole("version")?,
+        origin: SemanticsOrigin::Assigned,
+        created: row.time("created")?,
+    })
+}
