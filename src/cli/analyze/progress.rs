@@ -1,8 +1,9 @@
 //! Where an analysis is: a bar on a terminal, a line per stage elsewhere. Both on stderr.
 
-use indicatif::{ProgressBar, ProgressStyle};
 use std::io::IsTerminal;
 use std::sync::atomic::{AtomicUsize, Ordering};
+
+use indicatif::{ProgressBar, ProgressStyle};
 use stillage_core::Stage;
 use stillage_core::watch::Observer;
 
@@ -23,30 +24,12 @@ impl Progress {
             let style = ProgressStyle::with_template("{bar:40} {percent:>3} % {msg}");
             ProgressBar::new(100).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
         });
-<<<<<<< Updated upstream
-        Self { clock: StageClock::new(), bar }
+        Self { clock: StageClock::new(), bar, printed: AtomicUsize::new(0) }
     }
 
     /// What the stages cost so far.
     pub(super) const fn clock(&self) -> &StageClock {
         &self.clock
-=======
-        Self { bar, printed: AtomicUsize::new(0) }
-    }
-
-    /// A stage is done to a fraction.
-    pub(super) fn show(&self, stage: Stage, fraction: f64) {
-        let Some(bar) = &self.bar else {
-            // A stage may say twice that it is done.
-            let done = stage as usize + 1;
-            if fraction >= 1.0 && self.printed.fetch_max(done, Ordering::Relaxed) < done {
-                eprintln!("{} done", stage.name());
-            }
-            return;
-        };
-        bar.set_message(stage.name());
-        bar.set_position(stage as u64 * STEPS + (fraction.clamp(0.0, 1.0) * STEPS as f64) as u64);
->>>>>>> Stashed changes
     }
 
     /// A remark between.
@@ -72,8 +55,13 @@ impl Observer for Progress {
                 bar.set_message(stage.name());
                 bar.set_position(u64::from(self.clock.percent()));
             }
-            None if fraction >= 1.0 => eprintln!("{} done", stage.name()),
-            None => {}
+            None => {
+                // A stage may say twice that it is done.
+                let done = stage as usize + 1;
+                if fraction >= 1.0 && self.printed.fetch_max(done, Ordering::Relaxed) < done {
+                    eprintln!("{} done", stage.name());
+                }
+            }
         }
     }
 }

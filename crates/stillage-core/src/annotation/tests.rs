@@ -1,4 +1,3 @@
-<<<<<<< Updated upstream
 //! Faces and edges of small maps; one cell is one metre.
 
 use expect_test::expect;
@@ -238,6 +237,3 @@ proptest! {
         }
     }
 }
-=======
-
->>>>>>> Stashed changes
