@@ -16,9 +16,8 @@ mod fail_point;
 
 pub mod store;
 
-pub mod stage_clock;
-
 pub mod jobs;
+pub mod stage_clock;
 
 pub mod app;
 

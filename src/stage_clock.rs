@@ -1,93 +1,123 @@
-//! What each stage of an analysis costs: wall clock, CPU time of the process, peak memory.
+//! What each stage of an analysis costs, and how far it is.
 //!
-//! The core knows no clock; it tells an [`Observer`] where it is. The clock listens, and passes on what it hears.
+//! The core knows no clock; it tells an [`Observer`] where it is, and this is one.
 
-use std::sync::{Mutex, PoisonError};
-use std::time::Instant;
+use std::sync::Mutex;
+use std::time::{Duration, Instant};
 
 use rustix::time::{ClockId, clock_gettime};
 use stillage_core::watch::{Observer, Stage};
 
 use crate::records::StageReport;
 
-/// Times the stages of one analysis, and tells a listener of its progress.
-#[derive(Debug)]
-pub struct StageClock<L> {
-    state: Mutex<State>,
-    listener: L,
-}
+/// Share of each stage in the time of a whole analysis, percent, for one progress bar over all of them. The features
+/// (beams from every free cell) are most of the work.
+const SHARES: [(Stage, f64); 7] = [
+    (Stage::Features, 50.0),
+    (Stage::Categorization, 15.0),
+    (Stage::Orientation, 5.0),
+    (Stage::Regions, 15.0),
+    (Stage::Radiography, 5.0),
+    (Stage::Arrangement, 5.0),
+    (Stage::Annotation, 5.0),
+];
+
+/// An observer with a clock: wall time and CPU time of the process, by stage.
+///
+/// CPU time is that of the whole process, so it includes what else ran at the time.
+#[derive(Debug, Default)]
+pub struct StageClock(Mutex<Times>);
 
 #[derive(Debug, Default)]
-struct State {
-    running: Option<(Stage, Start)>,
-    reports: Vec<StageReport>,
+struct Times {
+    finished: Vec<StageReport>,
+    running: Option<Running>,
 }
 
-/// When something began.
-#[derive(Debug, Clone, Copy)]
-struct Start {
+#[derive(Debug)]
+struct Running {
+    stage: Stage,
+    fraction: f64,
     wall: Instant,
-    cpu_s: f64,
+    cpu: Duration,
 }
 
-impl Start {
-    fn now() -> Self {
-        Self { wall: Instant::now(), cpu_s: cpu_seconds() }
+impl StageClock {
+    /// A clock before its first stage.
+    #[must_use]
+    pub fn new() -> Self {
+        Self::default()
     }
 
-    fn report(self, name: &str) -> StageReport {
-        let wall_s = self.wall.elapsed().as_secs_f64();
-        StageReport { name: name.to_owned(), wall_s, cpu_s: cpu_seconds() - self.cpu_s }
+    /// The stages that ended, in their order.
+    #[must_use]
+    pub fn reports(&self) -> Vec<StageReport> {
+        self.times().finished.clone()
     }
-}
 
-impl<L: Fn(Stage, f64) + Sync> StageClock<L> {
-    /// A clock that passes every report of progress on.
-    pub fn new(listener: L) -> Self {
-        Self { state: Mutex::default(), listener }
+    /// The stage that runs, if one does.
+    #[must_use]
+    pub fn stage(&self) -> Option<Stage> {
+        self.times().running.as_ref().filter(|running| running.fraction < 1.0).map(|running| running.stage)
+    }
+
+    /// How much of the whole analysis is done, 0 to 100.
+    #[must_use]
+    pub fn percent(&self) -> u8 {
+        let times = self.times();
+        let share =
+            |stage: &str| SHARES.iter().find(|(known, _)| known.name() == stage).map_or(0.0, |(_, share)| *share);
+        let finished: f64 = times.finished.iter().map(|report| share(&report.name)).sum();
+        let running = times.running.as_ref().filter(|running| running.fraction < 1.0);
+        let running = running.map_or(0.0, |running| share(running.stage.name()) * running.fraction);
+        (finished + running).clamp(0.0, 100.0) as u8
     }
 
     /// Times something that is no stage of the core.
     pub fn time<T>(&self, name: &str, run: impl FnOnce() -> T) -> T {
-        let start = Start::now();
+        let (wall, cpu) = (Instant::now(), cpu_time());
         let result = run();
-        self.with_state(|state| state.reports.push(start.report(name)));
+        self.times().finished.push(StageReport {
+            name: name.to_owned(),
+            wall_s: wall.elapsed().as_secs_f64(),
+            cpu_s: cpu_time().saturating_sub(cpu).as_secs_f64(),
+        });
         result
     }
 
-    /// What has ended so far, in the order in which it ended.
-    #[must_use]
-    pub fn reports(&self) -> Vec<StageReport> {
-        self.with_state(|state| state.reports.clone())
-    }
-
-    /// The state is whole between any two statements: a poisoned lock does no harm.
-    fn with_state<T>(&self, run: impl FnOnce(&mut State) -> T) -> T {
-        run(&mut self.state.lock().unwrap_or_else(PoisonError::into_inner))
+    fn times(&self) -> std::sync::MutexGuard<'_, Times> {
+        // The times are whole after every statement, so a panic elsewhere does not spoil them.
+        self.0.lock().unwrap_or_else(std::sync::PoisonError::into_inner)
     }
 }
 
-impl<L: Fn(Stage, f64) + Sync> Observer for StageClock<L> {
+impl Observer for StageClock {
     fn progress(&self, stage: Stage, fraction: f64) {
-        self.with_state(|state| {
-            let start = match state.running {
-                Some((running, start)) if running == stage => start,
-                _ => state.running.insert((stage, Start::now())).1,
-            };
-            if fraction >= 1.0 {
-                // A stage may say twice that it is done: the last word counts.
-                state.reports.retain(|report| report.name != stage.name());
-                state.reports.push(start.report(stage.name()));
-            }
-        });
-        (self.listener)(stage, fraction);
+        let mut times = self.times();
+        if times.running.as_ref().is_none_or(|running| running.stage != stage) {
+            times.running = Some(Running { stage, fraction: 0.0, wall: Instant::now(), cpu: cpu_time() });
+        }
+        let Some(running) = times.running.as_mut() else { return };
+        running.fraction = running.fraction.max(fraction);
+        if fraction < 1.0 {
+            return;
+        }
+        let report = StageReport {
+            name: stage.name().to_owned(),
+            wall_s: running.wall.elapsed().as_secs_f64(),
+            cpu_s: cpu_time().saturating_sub(running.cpu).as_secs_f64(),
+        };
+        // A stage may say more than once that it is done: its loop does, and its end. The last word counts.
+        match times.finished.iter_mut().find(|finished| finished.name == report.name) {
+            Some(earlier) => *earlier = report,
+            None => times.finished.push(report),
+        }
     }
 }
 
-/// CPU time of the process so far, all threads, seconds.
-fn cpu_seconds() -> f64 {
-    let time = clock_gettime(ClockId::ProcessCPUTime);
-    time.tv_sec as f64 + time.tv_nsec as f64 * 1e-9
+/// CPU time of the process so far, all threads.
+fn cpu_time() -> Duration {
+    Duration::try_from(clock_gettime(ClockId::ProcessCPUTime)).unwrap_or_default()
 }
 
 /// Most memory the process ever held, MiB; `None` where the system does not tell (`/proc/self/status` does on Linux).
@@ -104,25 +134,28 @@ mod tests {
     use super::*;
 
     #[test]
-    fn stages_are_listed_in_their_order_each_once() {
-        let heard = Mutex::new(Vec::new());
-        let clock = StageClock::new(|stage: Stage, fraction| heard.lock().unwrap().push((stage, fraction)));
-        clock.time("ingest", || ());
-        for stage in [Stage::Features, Stage::Categorization] {
-            for fraction in [0.0, 0.5, 1.0, 1.0] {
-                clock.progress(stage, fraction);
-            }
-        }
-        let names: Vec<String> = clock.reports().into_iter().map(|report| report.name).collect();
-        assert_eq!(names, ["ingest", "features", "categorization"]);
-        assert!(clock.reports().iter().all(|report| report.wall_s >= 0.0 && report.cpu_s >= 0.0));
-        assert_eq!(heard.lock().unwrap().len(), 8);
+    fn a_stage_is_reported_when_it_ends() {
+        let clock = StageClock::new();
+        clock.progress(Stage::Features, 0.0);
+        clock.progress(Stage::Features, 0.5);
+        assert_eq!((clock.stage(), clock.percent(), clock.reports().len()), (Some(Stage::Features), 25, 0));
+        clock.progress(Stage::Features, 1.0);
+        assert_eq!((clock.stage(), clock.percent()), (None, 50));
+        assert_eq!(clock.reports()[0].name, "features");
     }
 
     #[test]
-    fn a_process_has_a_peak() {
-        if cfg!(target_os = "linux") {
-            assert!(peak_rss_mib().unwrap() > 1.0);
+    fn a_stage_that_ends_twice_is_reported_once() {
+        let clock = StageClock::new();
+        for fraction in [0.0, 1.0, 1.0] {
+            clock.progress(Stage::Features, fraction);
         }
+        assert_eq!((clock.percent(), clock.reports().len()), (50, 1));
+    }
+
+    #[test]
+    fn the_shares_make_a_whole_in_the_order_of_the_stages() {
+        assert_eq!(SHARES.map(|(stage, _)| stage), Stage::ALL);
+        assert!((SHARES.iter().map(|(_, share)| share).sum::<f64>() - 100.0).abs() < 1e-9);
     }
 }

@@ -9,6 +9,7 @@ use stillage_core::{Analysis, OccupancyGrid};
 use tokio::sync::OnceCell;
 use uuid::Uuid;
 
+use super::features::FeatureCache;
 use super::rule_sets::DEFAULT_RULE_SET;
 use super::{AnalysisRecord, App, AppError, MapRecord, SemanticsOrigin, SemanticsRecord};
 use crate::ingest::{self, Limits, MapSource};
@@ -35,6 +36,8 @@ pub struct MapContext {
     pub suggestions: Vec<Suggestion>,
     /// The storage locations, by code.
     pub locations: Vec<Location>,
+    /// What was written of it so far.
+    pub(super) features: FeatureCache,
 }
 
 impl App {
@@ -113,6 +116,7 @@ impl Geometry {
             semantic,
             suggestions,
             locations,
+            features: FeatureCache::default(),
         })
     }
 }

@@ -7,11 +7,13 @@
 //! | `rule_sets` | the vocabulary of labels |
 //! | `semantics` | the human decision on a map |
 //! | `context` | the analysed map in memory, for every question about it |
+//! | `features` | its collections |
 //!
 //! Nothing here knows HTTP; nothing here holds SQL.
 
 mod context;
 mod error;
+mod features;
 mod jobs;
 mod maps;
 mod rule_sets;

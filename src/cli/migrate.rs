@@ -10,15 +10,15 @@ use crate::store::{Store, StoreError};
 
 /// Brings the database of a data folder up to date (`serve` does so by itself) and checks that it opens.
 #[derive(Debug, Clone, Args)]
-pub struct MigrateArgs {
+pub(super) struct MigrateArgs {
     /// Folder of the database and the uploads; made where it is missing.
     #[arg(long, env = "STILLAGE_DATA", default_value = "data", value_name = "FOLDER")]
-    pub data: PathBuf,
+    pub(super) data: PathBuf,
 }
 
 /// Why it could not be done.
 #[derive(Debug, thiserror::Error)]
-pub enum MigrateError {
+pub(super) enum MigrateError {
     /// The store says no.
     #[error(transparent)]
     Store(#[from] StoreError),
@@ -28,7 +28,7 @@ pub enum MigrateError {
 }
 
 /// Migrates and prints the schema version.
-pub fn run(args: &MigrateArgs) -> Result<(), MigrateError> {
+pub(super) fn run(args: &MigrateArgs) -> Result<(), MigrateError> {
     let version = tokio::runtime::Builder::new_current_thread().enable_all().build()?.block_on(async {
         let store = Store::open(&Config::new(&args.data)).await?;
         let version = store.schema_version().await?;

@@ -5,9 +5,10 @@
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "the command line talks to people")]
 
 mod analyze;
+mod demo;
 mod migrate;
 mod openapi;
-pub mod serve;
+mod serve;
 
 use std::process::ExitCode;
 
@@ -23,11 +24,16 @@ struct Cli {
 
 #[derive(Debug, Subcommand)]
 enum Command {
+    /// Serves the REST API.
+    Serve(serve::ServeArgs),
     /// Analyses one map file and writes GeoJSON layers, pictures and a report.
     Analyze(analyze::Arguments),
-    Serve(serve::ServeArgs),
-    Migrate(migrate::MigrateArgs),
+    /// Serves on loopback with a temporary store, uploads an example map and shows where to look.
+    Demo(demo::DemoArgs),
+    /// Prints the OpenAPI 3.1 document of the service.
     Openapi(openapi::OpenapiArgs),
+    /// Brings the database of a data folder up to date (`serve` does so by itself).
+    Migrate(migrate::MigrateArgs),
 }
 
 /// Why a command failed.
@@ -39,19 +45,27 @@ enum Failure {
     Internal(String),
 }
 
-/// What keeps a service from starting is most often how it was set up; the message says what to change.
-fn refused(error: impl std::fmt::Display) -> Failure {
-    Failure::Input(error.to_string())
+impl Failure {
+    /// A fault of the program or the system.
+    fn internal(error: impl std::fmt::Display) -> Self {
+        Self::Internal(error.to_string())
+    }
+
+    /// What keeps a service from starting is most often how it was set up; the message says what to change.
+    fn setup(error: impl std::fmt::Display) -> Self {
+        Self::Input(error.to_string())
+    }
 }
 
 /// Runs the command line.
 #[must_use]
 pub fn run() -> ExitCode {
     let result = match Cli::parse().command {
+        Command::Serve(arguments) => serve::run(&arguments).map_err(Failure::setup),
         Command::Analyze(arguments) => analyze::run(&arguments),
-        Command::Serve(arguments) => serve::run(&arguments).map_err(refused),
-        Command::Migrate(arguments) => migrate::run(&arguments).map_err(refused),
-        Command::Openapi(arguments) => openapi::run(&arguments).map_err(refused),
+        Command::Demo(arguments) => demo::run(&arguments),
+        Command::Openapi(arguments) => openapi::run(&arguments).map_err(Failure::setup),
+        Command::Migrate(arguments) => migrate::run(&arguments).map_err(Failure::setup),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

@@ -5,17 +5,17 @@ use std::path::PathBuf;
 
 /// Prints the OpenAPI 3.1 document of the service.
 #[derive(Debug, clap::Args)]
-pub struct OpenapiArgs {
+pub(super) struct OpenapiArgs {
     /// Write it to this file (in the repository: openapi/openapi.json) instead of the standard output.
     #[arg(long, value_name = "FILE")]
-    pub write: Option<PathBuf>,
+    pub(super) write: Option<PathBuf>,
 }
 
 /// Prints or writes the document.
 ///
 /// # Errors
 /// When the file or the output cannot be written.
-pub fn run(args: &OpenapiArgs) -> io::Result<()> {
+pub(super) fn run(args: &OpenapiArgs) -> io::Result<()> {
     let document = crate::http::openapi_json();
     match &args.write {
         Some(path) => std::fs::write(path, document),

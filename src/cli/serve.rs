@@ -17,60 +17,60 @@ use crate::server;
 
 /// Serves the API. Everything can also be set in the environment.
 #[derive(Debug, Clone, Args)]
-pub struct ServeArgs {
+pub(super) struct ServeArgs {
     /// Address and port; port 0 takes a free one and prints it.
     #[arg(long, env = "STILLAGE_LISTEN", default_value = "127.0.0.1:8080", value_name = "ADDRESS")]
-    pub listen: SocketAddr,
+    pub(super) listen: SocketAddr,
     /// Listen on an address that others can reach. Everybody who reaches it may read, change and delete every map.
     #[arg(long, env = "STILLAGE_ALLOW_PUBLIC")]
-    pub allow_public: bool,
+    pub(super) allow_public: bool,
     /// Folder of the database and the uploads; made where it is missing. One process at a time.
     #[arg(long, env = "STILLAGE_DATA", default_value = "data", value_name = "FOLDER")]
-    pub data: PathBuf,
+    pub(super) data: PathBuf,
     /// Jobs that run at the same time.
     #[arg(long, env = "STILLAGE_JOB_SLOTS", default_value_t = 1, value_name = "N")]
-    pub job_slots: usize,
+    pub(super) job_slots: usize,
     /// Compute threads, shared out among the job slots; all cores when absent.
     #[arg(long, env = "STILLAGE_COMPUTE_THREADS", value_name = "N")]
-    pub compute_threads: Option<usize>,
+    pub(super) compute_threads: Option<usize>,
     /// Jobs that may wait; further uploads are answered 503.
     #[arg(long, env = "STILLAGE_MAX_QUEUED_JOBS", default_value_t = 1_000, value_name = "N")]
-    pub max_queued_jobs: u64,
+    pub(super) max_queued_jobs: u64,
     /// How often a job is tried that a fault of the machine interrupts.
     #[arg(long, env = "STILLAGE_MAX_ATTEMPTS", default_value_t = 5, value_name = "N")]
-    pub max_attempts: u32,
+    pub(super) max_attempts: u32,
     /// Memory that one job may need by estimate, MiB; larger maps are answered 413.
     #[arg(long, env = "STILLAGE_MAX_JOB_MIB", default_value_t = 8_192, value_name = "MIB")]
-    pub max_job_mib: u64,
+    pub(super) max_job_mib: u64,
     /// Largest upload, MiB.
     #[arg(long, env = "STILLAGE_MAX_UPLOAD_MIB", default_value_t = 128, value_name = "MIB")]
-    pub max_upload_mib: usize,
+    pub(super) max_upload_mib: usize,
     /// Largest map, cells.
     #[arg(long, env = "STILLAGE_MAX_CELLS", default_value_t = 100_000_000, value_name = "N")]
-    pub max_cells: u64,
+    pub(super) max_cells: u64,
     /// Free disk space below which uploads are answered 507, MiB.
     #[arg(long, env = "STILLAGE_MIN_FREE_MIB", default_value_t = 256, value_name = "MIB")]
-    pub min_free_mib: u64,
+    pub(super) min_free_mib: u64,
     /// Analysed maps kept in memory.
     #[arg(long, env = "STILLAGE_CACHED_MAPS", default_value_t = 8, value_name = "N")]
-    pub cached_maps: usize,
+    pub(super) cached_maps: usize,
     /// Connections at the same time; further ones wait.
     #[arg(long, env = "STILLAGE_MAX_CONNECTIONS", default_value_t = 1_024, value_name = "N")]
-    pub max_connections: usize,
+    pub(super) max_connections: usize,
     /// How long running jobs may go on after a request to stop, seconds; then they are put back.
     #[arg(long, env = "STILLAGE_SHUTDOWN_GRACE_S", default_value_t = 25, value_name = "S")]
-    pub shutdown_grace_s: u64,
+    pub(super) shutdown_grace_s: u64,
     /// What to log to standard error: a level, or directives such as `stillage=debug,sqlx=warn`.
     #[arg(long, env = "STILLAGE_LOG", default_value = "info", value_name = "FILTER")]
-    pub log: String,
+    pub(super) log: String,
     /// The form of log lines.
     #[arg(long, env = "STILLAGE_LOG_FORMAT", default_value = "text")]
-    pub log_format: LogFormat,
+    pub(super) log_format: LogFormat,
 }
 
 /// The form of log lines.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum LogFormat {
+pub(super) enum LogFormat {
     /// For people.
     Text,
     /// One JSON object a line.
@@ -79,7 +79,7 @@ pub enum LogFormat {
 
 /// Why the service did not start.
 #[derive(Debug, thiserror::Error)]
-pub enum ServeError {
+pub(super) enum ServeError {
     /// An address that others can reach, without saying so.
     #[error(
         "{0} can be reached from other machines, and there are no API keys yet: listen on 127.0.0.1 behind a proxy \
@@ -138,7 +138,7 @@ impl ServeArgs {
 }
 
 /// Serves until SIGTERM or SIGINT; a second one ends the process at once (jobs survive that too).
-pub fn run(args: &ServeArgs) -> Result<(), ServeError> {
+pub(super) fn run(args: &ServeArgs) -> Result<(), ServeError> {
     if !args.allow_public && !args.listen.ip().is_loopback() {
         return Err(ServeError::Public(args.listen));
     }

@@ -129,21 +129,22 @@ impl<S: Sync> FromRequestParts<S> for IfNoneMatch {
 pub struct IfMatch(Tags);
 
 impl IfMatch {
-    /// The version that the write is meant for, given the one in force; `None` without a header. Whether it is still
-    /// in force when the write is made, is for the store to say.
+    /// The version that the write is meant for, given the tag and the version in force; `None` without a header.
+    /// Whether it is still in force when the write is made, is for the store to say.
     ///
     /// # Errors
-    /// 412 when the header names other versions only (strong comparison).
-    pub fn against(&self, current: u64) -> Result<Option<u64>, Problem> {
-        let tag = EntityTag::of_version(current);
+    /// 412 when the header names other tags only (strong comparison).
+    pub fn against(&self, current: &EntityTag, version: u64) -> Result<Option<u64>, Problem> {
         match &self.0 {
             Tags::Absent => Ok(None),
-            Tags::Any => Ok(Some(current)),
-            Tags::Listed(tags) if tags.iter().any(|request| !request.weak && request.tag == tag) => Ok(Some(current)),
-            Tags::Listed(_) => Err(Problem::new(
-                ProblemType::PreconditionFailed,
-                format!("the resource is at version \"{current}\", not at the one in If-Match"),
-            )),
+            Tags::Any => Ok(Some(version)),
+            Tags::Listed(tags) if tags.iter().any(|request| !request.weak && request.tag == *current) => {
+                Ok(Some(version))
+            }
+            Tags::Listed(_) => {
+                let detail = format!("the resource is at \"{}\", not at what If-Match names: read it again", current.0);
+                Err(Problem::new(ProblemType::PreconditionFailed, detail))
+            }
         }
     }
 }
@@ -184,7 +185,11 @@ mod tests {
 
     #[test]
     fn a_write_names_the_version_it_was_made_from() {
-        let against = |value| IfMatch(tags(value)).against(7).map_err(|problem| problem.kind().status().as_u16());
+        let against = |value| {
+            IfMatch(tags(value))
+                .against(&EntityTag::of_version(7), 7)
+                .map_err(|problem| problem.kind().status().as_u16())
+        };
         assert_eq!(against(None), Ok(None));
         assert_eq!(against(Some("*")), Ok(Some(7)));
         assert_eq!(against(Some("\"7\"")), Ok(Some(7)));

@@ -204,7 +204,8 @@ pub async fn update(
         Some(None) => Some(None),
         None => None,
     };
-    let if_match = if_match.against(app.map(id).await?.version)?;
+    let version = app.map(id).await?.version;
+    let if_match = if_match.against(&EntityTag::of_version(version), version)?;
     let patch = MapPatch { name: body.name.map(|name| name.0), georeference };
     let map = app.update_map(id, patch, if_match).await?;
     let tag = [(header::ETAG, EntityTag::of_version(map.version).header())];

@@ -7,11 +7,15 @@
 #![allow(unused_qualifications, reason = "the macro of utoipa repeats the types of arguments")]
 
 mod analyses;
+mod bbox;
+mod collections;
 mod conditional;
+mod crs;
 mod docs;
 mod extractors;
 mod guards;
 mod health;
+mod items;
 mod jobs;
 mod links;
 mod maps;
@@ -21,6 +25,7 @@ mod openapi;
 mod options;
 mod pictures;
 mod problem;
+mod routes;
 mod rule_sets;
 mod semantics;
 mod upload;
@@ -62,9 +67,18 @@ fn routes(upload_bytes: usize) -> OpenApiRouter<Arc<App>> {
         .routes(routes!(maps::get, maps::update, maps::delete))
         .routes(routes!(analyses::list, analyses::create))
         .routes(routes!(analyses::diagnostics))
+        .routes(routes!(pictures::image))
+        .routes(routes!(pictures::categories))
+        .routes(routes!(pictures::regions))
+        .routes(routes!(pictures::semantic))
         .routes(routes!(semantics::categories))
         .routes(routes!(semantics::get, semantics::assign))
         .routes(routes!(semantics::versions))
+        .routes(routes!(collections::list))
+        .routes(routes!(collections::get))
+        .routes(routes!(items::list))
+        .routes(routes!(items::get))
+        .routes(routes!(routes::get))
         .routes(routes!(jobs::list))
         .routes(routes!(jobs::get, jobs::dismiss))
         .routes(routes!(jobs::events))

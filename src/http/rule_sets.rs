@@ -85,7 +85,7 @@ pub struct RuleSetView {
     id: String,
     /// Whether it is built in and cannot be changed.
     built_in: bool,
-    /// Raised with every change; the ETag.
+    /// Raised with every change.
     version: u64,
     labels: Vec<LabelView>,
     /// Explicit rules, first match wins; derived from the labels where absent or without a match.
@@ -119,9 +119,15 @@ impl RuleSetView {
     }
 
     fn answer(base: &Base, record: RuleSetRecord) -> Response {
-        let tag = [(header::ETAG, EntityTag::of_version(record.version).header())];
+        let tag = [(header::ETAG, tag(&record).header())];
         (tag, Json(Self::new(base, record))).into_response()
     }
+}
+
+/// The tag of a rule set. Versions count anew when a rule set is deleted and made again, so the content is in it too.
+fn tag(record: &RuleSetRecord) -> EntityTag {
+    let draft = serde_json::to_string(&record.draft).expect("labels and rules are plain data");
+    EntityTag::of_content(&["rule-set", &record.version.to_string(), &draft])
 }
 
 /// A rule set as it is sent. What a read adds (`builtIn`, `version`, `links`) may be sent back and is ignored.
@@ -197,7 +203,7 @@ pub async fn list(State(app): State<Arc<App>>, base: Base) -> Result<Json<RuleSe
     request_body = RuleSetBody,
     responses(
         (status = 201, description = "Created", body = RuleSetView,
-            headers(("Location" = String, description = "The rule set"), ("ETag" = String, description = "Its version"))),
+            headers(("Location" = String, description = "The rule set"), ("ETag" = String, description = "Changes with the rule set"))),
         (status = 409, description = "The id is in use", body = super::problem::ProblemDocument,
             content_type = "application/problem+json")))]
 pub async fn create(
@@ -222,7 +228,7 @@ fn is_rule_set_id(id: &str) -> bool {
 #[utoipa::path(get, path = "/v1/rule-sets/{ruleSetId}", tag = "semantics", operation_id = "getRuleSet",
     params(RuleSetPath),
     responses((status = 200, description = "The rule set", body = RuleSetView,
-        headers(("ETag" = String, description = "Its version")))))]
+        headers(("ETag" = String, description = "Changes with the rule set")))))]
 pub async fn get(
     State(app): State<Arc<App>>,
     base: Base,
@@ -230,8 +236,7 @@ pub async fn get(
     if_none_match: IfNoneMatch,
 ) -> Result<Response, Problem> {
     let record = app.rule_set(&path.rule_set_id).await?;
-    let tag = EntityTag::of_version(record.version);
-    Ok(tag.answer(&if_none_match, || Json(RuleSetView::new(&base, record)).into_response()))
+    Ok(tag(&record).answer(&if_none_match, || Json(RuleSetView::new(&base, record)).into_response()))
 }
 
 /// The rule set that a write is meant for, once it may be written.
@@ -251,7 +256,7 @@ async fn writable(app: &App, id: &str) -> Result<RuleSetRecord, Problem> {
     params(RuleSetPath, ("If-Match" = Option<String>, Header, description = "The ETag that was read; 428 without it")),
     request_body = RuleSetBody,
     responses((status = 200, description = "The rule set as it is now", body = RuleSetView,
-            headers(("ETag" = String, description = "Its version"))),
+            headers(("ETag" = String, description = "Changes with the rule set"))),
         (status = 428, description = "If-Match is missing", body = super::problem::ProblemDocument,
             content_type = "application/problem+json")))]
 pub async fn replace(
@@ -265,7 +270,7 @@ pub async fn replace(
     if body.id.as_ref().is_some_and(|id| *id != path.rule_set_id) {
         return Err(Problem::invalid("/id", format!("differs from the id of the address, {}", path.rule_set_id)));
     }
-    let if_match = if_match.against(current.version)?;
+    let if_match = if_match.against(&tag(&current), current.version)?;
     let record = app.put_rule_set(&path.rule_set_id, body.into_draft(), if_match).await?;
     Ok(RuleSetView::answer(&base, record))
 }
@@ -284,7 +289,8 @@ pub async fn delete(
     if_match: IfMatch,
 ) -> Result<StatusCode, Problem> {
     let current = writable(&app, &path.rule_set_id).await?;
-    app.delete_rule_set(&path.rule_set_id, if_match.against(current.version)?).await?;
+    let if_match = if_match.against(&tag(&current), current.version)?;
+    app.delete_rule_set(&path.rule_set_id, if_match).await?;
     Ok(StatusCode::NO_CONTENT)
 }
 

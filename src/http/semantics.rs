@@ -12,6 +12,7 @@ use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
 use stillage_core::semantics::Assignment;
 use utoipa::ToSchema;
+use uuid::Uuid;
 
 use super::conditional::{EntityTag, IfMatch, IfNoneMatch};
 use super::extractors::{JsonBody, MapPath, Path};
@@ -60,8 +61,10 @@ pub enum CategoryKind {
     Cluster,
     /// Faces that hold obstacles and no free cell.
     Occupied,
-    /// Faces that hold no known cell.
+    /// Faces among known places that hold no known cell.
     Unknown,
+    /// Unexplored faces around the site.
+    Outside,
 }
 
 /// A proposed label.
@@ -137,7 +140,8 @@ impl CategoryView {
             kind: match cluster {
                 Some(_) => CategoryKind::Cluster,
                 None if id == map.occupied() => CategoryKind::Occupied,
-                None => CategoryKind::Unknown,
+                None if id == map.unknown() => CategoryKind::Unknown,
+                None => CategoryKind::Outside,
             },
             cells,
             area_m2: cells as f64 * analysis.frame.resolution * analysis.frame.resolution,
@@ -171,7 +175,7 @@ pub struct SemanticsView {
     #[schema(example = json!({"0": "co", "1": "pc"}))]
     assignment: BTreeMap<u8, String>,
     overrides: Vec<OverrideView>,
-    /// 0 is the suggestion; assigned versions count from 1. The ETag.
+    /// 0 is the suggestion; assigned versions count from 1.
     version: u64,
     #[schema(inline)]
     origin: OriginView,
@@ -217,10 +221,9 @@ impl From<SemanticsRecord> for SemanticsView {
     }
 }
 
-impl SemanticsView {
-    fn tag(record: &SemanticsRecord) -> EntityTag {
-        EntityTag::of_version(record.version)
-    }
+/// The tag of the labels in force. Version 0 is the suggestion of whatever analysis is in force, so that is in it too.
+fn tag(analysis: Uuid, record: &SemanticsRecord) -> EntityTag {
+    EntityTag::of_content(&["semantics", &analysis.to_string(), &record.version.to_string()])
 }
 
 /// New labels of a map. What a read adds (`version`, `origin`, `created`) may be sent back and is ignored.
@@ -269,15 +272,15 @@ impl SemanticsBody {
 #[utoipa::path(get, path = "/v1/maps/{mapId}/semantics", tag = "semantics", operation_id = "getSemantics",
     params(MapPath),
     responses((status = 200, description = "The labels", body = SemanticsView,
-        headers(("ETag" = String, description = "Their version")))))]
+        headers(("ETag" = String, description = "Changes with them")))))]
 pub async fn get(
     State(app): State<Arc<App>>,
     Path(path): Path<MapPath>,
     if_none_match: IfNoneMatch,
 ) -> Result<Response, Problem> {
-    let record = app.semantics(path.map_id.0).await?;
-    let tag = SemanticsView::tag(&record);
-    Ok(tag.answer(&if_none_match, || Json(SemanticsView::from(record)).into_response()))
+    let context = app.context(path.map_id.0).await?;
+    let answer = || Json(SemanticsView::from(context.semantics.clone())).into_response();
+    Ok(tag(context.analysis_id, &context.semantics).answer(&if_none_match, answer))
 }
 
 /// Assign labels
@@ -288,7 +291,7 @@ pub async fn get(
     params(MapPath, ("If-Match" = Option<String>, Header, description = "The ETag that was read; 428 without it")),
     request_body = SemanticsBody,
     responses((status = 200, description = "The labels as they are now", body = SemanticsView,
-            headers(("ETag" = String, description = "Their version"))),
+            headers(("ETag" = String, description = "Changes with them"))),
         (status = 428, description = "If-Match is missing", body = super::problem::ProblemDocument,
             content_type = "application/problem+json")))]
 pub async fn assign(
@@ -300,11 +303,12 @@ pub async fn assign(
     let map = path.map_id.0;
     let faces: Vec<u32> = body.overrides.iter().map(|entry| entry.face).collect();
     let new = NewSemantics { rule_set: body.rule_set.clone(), assignment: body.into_assignment()? };
-    let if_match = if_match.against(app.semantics(map).await?.version)?;
+    let context = app.context(map).await?;
+    let if_match = if_match.against(&tag(context.analysis_id, &context.semantics), context.semantics.version)?;
     let record = app.put_semantics(map, new, if_match).await;
     let record = record.map_err(|error| Problem::from(error).map_pointers(|pointer| list_pointer(pointer, &faces)))?;
-    let tag = [(header::ETAG, SemanticsView::tag(&record).header())];
-    Ok((tag, Json(SemanticsView::from(record))).into_response())
+    let headers = [(header::ETAG, tag(context.analysis_id, &record).header())];
+    Ok((headers, Json(SemanticsView::from(record))).into_response())
 }
 
 /// The core names an override by its face (`/overrides/12`); in the request it is an entry of a list.

@@ -130,7 +130,11 @@ impl Form {
         if let Some(Name(name)) = self.name.or_else(file_stem) {
             map.name = name;
         }
-        map.options = self.options.unwrap_or_default();
+        if let Some(options) = self.options {
+            // Checked here too: only here it is known that the options are a part of a form.
+            map.options =
+                options.check().map_err(|problems| Problem::of_options("/options", problems))?.options().clone();
+        }
         map.georeference = match self.georeference {
             Some(georeference) => georeference.check("/georeference")?,
             None => None,

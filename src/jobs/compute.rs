@@ -9,9 +9,9 @@ use stillage_core::analysis::Diagnostic;
 use stillage_core::{AnalysisSpec, StopFlag, Stopped, Watch};
 use tokio::sync::oneshot;
 
-use super::progress::ProgressBar;
 use crate::fail_point;
 use crate::ingest::{self, IngestError, Limits, MapSource};
+use crate::stage_clock::StageClock;
 use crate::store::Blob;
 
 /// A result, encoded.
@@ -80,7 +80,7 @@ impl ComputePool {
     pub(super) fn start(&self, task: Task) -> oneshot::Receiver<Result<Computed, ComputeError>> {
         let (sender, receiver) = oneshot::channel();
         self.0.spawn(move || {
-            // What a panic leaves behind is dropped with the task; the progress is only read.
+            // What a panic leaves behind is dropped with the task; the clock is only read.
             let result = catch_unwind(AssertUnwindSafe(|| task.run()));
             // The receiver is gone only when nobody wants the result any more.
             let _ = sender.send(result.unwrap_or_else(|panic| Err(ComputeError::Panicked(panic_message(&*panic)))));
@@ -96,7 +96,7 @@ pub(super) struct Task {
     pub source: Blob,
     pub spec: AnalysisSpec,
     pub stop: StopFlag,
-    pub progress: Arc<ProgressBar>,
+    pub clock: Arc<StageClock>,
 }
 
 impl Task {
@@ -106,7 +106,7 @@ impl Task {
             pointer: String::new(),
             message: error.to_string(),
         })?;
-        self.compute.compute(&source, &self.spec, &Watch::new(&self.stop, &*self.progress))
+        self.compute.compute(&source, &self.spec, &Watch::new(&self.stop, &*self.clock))
     }
 }
 

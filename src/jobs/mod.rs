@@ -11,7 +11,6 @@
 
 mod compute;
 mod memory;
-mod progress;
 mod retry;
 mod running;
 #[cfg(test)]

@@ -9,10 +9,10 @@ use tokio::time::MissedTickBehavior;
 use uuid::Uuid;
 
 use super::compute::{ComputeError, ComputePool, Computed, Task};
-use super::progress::ProgressBar;
 use super::worker::Worker;
 use crate::fail_point;
 use crate::records::JobState;
+use crate::stage_clock::StageClock;
 use crate::store::queue::{Claim, Progress};
 use crate::store::{Blob, NewAnalysis, StoreError, now};
 
@@ -23,7 +23,7 @@ const LAST_MOMENTS: Duration = Duration::from_secs(1);
 pub(super) struct Running<'a> {
     worker: &'a Worker,
     claim: Claim,
-    progress: Arc<ProgressBar>,
+    clock: Arc<StageClock>,
     stop: StopFlag,
     /// What the row says, and since when.
     written: Progress,
@@ -32,9 +32,9 @@ pub(super) struct Running<'a> {
 
 impl<'a> Running<'a> {
     pub(super) fn new(worker: &'a Worker, claim: Claim) -> Self {
-        let progress = Arc::new(ProgressBar::new());
+        let clock = Arc::new(StageClock::new());
         let (stop, written) = (StopFlag::default(), Progress::default());
-        Self { worker, claim, progress, stop, written, renewed: Instant::now() }
+        Self { worker, claim, clock, stop, written, renewed: Instant::now() }
     }
 
     /// Sees the job to its end. An error means that its end could not be written; the lease will bring it back.
@@ -72,7 +72,7 @@ impl<'a> Running<'a> {
         };
         let compute = Arc::clone(self.worker.compute());
         let mut result =
-            pool.start(Task { compute, source, spec, stop: self.stop.clone(), progress: Arc::clone(&self.progress) });
+            pool.start(Task { compute, source, spec, stop: self.stop.clone(), clock: Arc::clone(&self.clock) });
         let mut ticks = tokio::time::interval(self.worker.settings().heartbeat);
         ticks.set_missed_tick_behavior(MissedTickBehavior::Delay);
         loop {
@@ -104,7 +104,11 @@ impl<'a> Running<'a> {
     /// is to be cancelled. An error means that the claim is lost.
     async fn heartbeat(&mut self) -> Result<bool, StoreError> {
         let lease = self.worker.settings().terms.lease;
-        let progress = self.progress.read();
+        let progress = Progress {
+            percent: self.clock.percent(),
+            stage: self.clock.stage().map(|stage| stage.name().to_owned()),
+            stages: self.clock.reports(),
+        };
         let is_due = progress != self.written || self.renewed.elapsed() >= lease / 3;
         let answer = if is_due {
             self.worker.store().heartbeat(&self.claim, &progress, lease, now()).await
@@ -148,7 +152,7 @@ impl<'a> Running<'a> {
     async fn store_result(&self, computed: Computed) -> Result<(), StoreError> {
         let store = self.worker.store();
         let analysis =
-            NewAnalysis { id: Uuid::now_v7(), stages: self.progress.read().stages, diagnostics: computed.diagnostics };
+            NewAnalysis { id: Uuid::now_v7(), stages: self.clock.reports(), diagnostics: computed.diagnostics };
         store.finish(&self.claim, &analysis, &computed.analysis, now()).await?;
         tracing::info!(job = %self.claim.job, map = %self.claim.map, analysis = %analysis.id, "job finished");
         self.worker.signals().finished(self.claim.map);

@@ -34,6 +34,8 @@ impl Api {
         let folder = tempfile::tempdir().expect("a temporary folder");
         let mut config = Config::new(folder.path());
         config.min_free_bytes = 0;
+        // Jobs run when a test says so.
+        config.job_slots = 0;
         change(&mut config);
         let app = App::open(config).await.expect("the service opens");
         Self { router: stillage::http::router(Arc::clone(&app)), app, _folder: folder }
@@ -102,5 +104,87 @@ impl Answer {
             assert!(problem[member].as_str().is_some_and(|text| !text.is_empty()), "{member}: {problem}");
         }
         problem
+    }
+}
+
+/// A small hall: two aisles between three double rows of pallets, and a cross aisle at either end.
+pub const HALL: &str = "
+    ##############################################################
+    #............................................................#
+    #............................................................#
+    #............................................................#
+    #............................................................#
+    #....###..###..###..###..###..###..###..###..###..###........#
+    #....#.#..#.#..#.#..#.#..#.#..#.#..#.#..#.#..#.#..#.#........#
+    #....#.#..#.#..#.#..#.#..#.#..#.#..#.#..#.#..#.#..#.#........#
+    #....###..###..###..###..###..###..###..###..###..###........#
+    #............................................................#
+    #............................................................#
+    #............................................................#
+    #............................................................#
+    #....###..###..###..###..###..###..###..###..###..###........#
+    #....#.#..#.#..#.#..#.#..#.#..#.#..#.#..#.#..#.#..#.#........#
+    #....#.#..#.#..#.#..#.#..#.#..#.#..#.#..#.#..#.#..#.#........#
+    #....###..###..###..###..###..###..###..###..###..###........#
+    #............................................................#
+    #............................................................#
+    #............................................................#
+    #............................................................#
+    ##############################################################
+";
+
+/// Metadata of a map with cells of a quarter metre, whose origin is not zero.
+pub const METADATA: &str = "image: map.pgm\nresolution: 0.25\norigin: [-2.0, -1.0, 0.0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n";
+
+/// A picture in characters as a PGM file: `#` occupied, `.` free, anything else unknown.
+pub fn pgm(picture: &str) -> Vec<u8> {
+    let rows: Vec<&str> = picture.lines().map(str::trim_start).filter(|line| !line.is_empty()).collect();
+    let width = rows.iter().map(|row| row.len()).max().unwrap_or_default();
+    let mut bytes = format!("P5\n{width} {}\n255\n", rows.len()).into_bytes();
+    for row in rows {
+        let grey = |cell| match cell {
+            b'#' => 0,
+            b'.' => 254,
+            _ => 205,
+        };
+        bytes.extend(row.bytes().chain(std::iter::repeat(b'?')).take(width).map(grey));
+    }
+    bytes
+}
+
+/// A form: names, file names and contents of its parts.
+pub fn form(parts: &[(&str, Option<&str>, &[u8])]) -> Request<Body> {
+    let mut body = Vec::new();
+    for (name, file_name, content) in parts {
+        let file_name = file_name.map(|file_name| format!("; filename=\"{file_name}\"")).unwrap_or_default();
+        body.extend(
+            format!("--boundary\r\nContent-Disposition: form-data; name=\"{name}\"{file_name}\r\n\r\n").bytes(),
+        );
+        body.extend_from_slice(content);
+        body.extend_from_slice(b"\r\n");
+    }
+    body.extend_from_slice(b"--boundary--\r\n");
+    request(Method::POST, "/v1/maps", &[("content-type", "multipart/form-data; boundary=boundary")], Body::from(body))
+}
+
+/// The form of an upload.
+pub fn upload(image: &[u8], metadata: &str) -> Request<Body> {
+    form(&[("image", Some("hall.pgm"), image), ("metadata", Some("hall.yaml"), metadata.as_bytes())])
+}
+
+impl Api {
+    /// Uploads a map and analyses it; its path.
+    pub async fn analysed(&self, image: &[u8]) -> String {
+        let answer = self.send(upload(image, METADATA)).await;
+        assert_eq!(answer.status, 202, "{}", answer.text());
+        self.app.run_until_empty().await.expect("the queue can be worked on");
+        let job = self.get(answer.header("location")).await.json();
+        assert_eq!(job["status"], "successful", "{job}");
+        format!("/v1/maps/{}", job["mapId"].as_str().expect("an id"))
+    }
+
+    /// Uploads the hall and analyses it; its path.
+    pub async fn hall(&self) -> String {
+        self.analysed(&pgm(HALL)).await
     }
 }

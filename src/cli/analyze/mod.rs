@@ -12,11 +12,10 @@ use stillage_core::annotation::CellFaces;
 use stillage_core::layout::{self, Location};
 use stillage_core::semantics::{self, Assignment, RuleSet, SemanticMap, Suggestion};
 use stillage_core::watch::{StopFlag, Watch};
-use stillage_core::{Analysis, OccupancyGrid, Stage};
+use stillage_core::{Analysis, OccupancyGrid};
 
 use super::Failure;
 use crate::ingest::{self, DecodedMap, Limits};
-use crate::stage_clock::StageClock;
 use progress::Progress;
 
 /// Arguments of `stillage analyze`.
@@ -68,8 +67,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     output::check(&folder)?;
 
     let progress = Progress::new();
-    let clock = StageClock::new(|stage: Stage, fraction| progress.show(stage, fraction));
-    let decoded = clock.time("ingest", || ingest::decode(&source, &spec.options().grid, &Limits::default()));
+    let decoded = progress.clock().time("ingest", || ingest::decode(&source, &spec.options().grid, &Limits::default()));
     let DecodedMap { grid, warnings } = decoded.map_err(|error| input::refused(&arguments.map, &error))?;
     drop(source);
     for warning in &warnings {
@@ -82,11 +80,12 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
     let pool = pool.build().map_err(|error| Failure::Internal(format!("no threads to compute with: {error}")))?;
     let analysis = pool
-        .install(|| stillage_core::analyze(&grid, &spec, &Watch::new(&stop, &clock)))
+        .install(|| stillage_core::analyze(&grid, &spec, &Watch::new(&stop, &progress)))
         .map_err(|error| Failure::Internal(error.to_string()))?;
-    let findings = clock.time("semantics", || read_semantics(name, grid, analysis, warnings, &rule_set, assignment))?;
+    let findings =
+        progress.clock().time("semantics", || read_semantics(name, grid, analysis, warnings, &rule_set, assignment))?;
     progress.finish();
-    output::write(&folder, &findings, &clock.reports())?;
+    output::write(&folder, &findings, &progress.clock().reports())?;
     println!("{}", folder.display());
     Ok(())
 }

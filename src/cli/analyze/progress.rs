@@ -1,38 +1,35 @@
-//! Where the analysis is: a bar on a terminal, a line per stage elsewhere. Both on stderr.
+//! Where an analysis is: a bar on a terminal, a line per stage elsewhere. Both on stderr.
+
+use std::io::IsTerminal;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use indicatif::{ProgressBar, ProgressStyle};
-use std::io::IsTerminal;
 use stillage_core::Stage;
+use stillage_core::watch::Observer;
 
-/// Steps of the bar per stage.
-const STEPS: u64 = 100;
+use crate::stage_clock::StageClock;
 
-/// Shows the progress of one analysis.
+/// Shows and times the progress of one analysis.
 pub(super) struct Progress {
+    clock: StageClock,
     /// `None` where nobody would see it move.
     bar: Option<ProgressBar>,
+    /// Stages whose line was printed.
+    printed: AtomicUsize,
 }
 
 impl Progress {
     pub(super) fn new() -> Self {
         let bar = std::io::stderr().is_terminal().then(|| {
             let style = ProgressStyle::with_template("{bar:40} {percent:>3} % {msg}");
-            ProgressBar::new(STEPS * Stage::ALL.len() as u64)
-                .with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
+            ProgressBar::new(100).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
         });
-        Self { bar }
+        Self { clock: StageClock::new(), bar, printed: AtomicUsize::new(0) }
     }
 
-    /// A stage is done to a fraction.
-    pub(super) fn show(&self, stage: Stage, fraction: f64) {
-        let Some(bar) = &self.bar else {
-            if fraction >= 1.0 {
-                eprintln!("{} done", stage.name());
-            }
-            return;
-        };
-        bar.set_message(stage.name());
-        bar.set_position(stage as u64 * STEPS + (fraction.clamp(0.0, 1.0) * STEPS as f64) as u64);
+    /// What the stages cost so far.
+    pub(super) const fn clock(&self) -> &StageClock {
+        &self.clock
     }
 
     /// A remark between.
@@ -46,6 +43,25 @@ impl Progress {
     pub(super) fn finish(&self) {
         if let Some(bar) = &self.bar {
             bar.finish_and_clear();
+        }
+    }
+}
+
+impl Observer for Progress {
+    fn progress(&self, stage: Stage, fraction: f64) {
+        self.clock.progress(stage, fraction);
+        match &self.bar {
+            Some(bar) => {
+                bar.set_message(stage.name());
+                bar.set_position(u64::from(self.clock.percent()));
+            }
+            None => {
+                // A stage may say twice that it is done.
+                let done = stage as usize + 1;
+                if fraction >= 1.0 && self.printed.fetch_max(done, Ordering::Relaxed) < done {
+                    eprintln!("{} done", stage.name());
+                }
+            }
         }
     }
 }

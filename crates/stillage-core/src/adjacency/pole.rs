@@ -133,12 +133,12 @@ impl Polygon<'_> {
     /// Splits squares until none promises more than the best point found.
     fn search(&self, (low, high): (Point, Point)) -> Point {
         let size = high - low;
-        let side = size.min().max(size.max() / 32.0);
+        let grain = size.min().max(size.max() / 32.0);
         let square = |center: Point, half: f64| Square { center, half, clearance: self.clearance(center) };
-        let [columns, rows] = [size.x, size.y].map(|extent| (extent / side).ceil() as usize);
+        let [columns, rows] = [size.x, size.y].map(|extent| (extent / grain).ceil() as usize);
         let mut queue: BinaryHeap<Square> = (0..rows * columns)
-            .map(|number| Vector::new((number % columns) as f64 + 0.5, (number / columns) as f64 + 0.5) * side)
-            .map(|offset| square(low + offset, side / 2.0))
+            .map(|number| Vector::new((number % columns) as f64 + 0.5, (number / columns) as f64 + 0.5) * grain)
+            .map(|offset| square(low + offset, grain / 2.0))
             .collect();
         let mut best = square(self.some_inner_point((low, high)), 0.0);
         for _ in 0..MOST_PROBES / 4 {

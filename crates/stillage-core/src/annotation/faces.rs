@@ -14,7 +14,7 @@ use super::{CellFaces, Evidence, FaceAnnotation};
 use crate::adjacency::pole;
 use crate::arrangement::{FaceId, Subdivision};
 use crate::categorization::CategoryMap;
-use crate::geometry::Point;
+use crate::geometry::{Point, ring_area};
 use crate::grid::{Occupancy, OccupancyGrid};
 use crate::segmentation::RegionMap;
 use crate::watch::{Stopped, Watch};
@@ -30,7 +30,7 @@ pub(super) fn annotate_faces(
 ) -> Result<Vec<FaceAnnotation>, Stopped> {
     let tallies = Tallies::count(grid, categories, regions, subdivision, cells, watch)?;
     let annotate = |face: usize| {
-        if face % 256 == 0 {
+        if face.is_multiple_of(256) {
             watch.check()?;
         }
         let face = FaceId(face as u32);
@@ -195,7 +195,8 @@ fn face_annotation(tally: &Tally, rings: &[Vec<Point>], categories: &CategoryMap
         free_fraction: share(free, total),
         occupied_fraction: share(occupied, total),
         unknown_fraction: if total == 0 { 1.0 } else { share(unknown, total) },
-        area: rings.iter().map(|ring| crate::geometry::ring_area(ring)).sum(),
+        // Not `sum`, which makes nothing of it -0.
+        area: rings.iter().fold(0.0, |area, ring| area + ring_area(ring)),
         elongation: smallest_box.elongation(),
         heading: smallest_box.heading,
         extent: smallest_box.extent,

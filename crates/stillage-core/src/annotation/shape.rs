@@ -21,11 +21,11 @@ pub(super) struct SmallestBox {
 }
 
 impl SmallestBox {
-    /// The box of least area around points; a square heads the way that is nearer to x. Zero for fewer than 3 points.
+    /// The box of least area around points. Of equals (a right triangle has two) the one of least girth, then the one
+    /// that heads nearer to x. Zero for fewer than 3 points.
     pub fn around(points: &[Point]) -> Self {
         let hull = convex_hull(points);
-        let mut best = Self { extent: [0.0; 2], heading: 0.0 };
-        let mut least_area = f64::INFINITY;
+        let mut best: Option<Self> = None;
         for (start, end) in hull.iter().zip(hull.iter().cycle().skip(1)) {
             let Some(along) = (end - start).try_normalize(0.0) else { continue };
             let (mut first, mut last, mut depth) = (0.0_f64, 0.0_f64, 0.0_f64);
@@ -35,21 +35,31 @@ impl SmallestBox {
                 last = last.max(along.dot(&offset));
                 depth = depth.max(along.perp(&offset));
             }
-            let area = (last - first) * depth;
-            if area < least_area * (1.0 - SAME) {
-                least_area = area;
-                best = Self::with_sides(last - first, depth, along.y.atan2(along.x));
+            let candidate = Self::with_sides(last - first, depth, along.y.atan2(along.x));
+            if best.is_none_or(|best| candidate.is_better_than(&best)) {
+                best = Some(candidate);
             }
         }
-        best
+        best.unwrap_or(Self { extent: [0.0; 2], heading: 0.0 })
     }
 
     fn with_sides(width: f64, depth: f64, angle: f64) -> Self {
         let (along, across) = (fold_half_turn(angle), fold_half_turn(angle + PI / 2.0));
-        let is_square = (width - depth).abs() <= SAME * width;
-        let along_is_long = if is_square { along.abs() <= across.abs() } else { width > depth };
+        let along_is_long = if differ(width, depth) { width > depth } else { along.abs() <= across.abs() };
         let heading = if along_is_long { along } else { across };
         Self { extent: [width.max(depth), width.min(depth)], heading }
+    }
+
+    fn is_better_than(&self, other: &Self) -> bool {
+        let area = |found: &Self| found.extent[0] * found.extent[1];
+        let girth = |found: &Self| found.extent[0] + found.extent[1];
+        if differ(area(self), area(other)) {
+            area(self) < area(other)
+        } else if differ(girth(self), girth(other)) {
+            girth(self) < girth(other)
+        } else {
+            self.heading.abs() < other.heading.abs()
+        }
     }
 
     /// Long over short side, at least 1.
@@ -57,6 +67,11 @@ impl SmallestBox {
         let [long, short] = self.extent;
         if short > 0.0 { long / short } else { 1.0 }
     }
+}
+
+/// Whether two sizes differ by more than rounding.
+fn differ(first: f64, second: f64) -> bool {
+    (first - second).abs() > SAME * first.max(second)
 }
 
 /// Corners of the convex hull, counter-clockwise (A. M. Andrew's monotone chain, 1979).

@@ -1,1 +1,239 @@
+//! Faces and edges of small maps; one cell is one metre.
 
+use expect_test::expect;
+use proptest::prelude::*;
+
+use super::*;
+use crate::arrangement::{EdgeSource, FaceId, SourceSegment, arrange};
+use crate::categorization::Category;
+use crate::geometry::{OrientedBox, Point};
+use crate::segmentation::Region;
+
+fn subdivide(ends: &[[f64; 4]]) -> Subdivision {
+    let segment = |&[x0, y0, x1, y1]: &[f64; 4]| SourceSegment {
+        start: Point::new(x0, y0),
+        end: Point::new(x1, y1),
+        source: EdgeSource::Boundary,
+    };
+    arrange(&ends.iter().map(segment).collect::<Vec<_>>(), &Watch::unwatched()).expect("nobody stops it")
+}
+
+/// The four sides of a box, and further segments.
+fn boxed([x0, y0, x1, y1]: [f64; 4], more: &[[f64; 4]]) -> Subdivision {
+    let sides = [[x0, y0, x1, y0], [x1, y0, x1, y1], [x0, y1, x1, y1], [x0, y0, x0, y1]];
+    subdivide(&[&sides, more].concat())
+}
+
+/// One region over the whole grid, in tiles of 4 cells.
+fn one_region(grid: &OccupancyGrid) -> RegionMap {
+    let (columns, rows) = (grid.width().div_ceil(4), grid.height().div_ceil(4));
+    let bounds = OrientedBox { center: Point::origin(), half_extents: [0.0; 2], angle: 0.0 };
+    let region = Region { orientations: vec![], bounds, share: 1.0 };
+    RegionMap { tile_cells: 4, columns, rows, tiles: vec![0; columns * rows], regions: vec![region] }
+}
+
+/// Digits are free cells of that category, the rest as in [`OccupancyGrid::from_ascii`].
+fn read(picture: &str) -> (OccupancyGrid, CategoryMap) {
+    let free = picture.replace(|symbol: char| symbol.is_ascii_digit(), ".");
+    let grid = OccupancyGrid::from_ascii(&free, 1.0);
+    let rows: Vec<&str> = picture.lines().map(str::trim).filter(|row| !row.is_empty()).collect();
+    let category = |symbol: char| symbol.to_digit(10).map_or(CategoryMap::NONE, |digit| digit as u8);
+    let cells = rows.iter().rev().flat_map(|row| row.chars().map(category)).collect();
+    let categories = vec![Category { cells: 0, mean_features: vec![] }; 3];
+    (grid, CategoryMap { cells, categories, feature_names: vec![] })
+}
+
+fn annotated(picture: &str, subdivision: &Subdivision) -> (Vec<FaceAnnotation>, Vec<EdgeAnnotation>) {
+    let (grid, categories) = read(picture);
+    let cells = CellFaces::rasterize(subdivision, grid.width(), grid.height(), grid.resolution());
+    let options = AnnotationOptions::default();
+    annotate(&grid, &categories, &one_region(&grid), subdivision, &cells, &options, &Watch::unwatched())
+        .expect("nobody stops it")
+}
+
+fn picture_of(cells: &CellFaces, width: usize) -> String {
+    let rows = cells.as_slice().chunks(width).rev();
+    rows.map(|row| row.iter().map(ToString::to_string).collect::<String>() + "\n").collect()
+}
+
+#[test]
+fn every_cell_lies_in_the_face_of_its_center() {
+    let subdivision =
+        boxed([1.0, 1.0, 11.0, 7.0], &[[1.0, 4.0, 11.0, 4.0], [1.0, 1.0, 7.0, 7.0], [3.0, 5.0, 3.0, 6.0]]);
+    expect![[r#"
+        000000000000
+        033333444440
+        033334444440
+        033344444440
+        022111111110
+        021111111110
+        011111111110
+        000000000000
+    "#]]
+    .assert_eq(&picture_of(&CellFaces::rasterize(&subdivision, 12, 8, 1.0), 12));
+}
+
+#[test]
+fn a_center_on_an_edge_belongs_to_the_right_or_upper_face() {
+    let subdivision = boxed([0.5, 0.5, 3.5, 3.5], &[[1.5, 0.5, 1.5, 3.5], [1.5, 2.5, 3.5, 2.5]]);
+    expect![[r#"
+        00000
+        13300
+        12200
+        12200
+    "#]]
+    .assert_eq(&picture_of(&CellFaces::rasterize(&subdivision, 5, 4, 1.0), 5));
+}
+
+#[test]
+fn grids_without_cells_or_faces_have_nothing_to_fill() {
+    for (width, height) in [(0, 0), (0, 3), (3, 0)] {
+        assert!(CellFaces::rasterize(&subdivide(&[]), width, height, 0.05).as_slice().is_empty());
+    }
+    let cells = CellFaces::rasterize(&subdivide(&[]), 2, 1, 0.05);
+    assert_eq!((cells.at(0, 0), cells.at(1, 0)), (FaceId::OUTER, FaceId::OUTER));
+    let reaching_out = boxed([-5.0, -5.0, 50.0, 50.0], &[]);
+    assert!(CellFaces::rasterize(&reaching_out, 3, 3, 1.0).as_slice().iter().all(|&face| face == FaceId(1)));
+}
+
+/// Four rooms: a vote with a tie, a majority, one of obstacles alone, one never seen.
+#[test]
+fn cells_vote_and_ties_go_to_the_lower_category() {
+    let subdivision =
+        boxed([0.0, 0.0, 16.0, 4.0], &[[4.0, 0.0, 4.0, 4.0], [8.0, 0.0, 8.0, 4.0], [12.0, 0.0, 12.0, 4.0]]);
+    let (faces, _) = annotated(
+        "
+        ####222######???
+        #21#2022########
+        #12#2222########
+        ####2222########
+        ",
+        &subdivision,
+    );
+    let (blank, _) = annotated(&"????????????????\n".repeat(4), &subdivision);
+    let line = |face: &FaceAnnotation| {
+        format!(
+            "category {} {:.2} of {:?}, free {} occupied {} unknown {}, region {}, {:?}\n",
+            face.category,
+            face.confidence,
+            face.category_shares,
+            face.free_fraction,
+            face.occupied_fraction,
+            face.unknown_fraction,
+            face.region,
+            face.evidence
+        )
+    };
+    expect![[r#"
+        category 4 0.00 of [0.0, 0.0, 0.0], free 0 occupied 0 unknown 1, region 255, Interpolated
+        category 1 0.50 of [0.0, 0.5, 0.5], free 0.25 occupied 0.75 unknown 0, region 0, Observed
+        category 2 0.93 of [0.06666667, 0.0, 0.93333334], free 0.9375 occupied 0.0625 unknown 0, region 0, Observed
+        category 3 1.00 of [0.0, 0.0, 0.0], free 0 occupied 1 unknown 0, region 0, Observed
+        category 3 1.00 of [0.0, 0.0, 0.0], free 0 occupied 0.8125 unknown 0.1875, region 0, Observed
+        category 4 0.00 of [0.0, 0.0, 0.0], free 0 occupied 0 unknown 1, region 0, Interpolated
+    "#]]
+    .assert_eq(&faces.iter().chain(&blank[1..2]).map(line).collect::<String>());
+}
+
+#[test]
+fn faces_are_measured() {
+    let subdivision = boxed(
+        [0.0, 0.0, 8.0, 4.0],
+        &[[0.0, 0.0, 8.0, 4.0], [0.1, 3.9, 0.2, 3.9], [0.1, 3.9, 0.1, 3.8], [0.2, 3.9, 0.1, 3.8]],
+    );
+    let (faces, _) = annotated(&"00000000\n".repeat(4), &subdivision);
+    let line = |face: &FaceAnnotation| {
+        let FaceAnnotation { cells, area, extent: [long, short], heading, elongation, region, .. } = face;
+        format!(
+            "{cells} cells, {area:.3} m2, {long:.2} x {short:.2} m at {heading:.2}, {elongation:.2}:1, region {region}\n"
+        )
+    };
+    expect![[r#"
+        0 cells, 0.000 m2, 0.00 x 0.00 m at 0.00, 1.00:1, region 255
+        16 cells, 16.000 m2, 8.00 x 4.00 m at 0.00, 2.00:1, region 0
+        16 cells, 15.995 m2, 8.00 x 4.00 m at 0.00, 2.00:1, region 0
+        0 cells, 0.005 m2, 0.10 x 0.10 m at 0.00, 1.00:1, region 0
+    "#]]
+    .assert_eq(&faces.iter().map(line).collect::<String>());
+}
+
+/// The door in the wall between two rooms: half of the wall stands, a quarter is open, a quarter was never seen.
+#[test]
+fn edges_are_supported_open_or_unknown() {
+    let subdivision = boxed([1.0, 1.0, 9.0, 9.0], &[[5.5, 1.0, 5.5, 9.0]]);
+    let (_, edges) = annotated(
+        "
+        ###########
+        #0000#0000#
+        #0000#0000#
+        #0000#0000#
+        #0000#0000#
+        #000000000#
+        #000000000#
+        #000??0000#
+        #000??0000#
+        ###########
+        ",
+        &subdivision,
+    );
+    let wall = subdivision.edges().find(|&edge| subdivision.segment(edge).iter().all(|end| end.x == 5.5));
+    let wall = &edges[wall.expect("the wall is an edge").index()];
+    assert_eq!((wall.support, wall.open), (0.5, 0.25));
+    assert_eq!(wall.evidence, Evidence::Observed);
+    assert!(wall.confidence > 0.75 && wall.confidence < 1.0);
+    // Edges along the middle of walls are supported all the way, the outer ones here on one side.
+    assert!(edges.iter().all(|edge| (0.0..=1.0).contains(&edge.support)));
+}
+
+#[test]
+fn the_number_of_threads_is_of_no_consequence() {
+    let slant: Vec<_> = (0..30).map(|line| [f64::from(line) - 9.0, 0.0, f64::from(line), 20.0]).collect();
+    let subdivision = boxed([0.0, 0.0, 20.0, 20.0], &slant);
+    let picture = "0120#12?011221#01200\n".repeat(20);
+    let on = |threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads can be had");
+        pool.install(|| annotated(&picture, &subdivision))
+    };
+    assert_eq!(on(1), on(3));
+}
+
+#[test]
+fn nothing_is_annotated_without_faces() {
+    let (faces, edges) = annotated("??\n??\n", &subdivide(&[]));
+    assert_eq!((faces.len(), edges.len()), (1, 0));
+}
+
+fn crossing_lines() -> impl Strategy<Value = Vec<[f64; 4]>> {
+    let anywhere = prop::array::uniform4(-2.0..14.0);
+    let on_centers = prop::array::uniform4(-2_i8..14).prop_map(|ends| ends.map(|end| f64::from(end) + 0.5));
+    let steep = (0.0..12.0, -1e-3..1e-3).prop_map(|(x, lean): (f64, f64)| [x, -2.0, x + lean, 14.0]);
+    let level = (0.0..12.0, -1e-3..1e-3).prop_map(|(y, lean): (f64, f64)| [-2.0, y, 14.0, y + lean]);
+    prop::collection::vec(prop_oneof![anywhere, on_centers, steep, level], 0..24)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(128))]
+
+    /// A cell whose centre is clear of all edges lies in the face whose boundary a ray from it crosses oddly often.
+    #[test]
+    fn cells_agree_with_point_location(ends in crossing_lines()) {
+        let subdivision = subdivide(&ends);
+        let cells = CellFaces::rasterize(&subdivision, 12, 12, 1.0);
+        for (number, &face) in cells.as_slice().iter().enumerate() {
+            let center = Point::new((number % 12) as f64 + 0.5, (number / 12) as f64 + 0.5);
+            prop_assert!(face.index() < subdivision.face_count());
+            let is_clear = subdivision.edges().all(|edge| {
+                let [start, end] = subdivision.segment(edge);
+                (end - start).perp(&(center - start)).abs() > 1e-9 * (end - start).norm()
+            });
+            for other in subdivision.faces().filter(|_| is_clear) {
+                let crossed = subdivision.boundary(other).filter(|half| {
+                    let [start, end] = subdivision.segment(half.edge());
+                    (start.y > center.y) != (end.y > center.y)
+                        && center.x < start.x + (center.y - start.y) / (end.y - start.y) * (end.x - start.x)
+                });
+                prop_assert_eq!(crossed.count() % 2 == 1, face == other);
+            }
+        }
+    }
+}

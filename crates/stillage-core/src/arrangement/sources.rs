@@ -152,3 +152,159 @@ fn runs(count: usize, is_in: impl Fn(usize) -> bool, mut found: impl FnMut(usize
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::FRAC_PI_4;
+
+    use expect_test::{Expect, expect};
+
+    use super::*;
+    use crate::arrangement::arrange;
+    use crate::geometry::OrientedBox;
+    use crate::grid::{GridFrame, Occupancy};
+    use crate::segmentation::Region;
+    use crate::watch::Watch;
+
+    /// Digits are the regions of tiles of 2 x 2 cells of 0.5 m, so a character is a metre.
+    fn regions(picture: &str) -> RegionMap {
+        let rows: Vec<&str> = picture.lines().map(str::trim).filter(|row| !row.is_empty()).collect();
+        let tile = |symbol: char| symbol.to_digit(10).map_or(RegionMap::NONE, |digit| digit as u8);
+        let tiles = rows.iter().rev().flat_map(|row| row.chars().map(tile)).collect();
+        let bounds = OrientedBox { center: Point::origin(), half_extents: [0.0; 2], angle: 0.0 };
+        let region = Region { orientations: vec![], bounds, share: 0.5 };
+        let columns = rows.first().map_or(0, |row| row.len());
+        RegionMap { tile_cells: 2, columns, rows: rows.len(), tiles, regions: vec![region; 2] }
+    }
+
+    fn grid(width: usize, height: usize) -> OccupancyGrid {
+        let frame = GridFrame { resolution: 0.5, origin: Point::origin(), yaw: 0.0 };
+        OccupancyGrid::new(width, height, frame, vec![Occupancy::Free; width * height])
+    }
+
+    fn line(region: u8, orientation: f64, offset: f64, extent: [f64; 2]) -> Line {
+        Line { region, orientation, offset, support: 1.0, extents: vec![extent] }
+    }
+
+    #[expect(clippy::needless_pass_by_value, reason = "expect! makes a value")]
+    fn check(grid: &OccupancyGrid, regions: &RegionMap, lines: &[Line], expected: Expect) {
+        let text = |segment: &SourceSegment| {
+            let SourceSegment { start, end, source } = segment;
+            format!("({:.2}, {:.2}) - ({:.2}, {:.2}) {source:?}\n", start.x, start.y, end.x, end.y)
+        };
+        expected.assert_eq(&source_segments(grid, regions, lines).iter().map(text).collect::<String>());
+    }
+
+    #[test]
+    fn boundaries_are_straight_runs_each_once() {
+        check(
+            &grid(8, 6),
+            &regions(
+                "
+            0011
+            00.1
+            0000
+        ",
+            ),
+            &[],
+            expect![[r#"
+            (0.00, 0.00) - (0.00, 3.00) Boundary
+            (2.00, 1.00) - (2.00, 3.00) Boundary
+            (3.00, 1.00) - (3.00, 2.00) Boundary
+            (4.00, 0.00) - (4.00, 3.00) Boundary
+            (0.00, 0.00) - (4.00, 0.00) Boundary
+            (2.00, 1.00) - (4.00, 1.00) Boundary
+            (2.00, 2.00) - (3.00, 2.00) Boundary
+            (0.00, 3.00) - (4.00, 3.00) Boundary
+        "#]],
+        );
+    }
+
+    #[test]
+    fn the_last_tiles_end_where_the_grid_ends() {
+        check(
+            &grid(3, 3),
+            &regions(
+                "
+            00
+            00
+        ",
+            ),
+            &[],
+            expect![[r#"
+            (0.00, 0.00) - (0.00, 1.50) Boundary
+            (1.50, 0.00) - (1.50, 1.50) Boundary
+            (0.00, 0.00) - (1.50, 0.00) Boundary
+            (0.00, 1.50) - (1.50, 1.50) Boundary
+        "#]],
+        );
+    }
+
+    #[test]
+    fn a_staircase_is_one_face_a_side() {
+        let regions = regions(
+            "
+            0111
+            0011
+            0001
+        ",
+        );
+        let subdivision = arrange(&source_segments(&grid(8, 6), &regions, &[]), &Watch::unwatched()).expect("no stop");
+        subdivision.check_invariants().expect("it is sound");
+        let areas: Vec<f64> = subdivision.faces().map(|face| subdivision.area(face)).collect();
+        assert_eq!(areas, [6.0, 6.0]);
+    }
+
+    /// The first line is cut to its region and reaches its boundary, the second is shorter than a cell, the third lies
+    /// in the other region's part.
+    #[test]
+    fn lines_are_cut_to_their_region() {
+        let lines = [
+            line(0, 0.0, 1.5, [-9.0, 9.0]),
+            line(0, 0.0, 0.5, [1.0, 1.2]),
+            line(1, 0.0, 0.7, [0.0, 1.9]),
+            line(1, FRAC_PI_4, 0.0, [0.0, 3.0]),
+        ];
+        check(
+            &grid(8, 4),
+            &regions(
+                "
+            0011
+            0011
+        ",
+            ),
+            &lines,
+            expect![[r#"
+            (0.00, 0.00) - (0.00, 2.00) Boundary
+            (2.00, 0.00) - (2.00, 2.00) Boundary
+            (4.00, 0.00) - (4.00, 2.00) Boundary
+            (0.00, 0.00) - (4.00, 0.00) Boundary
+            (0.00, 2.00) - (4.00, 2.00) Boundary
+            (-0.00, 1.50) - (2.00, 1.50) Line(0)
+        "#]],
+        );
+    }
+
+    #[test]
+    fn a_map_without_regions_has_no_segments() {
+        check(&grid(0, 0), &regions(""), &[line(0, 0.3, 0.0, [0.0, 5.0])], expect![[""]]);
+        check(&grid(4, 2), &regions(".."), &[line(0, 0.3, 0.0, [0.0, 5.0])], expect![[""]]);
+    }
+
+    /// Lines at any angle split a region without leaving anything out: the faces fill the box.
+    #[test]
+    fn faces_of_a_region_fill_it() {
+        let regions = regions(&"00000\n".repeat(4));
+        for orientation in [0.0, 0.1, 0.8, -1.2, -1.5] {
+            let across = orientation + std::f64::consts::FRAC_PI_2;
+            let parallel =
+                |angle: f64| (-9..9).map(move |offset| line(0, angle, f64::from(offset) * 0.7, [-20.0, 20.0]));
+            let lines: Vec<Line> = parallel(orientation).chain(parallel(across)).collect();
+            let segments = source_segments(&grid(10, 8), &regions, &lines);
+            let subdivision = arrange(&segments, &Watch::unwatched()).expect("nobody stops it");
+            subdivision.check_invariants().expect("it is sound");
+            let covered: f64 = subdivision.faces().map(|face| subdivision.area(face)).sum();
+            assert!((covered - 20.0).abs() < 1e-9 && subdivision.face_count() > 30, "{orientation}: {covered} m2");
+        }
+    }
+}

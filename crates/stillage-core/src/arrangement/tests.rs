@@ -247,8 +247,15 @@ fn overlapping_lines_become_one_edge_of_the_least_source() {
         .filter(|&edge| subdivision.segment(edge).iter().all(|end| end.y == 0.0))
         .map(|edge| (subdivision.length(edge), subdivision.source(edge)))
         .collect();
-    use EdgeSource::{Boundary, Line};
-    assert_eq!(level, [(2.0, Line(0)), (2.0, Line(0)), (2.0, Boundary), (4.0, Boundary)]);
+    assert_eq!(
+        level,
+        [
+            (2.0, EdgeSource::Line(0)),
+            (2.0, EdgeSource::Line(0)),
+            (2.0, EdgeSource::Boundary),
+            (4.0, EdgeSource::Boundary)
+        ]
+    );
 }
 
 #[test]

@@ -1,0 +1,226 @@
+//! The collections of a map: what there is, how much of it, and where.
+
+use std::sync::Arc;
+
+use axum::Json;
+use axum::extract::State;
+use axum::response::{IntoResponse, Response};
+use serde::{Deserialize, Serialize};
+use stillage_core::Point;
+use utoipa::{IntoParams, ToSchema};
+
+use super::conditional::{EntityTag, IfNoneMatch};
+use super::crs::{CRS84, EPSG_3857};
+use super::extractors::{Id, MapPath, Path};
+use super::links::{Base, CSV, GEO_JSON, JSON, Link};
+use super::problem::Problem;
+use crate::app::{App, MapContext};
+use crate::geojson::{Collection, Crs, Transform};
+
+/// A collection as a part of a path.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, ToSchema)]
+#[serde(try_from = "String")]
+#[schema(value_type = CollectionIdView)]
+pub struct CollectionId(pub Collection);
+
+impl TryFrom<String> for CollectionId {
+    type Error = &'static str;
+
+    fn try_from(text: String) -> Result<Self, Self::Error> {
+        Collection::find(&text).map(Self).ok_or("is no collection")
+    }
+}
+
+/// The collections, for the document.
+#[derive(Debug, ToSchema)]
+#[schema(as = CollectionId, rename_all = "lowercase")]
+#[allow(dead_code, reason = "it describes what CollectionId reads")]
+pub enum CollectionIdView {
+    Faces,
+    Edges,
+    Vertices,
+    Nodes,
+    Links,
+    Lines,
+    Regions,
+    Places,
+    Locations,
+}
+
+/// `/v1/maps/{mapId}/collections/{collectionId}`
+#[derive(Debug, Deserialize, IntoParams)]
+#[into_params(parameter_in = Path)]
+#[serde(rename_all = "camelCase")]
+pub struct CollectionPath {
+    /// The map.
+    pub map_id: Id,
+    /// The collection.
+    pub collection_id: CollectionId,
+}
+
+/// A collection of features.
+#[derive(Debug, Serialize, ToSchema)]
+#[schema(as = Collection)]
+#[serde(rename_all = "camelCase")]
+pub struct CollectionView {
+    #[schema(example = "faces")]
+    id: &'static str,
+    title: &'static str,
+    description: &'static str,
+    /// `feature`
+    item_type: &'static str,
+    extent: Extent,
+    /// The systems in which items can be asked for; the first is the default.
+    crs: Vec<&'static str>,
+    /// The system in which nothing is lost: of a map without georeference, the metres of the map frame.
+    storage_crs: &'static str,
+    /// Number of features.
+    item_count: usize,
+    links: Vec<Link>,
+}
+
+/// Where the features of a collection lie.
+#[derive(Debug, Serialize, ToSchema)]
+pub struct Extent {
+    spatial: SpatialExtent,
+}
+
+/// A box in degrees.
+#[derive(Debug, Serialize, ToSchema)]
+pub struct SpatialExtent {
+    /// West, south, east, north.
+    #[schema(example = json!([[12.857, 56.663, 12.859, 56.664]]))]
+    bbox: Vec<[f64; 4]>,
+    crs: &'static str,
+}
+
+/// The collections of a map.
+#[derive(Debug, Serialize, ToSchema)]
+pub struct CollectionList {
+    collections: Vec<CollectionView>,
+    links: Vec<Link>,
+}
+
+impl CollectionView {
+    fn new(base: &Base, context: &MapContext, collection: Collection) -> Self {
+        let (title, description) = describe(collection);
+        let path = format!("/v1/maps/{}/collections/{}", context.record.id, collection.id());
+        // No query string: clients append to the address of the items.
+        let mut links =
+            vec![base.link("self", &path, JSON), base.link("items", &format!("{path}/items"), GEO_JSON).titled(title)];
+        if collection == Collection::Locations {
+            links.push(base.link("items", &format!("{path}/items"), CSV).titled("The locations as a table"));
+        }
+        Self {
+            id: collection.id(),
+            title,
+            description,
+            item_type: "feature",
+            extent: Extent { spatial: SpatialExtent { bbox: vec![extent(context, collection)], crs: CRS84 } },
+            crs: vec![CRS84, EPSG_3857],
+            storage_crs: EPSG_3857,
+            item_count: context.features(collection).len(),
+            links,
+        }
+    }
+}
+
+/// Title and description of a collection.
+const fn describe(collection: Collection) -> (&'static str, &'static str) {
+    match collection {
+        Collection::Faces => ("Faces", "The cells of the decomposition, with category, label and occupancy"),
+        Collection::Edges => ("Edges", "The borders between faces, with their cogency and physical support"),
+        Collection::Vertices => ("Vertices", "Where edges meet"),
+        Collection::Nodes => ("Nodes", "The nodes of the adjacency graph: one in each face"),
+        Collection::Links => ("Links", "The links of the adjacency graph, with their connectivity"),
+        Collection::Lines => ("Lines", "The straight alignments of obstacles behind the decomposition"),
+        Collection::Regions => ("Regions", "Blocks of the map with a pattern of their own"),
+        Collection::Places => ("Places", "Mutually open faces of one label, merged: corridors, junctions, blocks"),
+        Collection::Locations => ("Locations", "Storage locations with code, aisle, bay, occupancy and approach"),
+    }
+}
+
+/// The box around a collection in degrees; around the whole grid where the collection is empty.
+fn extent(context: &MapContext, collection: Collection) -> [f64; 4] {
+    let transform = Transform::new(Crs::Crs84, context.record.georeference);
+    let frame = &context.analysis.frame;
+    let (width, height) =
+        (context.analysis.width as f64 * frame.resolution, context.analysis.height as f64 * frame.resolution);
+    let grid =
+        [[0.0, 0.0], [width, 0.0], [width, height], [0.0, height]].map(|corner| frame.to_map(Point::from(corner)));
+    let boxes = context.features(collection).iter().map(|feature| feature.bbox);
+    let of_features = boxes.flat_map(|[west, south, east, north]| {
+        [[west, south], [east, south], [east, north], [west, north]].map(Point::from)
+    });
+    let mut corners = of_features.peekable();
+    let corners: Vec<Point> = if corners.peek().is_some() { corners.collect() } else { grid.to_vec() };
+    let empty = [f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY];
+    corners.into_iter().map(|corner| transform.forward(corner)).fold(empty, |[west, south, east, north], [lon, lat]| {
+        [west.min(lon), south.min(lat), east.max(lon), north.max(lat)]
+    })
+}
+
+/// The tag of what an analysed map answers.
+pub fn tag(kind: &str, context: &MapContext) -> EntityTag {
+    let parts = [context.record.version, context.semantics.version].map(|version| version.to_string());
+    EntityTag::of_content(&[kind, &context.analysis_id.to_string(), &parts[0], &parts[1]])
+}
+
+/// Runs what takes longer than a moment beside the runtime's threads.
+///
+/// # Errors
+/// Those of the work.
+pub async fn off_the_runtime<T: Send + 'static>(
+    work: impl FnOnce() -> Result<T, Problem> + Send + 'static,
+) -> Result<T, Problem> {
+    match tokio::task::spawn_blocking(work).await {
+        Ok(result) => result,
+        Err(failed) => std::panic::resume_unwind(failed.into_panic()),
+    }
+}
+
+/// List collections
+///
+/// The nine collections of an analysed map.
+#[utoipa::path(get, path = "/v1/maps/{mapId}/collections", tag = "features", operation_id = "listCollections",
+    params(MapPath),
+    responses((status = 200, description = "The collections", body = CollectionList,
+        headers(("ETag" = String, description = "Changes with the map, its analysis and its labels")))))]
+pub async fn list(
+    State(app): State<Arc<App>>,
+    base: Base,
+    Path(path): Path<MapPath>,
+    if_none_match: IfNoneMatch,
+) -> Result<Response, Problem> {
+    let context = app.context(path.map_id.0).await?;
+    off_the_runtime(move || {
+        Ok(tag("collections", &context).answer(&if_none_match, || {
+            let collections = Collection::ALL.map(|collection| CollectionView::new(&base, &context, collection));
+            let links = vec![
+                base.link("self", &format!("/v1/maps/{}/collections", path.map_id), JSON),
+                base.link("up", &format!("/v1/maps/{}", path.map_id), JSON),
+            ];
+            Json(CollectionList { collections: collections.into(), links }).into_response()
+        }))
+    })
+    .await
+}
+
+/// A collection
+#[utoipa::path(get, path = "/v1/maps/{mapId}/collections/{collectionId}", tag = "features",
+    operation_id = "getCollection", params(CollectionPath),
+    responses((status = 200, description = "The collection", body = CollectionView,
+        headers(("ETag" = String, description = "Changes with the map, its analysis and its labels")))))]
+pub async fn get(
+    State(app): State<Arc<App>>,
+    base: Base,
+    Path(path): Path<CollectionPath>,
+    if_none_match: IfNoneMatch,
+) -> Result<Response, Problem> {
+    let context = app.context(path.map_id.0).await?;
+    off_the_runtime(move || {
+        let answer = || Json(CollectionView::new(&base, &context, path.collection_id.0)).into_response();
+        Ok(tag("collection", &context).answer(&if_none_match, answer))
+    })
+    .await
+}

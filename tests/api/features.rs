@@ -1,0 +1,241 @@
+//! The collections of a map and their features.
+
+use axum::http::Method;
+use serde_json::{Value, json};
+
+use crate::client::{Api, HALL, METADATA, pgm, upload};
+
+const CRS84: &str = "http://www.opengis.net/def/crs/OGC/1.3/CRS84";
+const EPSG_3857: &str = "http://www.opengis.net/def/crs/EPSG/0/3857";
+const COLLECTIONS: [&str; 9] =
+    ["faces", "edges", "vertices", "nodes", "links", "lines", "regions", "places", "locations"];
+
+/// Follows the pages of a list; ids in their order.
+async fn ids(api: &Api, path: &str) -> Vec<Value> {
+    let mut ids = Vec::new();
+    let mut path = path.to_owned();
+    loop {
+        let answer = api.get(&path).await;
+        assert_eq!(answer.status, 200, "{path}: {}", answer.text());
+        let page = answer.json();
+        let features = page["features"].as_array().expect("features");
+        assert_eq!(page["numberReturned"], features.len());
+        ids.extend(features.iter().map(|feature| feature["id"].clone()));
+        let next = page["links"].as_array().expect("links").iter().find(|link| link["rel"] == "next");
+        let Some(next) = next else { return ids };
+        assert!(answer.header("link").contains("rel=\"next\""));
+        path = next["href"].as_str().expect("an address").trim_start_matches("http://stillage.test").to_owned();
+    }
+}
+
+#[tokio::test]
+async fn collections_say_what_they_hold() {
+    let api = Api::new().await;
+    let map = api.hall().await;
+    let list = api.get(&format!("{map}/collections")).await.json();
+    let collections = list["collections"].as_array().expect("collections");
+    assert_eq!(collections.iter().filter_map(|collection| collection["id"].as_str()).collect::<Vec<_>>(), COLLECTIONS);
+    for collection in collections {
+        assert_eq!(collection["crs"], json!([CRS84, EPSG_3857]));
+        assert_eq!(collection["storageCrs"], EPSG_3857);
+        let links = collection["links"].as_array().expect("links");
+        let items = links.iter().find(|link| link["rel"] == "items").expect("a link to the items");
+        assert_eq!(items["type"], "application/geo+json");
+        let href = items["href"].as_str().expect("an address");
+        assert!(!href.contains('?'), "{href}");
+        let answer = api.get(href.trim_start_matches("http://stillage.test")).await.json();
+        assert_eq!(answer["numberMatched"], collection["itemCount"], "{collection}");
+        let alone = api.get(&format!("{map}/collections/{}", collection["id"].as_str().expect("an id"))).await.json();
+        assert_eq!(&alone, collection);
+    }
+    api.get(&format!("{map}/collections/walls")).await.problem(404, "not-found");
+    api.get(&format!("{map}/collections/walls/items")).await.problem(404, "not-found");
+}
+
+#[tokio::test]
+async fn items_are_geojson() {
+    let api = Api::new().await;
+    let map = api.hall().await;
+    for collection in COLLECTIONS {
+        let answer = api.get(&format!("{map}/collections/{collection}/items?limit=10000")).await;
+        assert_eq!(answer.header("content-type"), "application/geo+json");
+        assert_eq!(answer.header("content-crs"), format!("<{CRS84}>"));
+        let items = answer.json();
+        assert_eq!(items["type"], "FeatureCollection");
+        assert!(items["timeStamp"].as_str().is_some_and(|time| time.ends_with('Z')));
+        for feature in items["features"].as_array().expect("features") {
+            assert_eq!(feature["type"], "Feature");
+            assert!(feature["properties"].is_object() && feature["geometry"]["coordinates"].is_array(), "{feature}");
+        }
+        if collection != "locations" && collection != "places" {
+            assert!(items["numberMatched"].as_u64() > Some(0), "{collection}");
+        }
+    }
+}
+
+#[tokio::test]
+async fn pages_hold_every_feature_once() {
+    let api = Api::new().await;
+    let map = api.hall().await;
+    let all = ids(&api, &format!("{map}/collections/edges/items?limit=10000")).await;
+    assert!(all.len() > 20);
+    assert_eq!(ids(&api, &format!("{map}/collections/edges/items?limit=7")).await, all);
+    let beyond = api.get(&format!("{map}/collections/edges/items?after=999999")).await.json();
+    assert_eq!((&beyond["numberReturned"], &beyond["numberMatched"]), (&json!(0), &json!(all.len())));
+}
+
+#[tokio::test]
+async fn metres_of_the_map_are_those_of_web_mercator() {
+    let api = Api::new().await;
+    let map = api.hall().await;
+    for crs in [EPSG_3857, "EPSG:3857"] {
+        let answer = api.get(&format!("{map}/collections/vertices/items?crs={crs}&limit=10000")).await;
+        assert_eq!(answer.header("content-crs"), format!("<{EPSG_3857}>"));
+        for vertex in answer.json()["features"].as_array().expect("features") {
+            let [x, y] = [0, 1].map(|axis| vertex["geometry"]["coordinates"][axis].as_f64().expect("a number"));
+            assert!((-2.3..=13.8).contains(&x) && (-1.3..=4.8).contains(&y), "{x}, {y}");
+        }
+    }
+}
+
+#[tokio::test]
+async fn boxes_select() {
+    let api = Api::new().await;
+    let map = api.hall().await;
+    let items = format!("{map}/collections/faces/items");
+    let all = ids(&api, &items).await;
+    let everything = ids(&api, &format!("{items}?bbox=-180,-90,180,90")).await;
+    assert_eq!(everything, all);
+    assert_eq!(ids(&api, &format!("{items}?bbox=-10,-10,0,20,20,9&bbox-crs=EPSG:3857")).await, all);
+    let some = ids(&api, &format!("{items}?bbox=0,0,2,2&bbox-crs=EPSG:3857&limit=3")).await;
+    assert!(!some.is_empty() && some.len() < all.len(), "{} of {}", some.len(), all.len());
+    let degrees = ids(&api, &format!("{items}?bbox=0,0,0.0000179663,0.0000179663")).await;
+    assert_eq!(degrees, some, "two metres are that many degrees");
+    assert_eq!(ids(&api, &format!("{items}?bbox=1000,1000,1001,1001&bbox-crs=EPSG:3857")).await, Vec::<Value>::new());
+}
+
+#[tokio::test]
+async fn bad_values_are_refused_by_name() {
+    let api = Api::new().await;
+    let map = api.hall().await;
+    for (query, parameter) in [
+        ("limit=0", "limit"),
+        ("limit=10001", "limit"),
+        ("limit=-1", "limit"),
+        ("bbox=1,2,3", "bbox"),
+        ("bbox=1,2,3,x", "bbox"),
+        ("bbox=10,10,0,0", "bbox"),
+        ("bbox=3,0,1,1&bbox-crs=EPSG:3857", "bbox"),
+        ("bbox=0,0,1,1&bbox-crs=EPSG:4326", "bbox-crs"),
+        ("crs=EPSG:4326", "crs"),
+        ("after=x", "after"),
+        ("f=html", "f"),
+        ("f=csv", "f"),
+        ("offset=3", "offset"),
+        ("filter=label='co'", "filter"),
+    ] {
+        let problem = api.get(&format!("{map}/collections/faces/items?{query}")).await.problem(400, "bad-parameter");
+        assert_eq!(problem["errors"][0]["parameter"], parameter, "{query}: {problem}");
+    }
+}
+
+#[tokio::test]
+async fn items_are_cached_and_compressed() {
+    let api = Api::new().await;
+    let map = api.hall().await;
+    let path = format!("{map}/collections/faces/items");
+    let tag = api.get(&path).await.header("etag").to_owned();
+    assert!(tag.starts_with('"'), "{tag}");
+    assert_eq!(api.get(&path).await.header("etag"), tag, "the time of the answer is not in it");
+    let again = api.get_with(&path, &[("if-none-match", &tag)]).await;
+    assert_eq!((again.status.as_u16(), again.body.len()), (304, 0));
+    let small = api.get_with(&path, &[("accept-encoding", "br")]).await;
+    assert_eq!(small.header("content-encoding"), "br");
+    assert!(small.header("vary").contains("accept"));
+    let again = api.get_with(&path, &[("accept-encoding", "br"), ("if-none-match", small.header("etag"))]).await;
+    assert_eq!(again.status, 304);
+    api.send_json(Method::PATCH, &map, &[], &json!({"georeference": {"lon": 12.86, "lat": 56.66}})).await;
+    assert_eq!(api.get_with(&path, &[("if-none-match", &tag)]).await.status, 200, "the map has moved");
+}
+
+#[tokio::test]
+async fn a_feature_has_an_address() {
+    let api = Api::new().await;
+    let map = api.hall().await;
+    for collection in COLLECTIONS {
+        let items = format!("{map}/collections/{collection}/items");
+        let page = api.get(&format!("{items}?limit=1&crs=EPSG:3857")).await.json();
+        let Some(first) = page["features"].get(0) else { continue };
+        let id = first["id"].as_str().map_or_else(|| first["id"].to_string(), str::to_owned);
+        let answer = api.get(&format!("{items}/{id}?crs=EPSG:3857")).await;
+        assert_eq!(
+            (answer.status.as_u16(), answer.header("content-type")),
+            (200, "application/geo+json"),
+            "{collection}"
+        );
+        let feature = answer.json();
+        for member in ["id", "type", "geometry", "properties"] {
+            assert_eq!(feature[member], first[member], "{collection}");
+        }
+        assert_eq!(feature["links"][0]["href"], format!("http://stillage.test{items}/{id}"));
+        for wrong in ["999999", "01", "x%20y"] {
+            api.get(&format!("{items}/{wrong}")).await.problem(404, "not-found");
+        }
+    }
+}
+
+#[tokio::test]
+async fn media_types_of_items() {
+    let api = Api::new().await;
+    let map = api.hall().await;
+    let faces = format!("{map}/collections/faces/items");
+    for accept in ["*/*", "application/geo+json", "application/json", "application/geo+json, application/json"] {
+        assert_eq!(api.get_with(&faces, &[("accept", accept)]).await.header("content-type"), "application/geo+json");
+    }
+    for accept in ["text/html", "application/fg+json", "text/csv"] {
+        api.get_with(&faces, &[("accept", accept)]).await.problem(406, "not-acceptable");
+    }
+}
+
+#[tokio::test]
+async fn locations_are_a_table_too() {
+    let api = Api::new().await;
+    let map = api.hall().await;
+    // Every face a pallet cell but the first, so that there are locations for sure.
+    let all: serde_json::Map<String, Value> = (0..7).map(|category| (category.to_string(), json!("pc"))).collect();
+    let answer = api
+        .send_json(Method::PUT, &format!("{map}/semantics"), &[("if-match", "*")], &json!({"assignment": all}))
+        .await;
+    assert_eq!(answer.status, 200, "{}", answer.text());
+    let items = format!("{map}/collections/locations/items");
+    let all = ids(&api, &format!("{items}?limit=10000")).await;
+    assert!(!all.is_empty());
+    for (path, accept) in [(items.clone(), "text/csv"), (format!("{items}?f=csv"), "*/*")] {
+        let table = api.get_with(&path, &[("accept", accept)]).await;
+        assert_eq!((table.status.as_u16(), table.header("content-type")), (200, "text/csv; charset=utf-8"));
+        let mut reader = csv::Reader::from_reader(table.body.as_slice());
+        assert_eq!(reader.headers().expect("a head").get(0), Some("code"));
+        assert_eq!(reader.records().count(), all.len().min(1000));
+    }
+    let page = api.get(&format!("{items}?f=csv&limit=2")).await;
+    assert_eq!(csv::Reader::from_reader(page.body.as_slice()).records().count(), 2);
+    assert!(page.header("link").contains("f=csv"), "{}", page.header("link"));
+    let json_tag = api.get(&items).await.header("etag").to_owned();
+    assert_ne!(page.header("etag"), json_tag, "another representation");
+}
+
+#[tokio::test]
+async fn the_same_map_gives_the_same_features() {
+    let api = Api::new().await;
+    let first = api.hall().await;
+    let second = api.hall().await;
+    for collection in COLLECTIONS {
+        let features = |map: &str| {
+            let (api, path) = (&api, format!("{map}/collections/{collection}/items?limit=10000"));
+            async move { api.get(&path).await.json()["features"].to_string() }
+        };
+        assert_eq!(features(&first).await, features(&second).await, "{collection}");
+    }
+    let answer = api.send(upload(&pgm(HALL), METADATA)).await;
+    assert_eq!(answer.status, 202);
+}
