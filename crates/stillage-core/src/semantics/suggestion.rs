@@ -226,12 +226,8 @@ pub(super) fn category_evidence(analysis: &Analysis) -> Vec<CategoryEvidence> {
     for ((sum, areas), length) in sums.iter_mut().zip(&mut areas).zip(lengths) {
         let share = |value: f64, whole: f64| if whole > 0.0 { value / whole } else { 0.0 };
         let area = sum.area;
-        for mean in [
-            &mut sum.free_fraction,
-            &mut sum.occupied_fraction,
-            &mut sum.unknown_fraction,
-            &mut sum.elongation,
-        ] {
+        for mean in [&mut sum.free_fraction, &mut sum.occupied_fraction, &mut sum.unknown_fraction, &mut sum.elongation]
+        {
             *mean = share(*mean, area);
         }
         sum.open_fraction = share(sum.open_fraction, length);
