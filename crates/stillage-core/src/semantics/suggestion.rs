@@ -158,9 +158,11 @@ impl Reading {
         let seen_goods = ramp(evidence.occupied_fraction, 0.05, 0.15);
         // Beams do not enter a stack of goods: what stays unknown among known places holds something.
         let unseen = ramp(evidence.unknown_fraction, 0.4, 0.8);
+        let free = ramp(evidence.free_fraction, 0.5, 0.85);
         // An empty place has its neighbours on three sides and is open to the fourth at most.
         let closed_in = ramp(evidence.lined_fraction, 0.5, 0.75).min(1.0 - ramp(evidence.open_fraction, 0.25, 0.5));
-        let goods = seen_goods.max(small.min(unseen)).max(tiny.min(closed_in));
+        let nook = free.min(tiny).min(closed_in);
+        let goods = seen_goods.max(small.min(unseen)).max(nook);
         let lined = ramp(evidence.lined_fraction, 0.2, 0.5);
         // Faces may be cut anywhere by the lines of the racks, so beams tell better what is long, and what is wide.
         let long = match sight.elongation {
@@ -168,14 +170,7 @@ impl Reading {
             None => ramp(evidence.elongation, 1.5, 4.0),
         };
         let far = sight.relative_beam.map_or(1.0 - lined, |beam| ramp(beam, 0.7, 1.2));
-        Self {
-            free: ramp(evidence.free_fraction, 0.5, 0.85),
-            goods,
-            long,
-            wide: far.min(1.0 - long),
-            lined,
-            roomy: ramp(evidence.median_area, 2.0, 8.0),
-        }
+        Self { free, goods, long, wide: far.min(1.0 - long), lined, roomy: ramp(evidence.median_area, 2.0, 8.0) }
     }
 
     /// A label is as likely as the least likely of its functionalities.
