@@ -124,7 +124,9 @@ fn read_histogram(
     if total <= 0.0 {
         return Ok(Orientations::default());
     }
-    histogram.iter_mut().for_each(|weight| *weight /= total);
+    for weight in &mut histogram {
+        *weight /= total;
+    }
     let bins_per_degree = histogram.len() as f64 / 180.0;
     let smooth = signal::smooth_hann(&histogram, HISTOGRAM_SMOOTHING_DEG * bins_per_degree, Boundary::Circular);
     let model = Mixture::fit(&smooth, options.max_components, watch)?;

@@ -28,9 +28,9 @@ fn one_hall() -> OccupancyGrid {
 
 /// One character per tile, highest row on top.
 fn picture(map: &RegionMap) -> String {
-    let character = |&region: &u8| if region == RegionMap::NONE { ' ' } else { char::from(b'A' + region) };
+    let character = |&region: &u8| if region == RegionMap::NONE { '.' } else { char::from(b'A' + region) };
     let rows = map.tiles.chunks(map.columns).rev();
-    rows.map(|row| row.iter().map(character).collect::<String>().trim_end().to_owned() + "\n").collect()
+    rows.map(|row| row.iter().map(character).collect::<String>() + "\n").collect()
 }
 
 /// Orientations and share of each region, a line each.
@@ -52,28 +52,28 @@ fn two_halls_are_two_regions() {
     "#]]
     .assert_eq(&summary(&map));
     expect![[r#"
-                                   AAAAAA
-                         BBBBB    AAAAAAAAA
-              BBBBBBBBBBBBBBBB   AAAAAAAAAAA
-         BBBBBBBBBBBBBBBBBBBBB   AAAAAAAAAAAAA
-         BBBBBBBBBBBBBBBBBBBBB  AAAAAAAAAAAAAAAA
-         BBBBBBBBBBBBBBBBBBBBB  AAAAAAAAAAAAAAAAAA
-         BBBBBBBBBBBBBBBBBBBBB AAAAAAAAAAAAAAAAAAAAA
-         BBBBBBBBBBBBBBBBBBBBB AAAAAAAAAAAAAAAAAAAAAAA
-         BBBBBBBBBBBBBBBBBBBBBBAAAAAAAAAAAAAAAAAAAAAAA
-         BBBBBBBBBBBBBBBBBBBBBBAAAAAAAAAAAAAAAAAAAAAAA
-         BBBBBBBBBBBBBBBBBBBBBBAAAAAAAAAAAAAAAAAAAAAA
-         BBBBBBBBBBBBBBBBBBBBBBAAAAAAAAAAAAAAAAAAAAAA
-          BBBBBBBBBBBBBBBBBBBBBBAAAAAAAAAAAAAAAAAAAA
-          BBBBBBBBBBBBBBBBBBBBBBAAAAAAAAAAAAAAAAAAAA
-          BBBBBBBBBBBBBBBBBBBBBBAAAAAAAAAAAAAAAAAAA
-          BBBBBBBBBBBBBBBBBBBBBBAAAAAAAAAAAAAAAAAAA
-          BBBBBBBBBBBBBBBBBBBBB AAAAAAAAAAAAAAAAAA
-          BBBBBBBBBBBBBBBBBBBBB   AAAAAAAAAAAAAAAA
-          BBBBBBBBBBBBBBBBBBBBB     AAAAAAAAAAAAA
-          BBBBBBBBBBBBBBBB            AAAAAAAAAAA
-          BBBBB                        AAAAAAAAA
-                                         AAAAAA
+        ...........................AAAAAA.............
+        .................BBBBB....AAAAAAAAA...........
+        ......BBBBBBBBBBBBBBBB...AAAAAAAAAAA..........
+        .BBBBBBBBBBBBBBBBBBBBB...AAAAAAAAAAAAA........
+        .BBBBBBBBBBBBBBBBBBBBB..AAAAAAAAAAAAAAAA......
+        .BBBBBBBBBBBBBBBBBBBBB..AAAAAAAAAAAAAAAAAA....
+        .BBBBBBBBBBBBBBBBBBBBB.AAAAAAAAAAAAAAAAAAAAA..
+        .BBBBBBBBBBBBBBBBBBBBB.AAAAAAAAAAAAAAAAAAAAAAA
+        .BBBBBBBBBBBBBBBBBBBBBBAAAAAAAAAAAAAAAAAAAAAAA
+        .BBBBBBBBBBBBBBBBBBBBBBAAAAAAAAAAAAAAAAAAAAAAA
+        .BBBBBBBBBBBBBBBBBBBBBBAAAAAAAAAAAAAAAAAAAAAA.
+        .BBBBBBBBBBBBBBBBBBBBBBAAAAAAAAAAAAAAAAAAAAAA.
+        ..BBBBBBBBBBBBBBBBBBBBBBAAAAAAAAAAAAAAAAAAAA..
+        ..BBBBBBBBBBBBBBBBBBBBBBAAAAAAAAAAAAAAAAAAAA..
+        ..BBBBBBBBBBBBBBBBBBBBBBAAAAAAAAAAAAAAAAAAA...
+        ..BBBBBBBBBBBBBBBBBBBBBBAAAAAAAAAAAAAAAAAAA...
+        ..BBBBBBBBBBBBBBBBBBBBB.AAAAAAAAAAAAAAAAAA....
+        ..BBBBBBBBBBBBBBBBBBBBB...AAAAAAAAAAAAAAAA....
+        ..BBBBBBBBBBBBBBBBBBBBB.....AAAAAAAAAAAAA.....
+        ..BBBBBBBBBBBBBBBB............AAAAAAAAAAA.....
+        ..BBBBB........................AAAAAAAAA......
+        .................................AAAAAA.......
     "#]]
     .assert_eq(&picture(&map));
 }

@@ -155,10 +155,7 @@ mod tests {
             }
         };
         check(|draft| grow(draft, 32), &expect![""]);
-        check(
-            |draft| grow(draft, 33),
-            &expect!["/labels: 33 labels are more than 32"],
-        );
+        check(|draft| grow(draft, 33), &expect!["/labels: 33 labels are more than 32"]);
     }
 
     #[test]
