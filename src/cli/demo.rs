@@ -35,7 +35,9 @@ pub(super) struct DemoArgs {
 /// Runs the command.
 pub(super) fn run(arguments: &DemoArgs) -> Result<(), Failure> {
     if !arguments.listen.ip().is_loopback() {
-        return Err(Failure::Input("the demo has no API keys: listen on a loopback address such as 127.0.0.1:8080".into()));
+        return Err(Failure::Input(
+            "the demo has no API keys: listen on a loopback address such as 127.0.0.1:8080".into(),
+        ));
     }
     let runtime = tokio::runtime::Builder::new_multi_thread().enable_all().build().map_err(Failure::internal)?;
     runtime.block_on(demo(arguments))
@@ -43,7 +45,10 @@ pub(super) fn run(arguments: &DemoArgs) -> Result<(), Failure> {
 
 async fn demo(arguments: &DemoArgs) -> Result<(), Failure> {
     let listener = TcpListener::bind(arguments.listen).await.map_err(|error| {
-        Failure::Input(format!("cannot listen on {}: {error}; `--listen 127.0.0.1:0` takes a free port", arguments.listen))
+        Failure::Input(format!(
+            "cannot listen on {}: {error}; `--listen 127.0.0.1:0` takes a free port",
+            arguments.listen
+        ))
     })?;
     let base = format!("http://{}", listener.local_addr().map_err(Failure::internal)?);
     let folder = tempfile::tempdir().map_err(Failure::internal)?;

@@ -82,7 +82,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let analysis = pool
         .install(|| stillage_core::analyze(&grid, &spec, &Watch::new(&stop, &progress)))
         .map_err(|error| Failure::Internal(error.to_string()))?;
-    let findings = progress.clock().time("semantics", || read_semantics(name, grid, analysis, warnings, &rule_set, assignment))?;
+    let findings =
+        progress.clock().time("semantics", || read_semantics(name, grid, analysis, warnings, &rule_set, assignment))?;
     progress.finish();
     output::write(&folder, &findings, &progress.clock().reports())?;
     println!("{}", folder.display());
