@@ -58,7 +58,7 @@ impl StageClock {
     /// The stage that runs, if one does.
     #[must_use]
     pub fn stage(&self) -> Option<Stage> {
-        self.times().running.as_ref().map(|running| running.stage)
+        self.times().running.as_ref().filter(|running| running.fraction < 1.0).map(|running| running.stage)
     }
 
     /// How much of the whole analysis is done, 0 to 100.
@@ -68,7 +68,8 @@ impl StageClock {
         let share =
             |stage: &str| SHARES.iter().find(|(known, _)| known.name() == stage).map_or(0.0, |(_, share)| *share);
         let finished: f64 = times.finished.iter().map(|report| share(&report.name)).sum();
-        let running = times.running.as_ref().map_or(0.0, |running| share(running.stage.name()) * running.fraction);
+        let running = times.running.as_ref().filter(|running| running.fraction < 1.0);
+        let running = running.map_or(0.0, |running| share(running.stage.name()) * running.fraction);
         (finished + running).clamp(0.0, 100.0) as u8
     }
 
@@ -98,14 +99,18 @@ impl Observer for StageClock {
         }
         let Some(running) = times.running.as_mut() else { return };
         running.fraction = running.fraction.max(fraction);
-        if fraction >= 1.0 {
-            let report = StageReport {
-                name: stage.name().to_owned(),
-                wall_s: running.wall.elapsed().as_secs_f64(),
-                cpu_s: cpu_time().saturating_sub(running.cpu).as_secs_f64(),
-            };
-            times.finished.push(report);
-            times.running = None;
+        if fraction < 1.0 {
+            return;
+        }
+        let report = StageReport {
+            name: stage.name().to_owned(),
+            wall_s: running.wall.elapsed().as_secs_f64(),
+            cpu_s: cpu_time().saturating_sub(running.cpu).as_secs_f64(),
+        };
+        // A stage may say more than once that it is done: its loop does, and its end. The last word counts.
+        match times.finished.iter_mut().find(|finished| finished.name == report.name) {
+            Some(earlier) => *earlier = report,
+            None => times.finished.push(report),
         }
     }
 }
@@ -137,6 +142,15 @@ mod tests {
         clock.progress(Stage::Features, 1.0);
         assert_eq!((clock.stage(), clock.percent()), (None, 50));
         assert_eq!(clock.reports()[0].name, "features");
+    }
+
+    #[test]
+    fn a_stage_that_ends_twice_is_reported_once() {
+        let clock = StageClock::new();
+        for fraction in [0.0, 1.0, 1.0] {
+            clock.progress(Stage::Features, fraction);
+        }
+        assert_eq!((clock.percent(), clock.reports().len()), (50, 1));
     }
 
     #[test]

@@ -50,17 +50,22 @@ impl Failure {
     fn internal(error: impl std::fmt::Display) -> Self {
         Self::Internal(error.to_string())
     }
+
+    /// What keeps a service from starting is most often how it was set up; the message says what to change.
+    fn setup(error: impl std::fmt::Display) -> Self {
+        Self::Input(error.to_string())
+    }
 }
 
 /// Runs the command line.
 #[must_use]
 pub fn run() -> ExitCode {
     let result = match Cli::parse().command {
-        Command::Serve(arguments) => serve::run(&arguments).map_err(Failure::internal),
+        Command::Serve(arguments) => serve::run(&arguments).map_err(Failure::setup),
         Command::Analyze(arguments) => analyze::run(&arguments),
         Command::Demo(arguments) => demo::run(&arguments),
-        Command::Openapi(arguments) => openapi::run(&arguments).map_err(Failure::internal),
-        Command::Migrate(arguments) => migrate::run(&arguments).map_err(Failure::internal),
+        Command::Openapi(arguments) => openapi::run(&arguments).map_err(Failure::setup),
+        Command::Migrate(arguments) => migrate::run(&arguments).map_err(Failure::setup),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,
@@ -69,7 +74,7 @@ pub fn run() -> ExitCode {
             ExitCode::from(2)
         }
         Err(Failure::Internal(message)) => {
-            eprintln!("error: {message}");
+            eprintln!("internal error: {message}");
             ExitCode::from(1)
         }
     }

@@ -1,7 +1,7 @@
 //! Lines and regions: what the subdivision was made from.
 
 use serde_json::json;
-use stillage_core::geometry::{direction, fold_half_turn, normal};
+use stillage_core::geometry::{direction, normal};
 use stillage_core::radiography::Line;
 use stillage_core::{Point, Vector};
 
@@ -13,12 +13,13 @@ use super::{MapView, orientation_degrees, rounded};
 pub(super) fn lines(view: &MapView<'_>) -> Vec<Feature> {
     let feature = |(index, line): (usize, &Line)| {
         let foot = Point::from(normal(line.orientation) * line.offset);
-        // The map frame has another origin, and folding may turn the normal around.
-        let turned = fold_half_turn(view.analysis.frame.angle_to_map(line.orientation));
-        let offset = normal(turned).dot(&map_position(view, foot).coords);
+        // The map frame has another origin, and folding may turn the normal around: the offset goes with the
+        // orientation as it is written.
+        let orientation = orientation_degrees(view, line.orientation);
+        let offset = normal(orientation.to_radians()).dot(&map_position(view, foot).coords);
         let properties = properties([
             ("id", json!(index)),
-            ("orientation", json!(orientation_degrees(view, line.orientation))),
+            ("orientation", json!(orientation)),
             ("offset", json!(rounded(offset))),
             ("support", json!(rounded(line.support))),
             ("region", json!(line.region)),

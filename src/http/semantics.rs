@@ -61,8 +61,10 @@ pub enum CategoryKind {
     Cluster,
     /// Faces that hold obstacles and no free cell.
     Occupied,
-    /// Faces that hold no known cell.
+    /// Faces among known places that hold no known cell.
     Unknown,
+    /// Unexplored faces around the site.
+    Outside,
 }
 
 /// A proposed label.
@@ -138,7 +140,8 @@ impl CategoryView {
             kind: match cluster {
                 Some(_) => CategoryKind::Cluster,
                 None if id == map.occupied() => CategoryKind::Occupied,
-                None => CategoryKind::Unknown,
+                None if id == map.unknown() => CategoryKind::Unknown,
+                None => CategoryKind::Outside,
             },
             cells,
             area_m2: cells as f64 * analysis.frame.resolution * analysis.frame.resolution,

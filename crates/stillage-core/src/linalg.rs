@@ -110,7 +110,9 @@ fn covariance(points: &[f32], mean: &[f64]) -> DMatrix<f64> {
 fn with_fixed_sign(mut vector: Vec<f64>) -> Vec<f64> {
     let largest = vector.iter().copied().reduce(|best, value| if value.abs() > best.abs() { value } else { best });
     if largest.is_some_and(|value| value < 0.0) {
-        vector.iter_mut().for_each(|value| *value = -*value);
+        for value in &mut vector {
+            *value = -*value;
+        }
     }
     vector
 }

@@ -246,3 +246,179 @@ fn tile_crossings(foot: Point, along: crate::Vector, size: [f64; 2], tile: f64) 
     cuts.dedup();
     cuts
 }
+
+#[cfg(test)]
+mod tests {
+    use expect_test::{Expect, expect};
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::geometry::OrientedBox;
+    use crate::segmentation::Region;
+
+    /// Regions from digits, one tile of `tile_cells` cells per character, first line on top.
+    fn regions(picture: &str, tile_cells: usize, orientations_deg: &[f64]) -> RegionMap {
+        let rows: Vec<&str> = picture.split_whitespace().rev().collect();
+        let tile = |byte: u8| if byte.is_ascii_digit() { byte - b'0' } else { RegionMap::NONE };
+        let tiles: Vec<u8> = rows.iter().flat_map(|row| row.bytes()).map(tile).collect();
+        let count =
+            tiles.iter().filter(|&&tile| tile != RegionMap::NONE).max().map_or(0, |&last| usize::from(last) + 1);
+        let region = Region {
+            orientations: orientations_deg.iter().map(|angle| angle.to_radians()).collect(),
+            bounds: OrientedBox { center: Point::origin(), half_extents: [0.0; 2], angle: 0.0 },
+            share: 1.0,
+        };
+        let columns = rows.first().map_or(0, |row| row.len());
+        RegionMap { tile_cells, columns, rows: rows.len(), tiles, regions: vec![region; count] }
+    }
+
+    fn find(grid: &OccupancyGrid, regions: &RegionMap, smoothing_m: f64) -> (Vec<Radiogram>, Vec<Line>) {
+        let options = DecompositionOptions { smoothing_m, min_distance_m: 0.9, min_peak: 0.3 };
+        lines(grid, regions, &options, &Watch::unwatched()).unwrap()
+    }
+
+    /// One line of text per line: region, direction, offset, support, extents.
+    fn check(grid: &OccupancyGrid, regions: &RegionMap, wanted: &Expect) {
+        let text = |line: &Line| {
+            let extents: Vec<String> =
+                line.extents.iter().map(|[start, end]| format!("{start:.1}..{end:.1}")).collect();
+            let Line { region, orientation, offset, support, .. } = line;
+            format!(
+                "{region} at {:.0}, {offset:.2} m: {support:.1} m in {}\n",
+                orientation.to_degrees(),
+                extents.join(" ")
+            )
+        };
+        wanted.assert_eq(&find(grid, regions, 0.0).1.iter().map(text).collect::<String>());
+    }
+
+    const ROOMS: &str = "
+        ##########
+        #....#...#
+        #....#...#
+        #........#
+        ##########
+        #........#
+        ##########
+        ";
+
+    #[test]
+    fn walls_become_lines_within_their_cells() {
+        let grid = OccupancyGrid::from_ascii(ROOMS, 0.5);
+        check(
+            &grid,
+            &regions("00000 00000 00000 00000", 2, &[-90.0, 0.0]),
+            &expect![[r#"
+            0 at -90, 0.32 m: 3.5 m in -3.5..0.0
+            0 at -90, 1.75 m: 1.5 m in -3.5..0.0
+            0 at -90, 2.75 m: 2.5 m in -3.5..0.0
+            0 at -90, 4.68 m: 3.5 m in -3.5..0.0
+            0 at 0, 0.28 m: 5.0 m in 0.0..5.0
+            0 at 0, 1.25 m: 5.0 m in 0.0..5.0
+            0 at 0, 3.21 m: 5.0 m in 0.0..5.0
+        "#]],
+        );
+    }
+
+    #[test]
+    fn lines_end_with_their_region() {
+        let grid = OccupancyGrid::from_ascii(ROOMS, 1.0);
+        check(
+            &grid,
+            &regions("00-11 00-11 00011 00011", 2, &[0.0]),
+            &expect![[r#"
+            0 at 0, 0.55 m: 6.0 m in 0.0..6.0
+            0 at 0, 2.50 m: 6.0 m in 0.0..6.0
+            0 at 0, 6.43 m: 4.0 m in 0.0..4.0
+            1 at 0, 0.57 m: 4.0 m in 6.0..10.0
+            1 at 0, 2.50 m: 4.0 m in 6.0..10.0
+            1 at 0, 6.43 m: 4.0 m in 6.0..10.0
+        "#]],
+        );
+    }
+
+    #[test]
+    fn a_slanted_line_is_cut_at_the_sides_of_tiles() {
+        let grid = OccupancyGrid::from_ascii(
+            "
+            .......#
+            ......#.
+            .....#..
+            ....#...
+            ...#....
+            ..#.....
+            .#......
+            #.......
+            ",
+            1.0,
+        );
+        check(
+            &grid,
+            &regions("0- 00", 4, &[45.0]),
+            &expect![[r#"
+            0 at 45, 0.00 m: 2.0 m in 0.0..5.7
+        "#]],
+        );
+        check(
+            &grid,
+            &regions("-0 0-", 4, &[45.0]),
+            &expect![[r#"
+            0 at 45, 0.00 m: 4.0 m in 0.0..11.3
+        "#]],
+        );
+    }
+
+    #[test]
+    fn a_radiogram_keeps_the_occupied_length() {
+        let grid = OccupancyGrid::from_ascii(ROOMS, 0.5);
+        let (radiograms, _) = find(&grid, &regions("00000 00000 00000 00000", 2, &[0.0, 31.0]), 1.3);
+        let occupied = grid.count(Occupancy::Occupied) as f64 * grid.resolution();
+        for radiogram in &radiograms {
+            assert!((radiogram.values.iter().sum::<f64>() - occupied).abs() < 1e-9);
+        }
+        assert_eq!(radiograms.len(), 2);
+    }
+
+    #[test]
+    fn grids_without_regions_or_structure_have_no_lines() {
+        let nothing = OccupancyGrid::from_ascii("", 0.05);
+        assert_eq!(find(&nothing, &regions("", 2, &[0.0]), 0.25), (vec![], vec![]));
+        let free = OccupancyGrid::from_ascii("....", 0.05);
+        let (radiograms, lines) = find(&free, &regions("00", 2, &[0.0]), 0.25);
+        assert_eq!((radiograms.len(), lines.len()), (1, 0));
+        assert_eq!(find(&free, &regions("00", 2, &[]), 0.25), (vec![], vec![]));
+    }
+
+    proptest! {
+        #[test]
+        fn lines_lie_in_the_grid_and_extents_are_apart(
+            width in 1_usize..24,
+            cells in proptest::collection::vec(0_u8..3, 1..400),
+            angle_deg in -90.0..90.0,
+            tile_cells in 1_usize..7,
+        ) {
+            let height = cells.len() / width;
+            let cell = |&cell: &u8| [Occupancy::Free, Occupancy::Occupied, Occupancy::Unknown][usize::from(cell)];
+            let frame = crate::GridFrame { resolution: 0.3, origin: Point::origin(), yaw: 0.0 };
+            let grid = OccupancyGrid::new(width, height, frame, cells[..width * height].iter().map(cell).collect());
+            let mut map = regions("0", tile_cells, &[angle_deg]);
+            (map.columns, map.rows) = (width.div_ceil(tile_cells), height.div_ceil(tile_cells));
+            map.tiles = (0..map.columns * map.rows).map(|tile| if tile % 5 == 3 { RegionMap::NONE } else { 0 }).collect();
+            let (_, lines) = find(&grid, &map, 0.7);
+            for pair in lines.windows(2) {
+                prop_assert!(pair[1].offset - pair[0].offset > 0.9 - 1e-9);
+            }
+            for line in &lines {
+                prop_assert!(line.extents.windows(2).all(|pair| pair[0][1] < pair[1][0]));
+                for &[start, end] in &line.extents {
+                    prop_assert!(start < end);
+                    let middle = normal(line.orientation) * line.offset
+                        + direction(line.orientation) * f64::midpoint(start, end);
+                    let (column, row) = (middle.x / 0.3, middle.y / 0.3);
+                    prop_assert!(column >= -1e-6 && column <= width as f64 + 1e-6, "{column}");
+                    prop_assert!(row >= -1e-6 && row <= height as f64 + 1e-6, "{row}");
+                }
+            }
+        }
+    }
+}

@@ -103,7 +103,7 @@ pub fn local_maxima(values: &[f64], boundary: Boundary) -> Vec<Peak> {
         // The signal rises to `first`; follow the plateau to where it ends.
         let mut last = first;
         let mut length = 1;
-        while let Some(next) = after(last).filter(|&next| values[next] == height && length < count) {
+        while let Some(next) = after(last).filter(|&next| values[next].total_cmp(&height).is_eq() && length < count) {
             last = next;
             length += 1;
         }

@@ -36,7 +36,7 @@ impl Hall {
             along.abs() < length - 3.0 && (across + width - 2.0).rem_euclid(4.0) < 1.1 && across < width - 2.0;
         let on_face = {
             let depth = (across + width - 2.0).rem_euclid(4.0);
-            depth < 0.1 || depth > 1.0
+            !(0.1..=1.0).contains(&depth)
         };
         let post = (along + length).rem_euclid(2.7) < 0.1;
         Some(match (wall, in_rack) {

@@ -1,7 +1,9 @@
 //! Where an analysis is: a bar on a terminal, a line per stage elsewhere. Both on stderr.
 
-use indicatif::{ProgressBar, ProgressStyle};
 use std::io::IsTerminal;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use indicatif::{ProgressBar, ProgressStyle};
 use stillage_core::Stage;
 use stillage_core::watch::Observer;
 
@@ -12,6 +14,8 @@ pub(super) struct Progress {
     clock: StageClock,
     /// `None` where nobody would see it move.
     bar: Option<ProgressBar>,
+    /// Stages whose line was printed.
+    printed: AtomicUsize,
 }
 
 impl Progress {
@@ -20,7 +24,7 @@ impl Progress {
             let style = ProgressStyle::with_template("{bar:40} {percent:>3} % {msg}");
             ProgressBar::new(100).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
         });
-        Self { clock: StageClock::new(), bar }
+        Self { clock: StageClock::new(), bar, printed: AtomicUsize::new(0) }
     }
 
     /// What the stages cost so far.
@@ -51,8 +55,13 @@ impl Observer for Progress {
                 bar.set_message(stage.name());
                 bar.set_position(u64::from(self.clock.percent()));
             }
-            None if fraction >= 1.0 => eprintln!("{} done", stage.name()),
-            None => {}
+            None => {
+                // A stage may say twice that it is done.
+                let done = stage as usize + 1;
+                if fraction >= 1.0 && self.printed.fetch_max(done, Ordering::Relaxed) < done {
+                    eprintln!("{} done", stage.name());
+                }
+            }
         }
     }
 }

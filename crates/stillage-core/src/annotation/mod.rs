@@ -5,6 +5,7 @@
 
 mod edges;
 mod faces;
+mod outside;
 mod raster;
 mod shape;
 
@@ -34,7 +35,7 @@ pub enum Evidence {
 /// What the cells say about a face.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct FaceAnnotation {
-    /// Category in force: a cluster, or `occupied` / `unknown` of [`CategoryMap`].
+    /// Category in force: a cluster, or `occupied`, `unknown` or `outside` of [`CategoryMap`].
     pub category: u8,
     /// Share of each cluster among the categorized cells of the face (sums to 1, or all 0 without such cells).
     pub category_shares: Vec<f32>,
@@ -89,7 +90,8 @@ pub fn annotate(
     watch: &Watch<'_>,
 ) -> Result<(Vec<FaceAnnotation>, Vec<EdgeAnnotation>), Stopped> {
     let AnnotationMethod::Vote = options.method;
-    let faces = faces::annotate_faces(grid, categories, regions, subdivision, cells, watch)?;
+    let mut faces = faces::annotate_faces(grid, categories, regions, subdivision, cells, watch)?;
+    outside::mark_outside(&mut faces, subdivision, categories);
     let edges = edges::annotate_edges(grid, subdivision, options, watch)?;
     Ok((faces, edges))
 }

@@ -12,8 +12,8 @@
 //! - End points are divided by the resolution once more before the principal components. These four features come
 //!   twice, the second time without coinciding neighbours.
 //!
-//! Departures: samples are placed in fixed point, where the author's double precision leaves samples exactly on a
-//! border of cells to rounding; a quotient that is no number is 0.
+//! Samples on a border of cells are left to the rounding of double precision, as the author left them: that decides
+//! gaps, and gaps decide categories. Departure: a quotient that is no number is 0.
 //!
 //! Method: each beam is marched alone, but jumps as many samples as the chessboard distance to the next obstacle
 //! allows, which changes no result. Cost: O(cells x beams x jumps), a few jumps per beam.
@@ -23,9 +23,8 @@ use std::f64::consts::TAU;
 use rayon::prelude::*;
 
 use super::paper_sums::principal_spreads;
-use crate::geometry::Vector;
+use crate::geometry::{Vector, direction};
 use crate::grid::{Occupancy, OccupancyGrid};
-use crate::raycast::beam_direction;
 use crate::spec::CategorizationOptions;
 use crate::watch::{Stage, Stopped, Watch};
 
@@ -60,11 +59,6 @@ const NO_SPREAD: f64 = 2e-6;
 const COINCIDENT: f64 = 0.5;
 /// Cells between two looks at the stop flag.
 const CELLS_PER_CHUNK: usize = 512;
-
-/// Binary digits after the point of sample positions.
-const FRACTION_BITS: u32 = 40;
-/// Samples this near below a border of cells are on it: multiples of 30 degrees give such samples.
-const ON_BORDER: i64 = 1 << 20;
 
 /// Features of the measured cells, one row per cell.
 pub(super) fn measure(
@@ -106,11 +100,12 @@ struct Caster {
 impl Caster {
     fn new(grid: &OccupancyGrid, options: &CategorizationOptions) -> Self {
         let range_m = options.max_range_m.unwrap_or(DEFAULT_RANGE_M);
+        let turn = TAU / options.beams as f64;
         Self {
             width: grid.width(),
             height: grid.height(),
             distances: chessboard_distances(grid, options.unknown_blocks),
-            directions: (0..options.beams).map(|beam| beam_direction(beam, options.beams)).collect(),
+            directions: (0..options.beams).map(|beam| direction(beam as f64 * turn)).collect(),
             samples: ((range_m / grid.resolution()).round() as i64).max(1),
             range_m,
             resolution: grid.resolution(),
@@ -119,22 +114,19 @@ impl Caster {
 
     /// The lengths of all beams of a cell.
     fn cast(&self, cell: usize, lengths: &mut [f64]) {
-        let (column, row) = ((cell % self.width) as i64, (cell / self.width) as i64);
+        let (column, row) = ((cell % self.width) as f64, (cell / self.width) as f64);
         for (length, direction) in lengths.iter_mut().zip(&self.directions) {
-            *length = self.length(column, row, fixed_point(direction.x), fixed_point(direction.y)) as f64;
+            *length = self.length(column, row, direction) as f64;
         }
     }
 
     /// How many samples of a beam come before the one that stops it.
-    fn length(&self, column: i64, row: i64, x_step: i64, y_step: i64) -> i64 {
-        let at = |start: i64, step: i64, sample: i64, end: usize| {
-            let position = start + ((sample * step + ON_BORDER) >> FRACTION_BITS);
-            position.clamp(0, end as i64 - 1) as usize
-        };
+    fn length(&self, column: f64, row: f64, direction: &Vector) -> i64 {
         let mut sample = 1;
         while sample < self.samples {
-            let column = at(column, x_step, sample, self.width);
-            let row = at(row, y_step, sample, self.height);
+            let way = direction * sample as f64;
+            let column = cell_within(column + way.x, self.width);
+            let row = cell_within(row + way.y, self.height);
             let distance = self.distances[row * self.width + column];
             if distance == 0 {
                 break;
@@ -183,8 +175,9 @@ impl Caster {
     }
 }
 
-fn fixed_point(component: f64) -> i64 {
-    (component * (1_u64 << FRACTION_BITS) as f64).round() as i64
+/// A coordinate without its fraction, moved into the image.
+fn cell_within(coordinate: f64, end: usize) -> usize {
+    (coordinate as i64).clamp(0, end as i64 - 1) as usize
 }
 
 /// Mean, standard deviation and kurtosis.
@@ -290,7 +283,7 @@ mod tests {
     /// The recipe to the letter: look at every sample.
     fn sample_by_sample(grid: &OccupancyGrid, caster: &Caster, cell: usize) -> Vec<f64> {
         let (column, row) = ((cell % grid.width()) as f64, (cell / grid.width()) as f64);
-        let at = |start: f64, step: f64, end: usize| ((start + step + 1e-6) as i64).clamp(0, end as i64 - 1);
+        let at = |start: f64, step: f64, end: usize| ((start + step) as i64).clamp(0, end as i64 - 1);
         let length = |direction: &Vector| {
             let stops = |sample: &i64| {
                 let length = *sample as f64;
@@ -316,8 +309,9 @@ mod tests {
             ";
         let grid = OccupancyGrid::from_ascii(&picture.replace('x', "."), 1.0);
         let caster = Caster::new(&grid, &options(8, 5.0));
-        // A free border is walked along until the range is up.
-        assert_eq!(lengths(&caster, 3 * 7 + 3), [2.0, 2.0, 4.0, 4.0, 4.0, 1.0, 4.0, 4.0]);
+        // A free border is walked along until the range is up. The beam straight down slips into the column beside it,
+        // for the cosine of three quarters of a turn is a little below zero.
+        assert_eq!(lengths(&caster, 3 * 7 + 3), [2.0, 2.0, 4.0, 4.0, 4.0, 1.0, 2.0, 4.0]);
     }
 
     #[test]

@@ -12,35 +12,30 @@ pub(super) const LANES: usize = 8;
 pub(super) struct Lanes(pub(super) [f32; LANES]);
 
 impl Lanes {
-    #[inline(always)]
-    pub(super) fn all(value: f32) -> Self {
-        Self([value; LANES])
-    }
-
     /// From whole numbers.
-    #[inline(always)]
+    #[inline]
     pub(super) fn from_units(units: &[u16; LANES]) -> Self {
         // By way of i32, for which there is a vector instruction.
         Self(from_fn(|lane| i32::from(units[lane]) as f32))
     }
 
-    #[inline(always)]
+    #[inline]
     pub(super) fn min(self, limit: f32) -> Self {
         Self(self.0.map(|value| if value < limit { value } else { limit }))
     }
 
-    #[inline(always)]
+    #[inline]
     pub(super) fn abs(self) -> Self {
         Self(self.0.map(f32::abs))
     }
 
-    #[inline(always)]
+    #[inline]
     pub(super) fn sqrt(self) -> Self {
         Self(self.0.map(f32::sqrt))
     }
 
     /// One where a value is above the threshold, nothing elsewhere.
-    #[inline(always)]
+    #[inline]
     pub(super) fn above(self, threshold: f32) -> Self {
         Self(self.0.map(|value| if value > threshold { 1.0 } else { 0.0 }))
     }
@@ -49,7 +44,7 @@ impl Lanes {
 impl Add for Lanes {
     type Output = Self;
 
-    #[inline(always)]
+    #[inline]
     fn add(self, other: Self) -> Self {
         Self(from_fn(|lane| self.0[lane] + other.0[lane]))
     }
@@ -58,7 +53,7 @@ impl Add for Lanes {
 impl Sub for Lanes {
     type Output = Self;
 
-    #[inline(always)]
+    #[inline]
     fn sub(self, other: Self) -> Self {
         Self(from_fn(|lane| self.0[lane] - other.0[lane]))
     }
@@ -67,7 +62,7 @@ impl Sub for Lanes {
 impl Mul for Lanes {
     type Output = Self;
 
-    #[inline(always)]
+    #[inline]
     fn mul(self, other: Self) -> Self {
         Self(from_fn(|lane| self.0[lane] * other.0[lane]))
     }
@@ -76,14 +71,14 @@ impl Mul for Lanes {
 impl Mul<f32> for Lanes {
     type Output = Self;
 
-    #[inline(always)]
+    #[inline]
     fn mul(self, factor: f32) -> Self {
         Self(self.0.map(|value| value * factor))
     }
 }
 
 impl AddAssign for Lanes {
-    #[inline(always)]
+    #[inline]
     fn add_assign(&mut self, other: Self) {
         *self = *self + other;
     }

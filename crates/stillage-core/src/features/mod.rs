@@ -3,8 +3,7 @@
 //! Two profiles. [`Paper13`](FeatureProfile::Paper13), the default, is Table I of the paper (S. Gholami Shahbandi et
 //! al., ECMR 2015, doi 10.1109/ECMR.2015.7324207; nine of the thirteen after O. Mozos) in metres, from the direction
 //! sweep, in constant time per beam. [`Halmstad2017`](FeatureProfile::Halmstad2017) is the recipe of the author's own
-//! published code, whose published categories it reproduces; it is there for that proof and costs about ten times as
-//! much.
+//! published code, whose published categories it reproduces; it is there for that proof and costs many times as much.
 //!
 //! Only cells on the lattice of the stride are measured (column and row divisible by it). Where that lattice meets no
 //! free cell at all, every free cell is measured, so that a map with free cells always has features.

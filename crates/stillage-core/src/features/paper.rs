@@ -174,7 +174,9 @@ impl<'a> Measure<'a> {
         }
         let Workspace { sweep: scratch, planes, sums } = workspace;
         planes.resize_with(BEAMS_PER_BLOCK, Vec::new);
-        planes.iter_mut().for_each(|plane| plane.resize(tile.plane_length(), 0));
+        for plane in planes.iter_mut() {
+            plane.resize(tile.plane_length(), 0);
+        }
         sums.clear();
         sums.resize(groups.len(), RunningSums::default());
         self.begin(tile, &groups, scratch, &mut planes[0], sums);

@@ -63,7 +63,7 @@ impl RunningSums {
     }
 
     /// Adds consecutive beams: of each, its terms and the plane that holds this group of cells from `start` on.
-    #[inline(always)]
+    #[inline]
     pub(super) fn add(&mut self, beams: &[BeamTerms], planes: &[Vec<u16>], start: usize, fan: &FanTerms) {
         let mut sums = self.sums;
         let mut previous = self.previous;

@@ -10,8 +10,8 @@ use crate::arrangement::{EdgeId, FaceId, HalfEdgeId};
 use crate::geometry::{OrientedBox, Point, Vector, direction, ring_area};
 use crate::semantics::{Cogency, SemanticMap};
 
-/// Where a robot stands before an access edge, metres: half the length of a pallet truck without its forks, about
-/// 0.6 to 1.0 m. Less in a face that is not twice as wide.
+/// Where the middle of a robot stands before an access edge, metres: our choice, half a robot of 1.2 m and some room.
+/// Half the depth of the face before it, where that is less.
 const STANDING_DISTANCE: f64 = 0.8;
 
 /// What the geometry says of one location.

@@ -219,3 +219,59 @@ impl Aisle {
         fronts.into_iter().map(&mut number).collect()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::line_angle_between;
+
+    fn front(heading_degrees: f64, place: u32, x: f64, y: f64) -> Front {
+        Front { location: 0, face: FaceId(1), middle: Point::new(x, y), heading: heading_degrees.to_radians(), place }
+    }
+
+    #[test]
+    fn directions_that_differ_by_noise_are_one_also_where_angles_wrap() {
+        for middle in [-135.0_f64, -90.0, -45.0, 0.0, 45.0, 90.0, 135.0, 180.0] {
+            let fronts = [-1.0, 0.0, 1.0].map(|noise| front(middle + noise, 0, 0.0, 0.0)).to_vec();
+            let groups = by_direction(fronts);
+            assert_eq!(groups.len(), 1, "around {middle} degrees");
+            assert!(line_angle_between(groups[0].0, (middle + 90.0).to_radians()) < 1e-9);
+        }
+    }
+
+    #[test]
+    fn aisles_point_to_the_right_or_up() {
+        let angle = |heading| by_direction(vec![front(heading, 0, 0.0, 0.0)])[0].0.to_degrees().round() as i32;
+        assert_eq!([0.0, 90.0, 180.0, -90.0, 120.0, 60.0].map(angle), [90, 0, 90, 0, 30, -30]);
+    }
+
+    #[test]
+    fn slanted_aisles_of_one_place_stay_apart() {
+        // At 30 degrees, with fronts 3 m apart across each aisle and 6 m from aisle to aisle.
+        let (along, across) = (direction(PI / 6.0), normal(PI / 6.0));
+        let at = |heading, offset: f64, abscissa: f64| {
+            let middle = across * offset + along * abscissa;
+            front(heading, 0, middle.x, middle.y)
+        };
+        let fronts = (0..3)
+            .flat_map(|aisle| {
+                [(-60.0, 0.0), (120.0, 3.0)].map(|(heading, side)| (heading, f64::from(aisle) * 6.0 + side))
+            })
+            .flat_map(|(heading, offset)| (0..4).map(move |bay| at(heading, offset, f64::from(bay))))
+            .collect();
+        let groups = by_direction(fronts);
+        assert_eq!(groups.len(), 1);
+        let aisles = aisles_along(groups[0].clone());
+        assert_eq!(aisles.len(), 3);
+        for aisle in aisles {
+            let mut bays: Vec<u32> = aisle.bays().into_iter().map(|(_, _, bay)| bay).collect();
+            bays.sort_unstable();
+            assert_eq!(bays, (1..=8).collect::<Vec<_>>());
+        }
+    }
+
+    #[test]
+    fn no_fronts_have_no_direction() {
+        assert!(by_direction(Vec::new()).is_empty());
+    }
+}

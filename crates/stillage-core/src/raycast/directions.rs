@@ -8,7 +8,8 @@
 
 use super::beam_direction;
 
-/// Sub-pixel positions of lines. Measured: 1, 2, 4 phases put 92.9, 96.7, 98.4 % of beams within two cells of the exact ones.
+/// Sub-pixel positions of lines. With 1, 2, 4 of them, 92.9, 96.7, 98.4 % of beams end within two cells of the exact
+/// ones (measured on a synthetic warehouse of 20 million cells).
 pub(super) const PHASES: usize = 4;
 
 /// Resolution of lengths: a line advances by this many units per row. A `u16` then holds beams of up to 16,383 rows;

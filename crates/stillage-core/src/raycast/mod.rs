@@ -70,7 +70,7 @@ impl BeamOptions {
 #[must_use]
 pub fn beam_direction(beam: usize, beams: usize) -> Vector {
     let eighths = 8 * beam;
-    if eighths % beams == 0 {
+    if eighths.is_multiple_of(beams) {
         let diagonal = FRAC_1_SQRT_2;
         return match eighths / beams % 8 {
             0 => Vector::new(1.0, 0.0),

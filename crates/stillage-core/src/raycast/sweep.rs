@@ -11,10 +11,10 @@
 //! cell of the grid for 360 beams. The second ([`Sweep::cast`]) walks single tiles from those states, in any order and
 //! on any thread, always with the same result.
 //!
-//! Source: own formulation; the supercover of digital lines after E. Andres (2003). Cost: O(cells x beams), about a
-//! nanosecond each. Limits: a beam's length is right to a quarter of a row where it meets a wall head on; near grazing
-//! walls and the corners of pillars the nearest line may see more or less than the centre does (about one beam in a
-//! hundred is off by more than 20 cells; the tests of this module hold the exact figures).
+//! Source: own formulation. Cost: O(cells x beams). Limits: a beam's length is right to a quarter of a row where it
+//! meets a wall head on; near grazing walls and the corners of pillars the nearest line may see more or less than the
+//! centre does. The tests hold the shares: at least 98 % of beams within two cells of the exact ones, at most 1.2 % off
+//! by more than twenty.
 
 use std::ops::Range;
 
@@ -27,8 +27,8 @@ use super::tile_sweep::{Tile, TileScratch, cast_tile};
 use crate::grid::OccupancyGrid;
 use crate::watch::{Stopped, Watch};
 
-/// Side of a tile, cells. Twice as large, and the work on a tile leaves the second cache; half as large, and the states
-/// at its borders take twice the memory.
+/// Side of a tile, cells. The planes and sums of a tile take 1.4 MB, about a second cache, and grow with its square;
+/// the states at the borders of all tiles shrink with its side.
 pub(super) const TILE: usize = 128;
 
 /// Directions that walk the grid together, so that a row of the mask is read from the first cache.

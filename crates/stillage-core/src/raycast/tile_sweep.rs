@@ -23,11 +23,13 @@ impl Tile {
     }
 
     /// Columns with measured cells, ascending.
+    #[must_use]
     pub fn measured_columns(&self) -> impl ExactSizeIterator<Item = usize> + use<> {
         on_lattice(&self.columns, self.stride)
     }
 
     /// Rows with measured cells, ascending.
+    #[must_use]
     pub fn measured_rows(&self) -> impl ExactSizeIterator<Item = usize> + use<> {
         on_lattice(&self.rows, self.stride)
     }

@@ -56,10 +56,13 @@ impl<'a> Passage<'a> {
 
     /// Whether a path may pass from a cell that it may be on to one beside it.
     pub fn allows(&self, from: usize, to: usize) -> bool {
+        if self.map.grid.cells()[to] != Occupancy::Free {
+            return false;
+        }
+        // A path is only ever on drivable faces, so staying on one needs no look at its label.
         let (before, behind) = (self.face(from), self.face(to));
-        self.map.grid.cells()[to] == Occupancy::Free
-            && self.drivable[behind.index()]
-            && (before == behind || self.joins(before, behind) || self.crossings(from, to).is_some())
+        before == behind
+            || self.drivable[behind.index()] && (self.joins(before, behind) || self.crossings(from, to).is_some())
     }
 
     /// Whether a path may pass from a cell to a diagonal neighbour: around both sides of the corner between them.

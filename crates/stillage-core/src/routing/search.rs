@@ -4,7 +4,7 @@
 //! ring of buckets (Dial 1969, doi 10.1145/363269.363610), as costs are small whole numbers and a consistent estimate
 //! lets the total grow by less than two steps at once. The newest of equals comes first, so open ground is crossed
 //! once and not flooded.
-//! Cost: O(cells visited). Memory: 5 bytes per cell of the window. Limits: 43 million steps.
+//! Cost: O(cells visited). Memory: 5 bytes per cell of the window. Limits: paths of 43 million steps.
 
 use super::passage::Passage;
 use crate::grid::CellBounds;
@@ -16,150 +16,169 @@ const DIAGONAL: u32 = 99;
 const BUCKETS: usize = 256;
 
 /// Columns and rows of the neighbours: right, up, left, down, then each diagonal after its two sides.
-const NEIGHBORS: [(i64, i64); 8] = [(1, 0), (0, 1), (-1, 0), (0, -1), (1, 1), (-1, 1), (-1, -1), (1, -1)];
-/// Not yet reached.
-const NOWHERE: u8 = u8::MAX;
-/// The start.
+const NEIGHBORS: [(isize, isize); 8] = [(1, 0), (0, 1), (-1, 0), (0, -1), (1, 1), (-1, 1), (-1, -1), (1, -1)];
+/// How the start was reached: by none of the neighbours.
 const HERE: u8 = 8;
 
 /// The cells of a shortest path from one cell to another within a window, both ends included.
 pub(super) fn shortest(passage: &Passage<'_>, window: &CellBounds, start: usize, goal: usize) -> Option<Vec<usize>> {
-    let mut search = Search::new(passage.width(), window.clone(), goal)?;
-    search.reach(start, 0, HERE)?;
-    while let Some((cell, cost)) = search.closest() {
-        if cell == goal {
+    let window = Window { grid_width: passage.width(), bounds: window.clone() };
+    let (start, goal) = (window.spot_of(start)?, window.spot_of(goal)?);
+    let mut search = Search::new(window, goal);
+    search.reach(start, 0, HERE);
+    while let Some((spot, cost)) = search.closest() {
+        if spot == goal {
             return Some(search.path_to(goal));
         }
-        let neighbor = |index: usize| search.window.neighbor(cell, index);
-        let cells: [Option<usize>; 8] = std::array::from_fn(neighbor);
-        let straight: [Option<usize>; 4] =
-            std::array::from_fn(|index| cells[index].filter(|&side| passage.allows(cell, side)));
-        for (index, side) in straight.iter().enumerate() {
-            if let Some(side) = *side {
-                search.reach(side, cost + STRAIGHT, index as u8);
-            }
-            let sides = (*side).zip(straight[(index + 1) % 4]);
-            if let Some((first, second)) = sides
-                && let Some(corner) = cells[index + 4]
-                && passage.allows(first, corner)
-                && passage.allows(second, corner)
-            {
-                search.reach(corner, cost + DIAGONAL, index as u8 + 4);
-            }
-        }
+        search.expand(passage, spot, cost);
     }
     None
 }
 
-/// A rectangle of the grid with indices of its own.
+/// A rectangle of the grid.
 struct Window {
     grid_width: usize,
     bounds: CellBounds,
 }
 
-impl Window {
-    fn size(&self) -> usize {
-        self.bounds.columns.len() * self.bounds.rows.len()
-    }
+/// A cell of a window, by column and row from the window's own lower left corner.
+#[derive(Clone, Copy, PartialEq, Eq)]
+struct Spot {
+    column: usize,
+    row: usize,
+}
 
-    fn index(&self, cell: usize) -> Option<usize> {
+impl Window {
+    /// `None` outside the window.
+    fn spot_of(&self, cell: usize) -> Option<Spot> {
         let (column, row) = (cell % self.grid_width, cell / self.grid_width);
         let inside = self.bounds.columns.contains(&column) && self.bounds.rows.contains(&row);
-        inside.then(|| (row - self.bounds.rows.start) * self.bounds.columns.len() + column - self.bounds.columns.start)
+        inside.then(|| Spot { column: column - self.bounds.columns.start, row: row - self.bounds.rows.start })
     }
 
-    fn neighbor(&self, cell: usize, neighbor: usize) -> Option<usize> {
-        let (right, up) = NEIGHBORS[neighbor];
-        let column = (cell % self.grid_width).checked_add_signed(right as isize)?;
-        let row = (cell / self.grid_width).checked_add_signed(up as isize)?;
-        let inside = self.bounds.columns.contains(&column) && self.bounds.rows.contains(&row);
-        inside.then(|| row * self.grid_width + column)
+    fn cell(&self, spot: Spot) -> usize {
+        (spot.row + self.bounds.rows.start) * self.grid_width + spot.column + self.bounds.columns.start
+    }
+
+    fn index(&self, spot: Spot) -> usize {
+        spot.row * self.bounds.columns.len() + spot.column
+    }
+
+    fn spot_at(&self, index: usize) -> Spot {
+        Spot { column: index % self.bounds.columns.len(), row: index / self.bounds.columns.len() }
+    }
+
+    /// `None` outside the window.
+    fn neighbor(&self, spot: Spot, step: usize) -> Option<Spot> {
+        let (right, up) = NEIGHBORS[step];
+        // One before the first column or row wraps to far beyond the last.
+        let (column, row) = (spot.column.wrapping_add_signed(right), spot.row.wrapping_add_signed(up));
+        (column < self.bounds.columns.len() && row < self.bounds.rows.len()).then_some(Spot { column, row })
     }
 }
 
 /// The state of a search.
 struct Search {
     window: Window,
-    goal: usize,
+    goal: Spot,
     /// Cost of the best way so far, by index in the window.
     costs: Vec<u32>,
     /// The step that came here, by index in the window.
     steps: Vec<u8>,
+    /// Indices in the window, by total (cost + estimate).
     buckets: Vec<Vec<u32>>,
-    /// Total (cost + estimate) of the bucket at hand.
+    /// Total of the bucket at hand.
     total: u32,
     waiting: usize,
 }
 
 impl Search {
-    /// `None` when the goal lies outside the window.
-    fn new(grid_width: usize, bounds: CellBounds, goal: usize) -> Option<Self> {
-        let window = Window { grid_width, bounds };
-        window.index(goal)?;
-        let size = window.size();
-        Some(Self {
+    fn new(window: Window, goal: Spot) -> Self {
+        let size = window.bounds.columns.len() * window.bounds.rows.len();
+        Self {
             window,
             goal,
             costs: vec![u32::MAX; size],
-            steps: vec![NOWHERE; size],
+            steps: vec![HERE; size],
             buckets: vec![Vec::new(); BUCKETS],
             total: 0,
             waiting: 0,
-        })
+        }
     }
 
     /// Octile distance to the goal: what a free way would cost.
-    fn estimate(&self, cell: usize) -> u32 {
-        let width = self.window.grid_width;
-        let columns = (cell % width).abs_diff(self.goal % width) as u32;
-        let rows = (cell / width).abs_diff(self.goal / width) as u32;
+    fn estimate(&self, spot: Spot) -> u32 {
+        let columns = spot.column.abs_diff(self.goal.column) as u32;
+        let rows = spot.row.abs_diff(self.goal.row) as u32;
         STRAIGHT * columns.max(rows) + (DIAGONAL - STRAIGHT) * columns.min(rows)
     }
 
-    /// Notes a way to a cell if it is the best so far; `None` outside the window.
-    fn reach(&mut self, cell: usize, cost: u32, step: u8) -> Option<()> {
-        let index = self.window.index(cell)?;
-        if cost < self.costs[index] {
-            self.costs[index] = cost;
-            self.steps[index] = step;
-            let total = cost + self.estimate(cell);
-            if step == HERE {
-                self.total = total;
-            }
-            self.buckets[total as usize % BUCKETS].push(cell as u32);
-            self.waiting += 1;
+    /// Notes a way to a spot that is the best so far.
+    fn reach(&mut self, spot: Spot, cost: u32, step: u8) {
+        let index = self.window.index(spot);
+        self.costs[index] = cost;
+        self.steps[index] = step;
+        let total = cost + self.estimate(spot);
+        if step == HERE {
+            self.total = total;
         }
-        Some(())
+        self.buckets[total as usize % BUCKETS].push(index as u32);
+        self.waiting += 1;
     }
 
-    /// The waiting cell of the smallest total, with its cost.
-    fn closest(&mut self) -> Option<(usize, u32)> {
+    /// The waiting spot of the smallest total, with its cost.
+    fn closest(&mut self) -> Option<(Spot, u32)> {
         while self.waiting > 0 {
-            let Some(cell) = self.buckets[self.total as usize % BUCKETS].pop() else {
+            let Some(index) = self.buckets[self.total as usize % BUCKETS].pop() else {
                 self.total += 1;
                 continue;
             };
             self.waiting -= 1;
-            let cell = cell as usize;
-            let cost = self.costs[self.window.index(cell)?];
-            // A better way was found since: the cell waits, or waited, in an earlier bucket as well.
-            if cost + self.estimate(cell) == self.total {
-                return Some((cell, cost));
+            let (spot, cost) = (self.window.spot_at(index as usize), self.costs[index as usize]);
+            // Otherwise a better way was found since, and the spot has been here already.
+            if cost + self.estimate(spot) == self.total {
+                return Some((spot, cost));
             }
         }
         None
     }
 
-    fn path_to(&self, goal: usize) -> Vec<usize> {
-        let mut path = vec![goal];
-        let mut cell = goal;
-        while let Some(&step) = self.window.index(cell).map(|index| &self.steps[index])
-            && step < HERE
-        {
+    /// Reaches the neighbours of a spot. Most were reached before, so the costs are asked first, then the cells.
+    fn expand(&mut self, passage: &Passage<'_>, spot: Spot, cost: u32) {
+        let here = self.window.cell(spot);
+        for step in 0..NEIGHBORS.len() {
+            let Some(next) = self.window.neighbor(spot, step) else { continue };
+            let cost = cost + if step < 4 { STRAIGHT } else { DIAGONAL };
+            if cost >= self.costs[self.window.index(next)] {
+                continue;
+            }
+            let there = self.window.cell(next);
+            let allowed = if step < 4 {
+                passage.allows(here, there)
+            } else {
+                let beside = [
+                    self.window.cell(Spot { column: next.column, row: spot.row }),
+                    self.window.cell(Spot { column: spot.column, row: next.row }),
+                ];
+                passage.allows_corner(here, beside, there)
+            };
+            if allowed {
+                self.reach(next, cost, step as u8);
+            }
+        }
+    }
+
+    fn path_to(&self, goal: Spot) -> Vec<usize> {
+        let mut path = vec![self.window.cell(goal)];
+        let mut spot = goal;
+        loop {
+            let step = self.steps[self.window.index(spot)];
+            if step == HERE {
+                break;
+            }
             let (right, up) = NEIGHBORS[usize::from(step)];
-            let back = right as isize + up as isize * self.window.grid_width as isize;
-            cell = cell.wrapping_add_signed(-back);
-            path.push(cell);
+            spot = Spot { column: spot.column.wrapping_add_signed(-right), row: spot.row.wrapping_add_signed(-up) };
+            path.push(self.window.cell(spot));
         }
         path.reverse();
         path

@@ -2,8 +2,8 @@
 
 use super::*;
 use crate::grid::Occupancy;
-use crate::semantics::RuleSet;
 use crate::semantics::pictures::{DrawnMap, RESOLUTION};
+use crate::semantics::{Assignment, RuleSet, apply};
 use expect_test::{Expect, expect};
 use proptest::prelude::*;
 
@@ -283,6 +283,23 @@ fn corners_are_not_cut() {
         1.44 m, faces c, edges []
     "#]],
     );
+}
+
+#[test]
+fn a_face_thinner_than_a_cell_is_crossed_if_it_is_drivable() {
+    // Two lines between the centres of the first and the second column.
+    let lines = [0.3, 0.4].map(|x| [Point::new(x, 0.0), Point::new(x, 0.5)]);
+    let map = DrawnMap::with_lines("...", "ccc", &lines);
+    let (rules, sliver) = (RuleSet::warehouse(), map.analysis.categories.unknown());
+    let ends = [0, 2].map(|column| point(&map, column, 0));
+    let through = |label: &str| {
+        let assignment = [(0, "co".to_owned()), (sliver, label.to_owned())].into();
+        let semantic = apply(&map.analysis, &rules, &Assignment { assignment, ..Assignment::default() }).unwrap();
+        route(map.routing(&semantic), &ends[0], &ends[1])
+    };
+    let route = through("ju").unwrap();
+    assert_eq!((route.faces.len(), route.edges.len()), (3, 2));
+    assert!(matches!(through("pc"), Err(NoRoute::Disconnected { .. })));
 }
 
 #[test]

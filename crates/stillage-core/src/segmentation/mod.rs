@@ -1,11 +1,11 @@
 //! Regions: blocks of the map with a pattern of their own, found by Gabor texture.
 //!
-//! Source: the paper, II-D: a Gabor bank of 5 frequencies and 8 orientations ([`gabor`]), principal components,
+//! Source: the paper, II-D: a Gabor bank of 5 frequencies and 8 orientations (`gabor`), principal components,
 //! k-means. Lines of one region then do not cut the others.
 //!
 //! Departures: texture is clustered per tile instead of per pixel (its energy is smoothed over several tiles anyway);
 //! regions are contiguous sets of tiles instead of the bounding boxes around them, which would overlap (the box of
-//! each is reported); and the number of regions need not be given ([`patterns`]).
+//! each is reported); and the number of regions need not be given (`patterns`).
 //!
 //! Cost: the transforms, O(40 pixels log pixels) at about 0.4 m per pixel, then O(tiles). Limits: a border between two
 //! regions is found to about half the smoothing length; at most 255 regions.
@@ -38,6 +38,8 @@ const MOST_COMPONENTS: usize = 8;
 /// Runs of k-means and their length. Some thousand tiles of eight numbers: cheap.
 const RESTARTS: usize = 8;
 const MAX_ITERATIONS: usize = 100;
+/// Centroids of a few hundred tiles settle fast; this is far below any tile's distance to its neighbours.
+const TOLERANCE: f64 = 1e-6;
 
 /// A partition of the known part of the map into regions, in whole tiles.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -153,7 +155,14 @@ impl KnownTiles {
 
     /// Cluster of every tile, [`RegionMap::NONE`] where nothing is known.
     fn clusters(&self, tiles: &Tiles, count: usize, seed: u64, watch: &Watch<'_>) -> Result<Vec<u8>, Stopped> {
-        let options = KMeansOptions { k: count, seed, restarts: RESTARTS, max_iterations: MAX_ITERATIONS };
+        let options = KMeansOptions {
+            k: count,
+            restarts: RESTARTS,
+            max_iterations: MAX_ITERATIONS,
+            tolerance: TOLERANCE,
+            fit_rows: usize::MAX,
+            seed,
+        };
         let rows = ScaledRows::new(&self.points, self.dimensions, Scaling::None);
         let found = k_means(&rows, &options, watch)?;
         let mut clusters = vec![RegionMap::NONE; tiles.known.len()];

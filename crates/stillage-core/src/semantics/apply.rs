@@ -245,31 +245,24 @@ mod tests {
     }
 
     fn report(map: &DrawnMap, semantic: &SemanticMap) -> String {
-        let mut report = String::new();
+        let mut lines = Vec::new();
         for edge in map.analysis.subdivision.edges() {
-            let [left, right] = map.analysis.subdivision.sides(edge);
-            let (index, letter) = (edge.index(), |face| map.letter(face));
-            if let Some(connectivity) = semantic.connectivity[index] {
-                report += &format!(
-                    "{}{left}|{}{right} {:?}, {connectivity:?}{}\n",
-                    letter(left),
-                    letter(right),
-                    semantic.cogency[index],
-                    if semantic.disagreements[index] { ", but the cells disagree" } else { "" },
-                );
-            } else {
-                assert_eq!(semantic.cogency[index], Cogency::Cogent);
-            }
+            let (index, sides) = (edge.index(), map.analysis.subdivision.sides(edge));
+            let cogency = semantic.cogency[index];
+            let Some(connectivity) = semantic.connectivity[index] else {
+                assert_eq!(cogency, Cogency::Cogent, "on the outer boundary");
+                continue;
+            };
+            let [left, right] = sides.map(|face| format!("{}{face}", map.letter(face)));
+            let doubt = if semantic.disagreements[index] { ", but the cells disagree" } else { "" };
+            lines.push(format!("{left}|{right} {cogency:?}, {connectivity:?}{doubt}"));
         }
         for (number, place) in semantic.places.iter().enumerate() {
             let faces: Vec<u32> = place.faces.iter().map(|face| face.0).collect();
-            report += &format!(
-                "place {number}: {} {faces:?} {:.2} m2\n",
-                semantic.rule_set.label(place.label).id,
-                place.area
-            );
+            let label = &semantic.rule_set.label(place.label).id;
+            lines.push(format!("place {number}: {label} {faces:?} {:.2} m2", place.area));
         }
-        report
+        lines.join("\n") + "\n"
     }
 
     #[test]
@@ -333,26 +326,23 @@ mod tests {
             assignment: assignment.iter().map(|&(category, id)| (category, id.to_owned())).collect(),
             overrides: overrides.iter().map(|&(face, id)| (face, id.to_owned())).collect(),
         };
-        let report = match apply(&map.analysis, &RuleSet::warehouse(), &assignment) {
-            Ok(_) => "valid".to_owned(),
-            Err(problems) => problems.iter().map(|problem| format!("{problem}\n")).collect(),
-        };
-        expected.assert_eq(&report);
+        let problems = apply(&map.analysis, &RuleSet::warehouse(), &assignment).err().unwrap_or_default();
+        let lines: Vec<String> = problems.iter().map(ToString::to_string).collect();
+        expected.assert_eq(&lines.join("\n"));
     }
 
     #[test]
     fn every_problem_of_an_assignment_is_named_with_its_pointer() {
-        check_problems(&[(0, "co"), (6, "un")], &[(8, "pc")], &expect!["valid"]);
+        check_problems(&[(0, "co"), (6, "un")], &[(8, "pc")], &expect![""]);
         check_problems(
             &[(1, "shelf"), (7, "co")],
             &[(0, "co"), (9, "co"), (3, "")],
             &expect![[r#"
-            /assignment/1: no label has the id "shelf"; there are co, ju, pc, un
-            /assignment/7: no category 7: they run from 0 to 6
-            /overrides/0: no face 0: they run from 1 to 8
-            /overrides/3: no label has the id ""; there are co, ju, pc, un
-            /overrides/9: no face 9: they run from 1 to 8
-        "#]],
+                /assignment/1: no label has the id "shelf"; there are co, ju, pc, un
+                /assignment/7: no category 7: they run from 0 to 6
+                /overrides/0: no face 0: they run from 1 to 8
+                /overrides/3: no label has the id ""; there are co, ju, pc, un
+                /overrides/9: no face 9: they run from 1 to 8"#]],
         );
     }
 
@@ -374,7 +364,7 @@ mod tests {
             uuuujjjjuuu
         "#]]
         .assert_eq(&labels);
-        assert_eq!(semantic.confidences[corridor.index()], 1.0);
+        assert!(semantic.confidences[corridor.index()] >= 1.0);
     }
 
     #[test]
@@ -387,8 +377,8 @@ mod tests {
             let assignment = Assignment { assignment, ..Assignment::default() };
             apply(&map.analysis, &RuleSet::warehouse(), &assignment).unwrap().confidences[corridor.index()]
         };
-        assert_eq!(confidence(&[(0, "co"), (1, "ju")]), 0.5);
-        assert_eq!(confidence(&[(0, "co"), (1, "co")]), 0.75);
+        assert!((confidence(&[(0, "co"), (1, "ju")]) - 0.5).abs() < 1e-6);
+        assert!((confidence(&[(0, "co"), (1, "co")]) - 0.75).abs() < 1e-6);
     }
 
     #[test]

@@ -103,11 +103,9 @@ mod tests {
     fn check(change: impl FnOnce(&mut RuleSetDraft), expected: &Expect) {
         let mut draft = RuleSet::warehouse().draft().clone();
         change(&mut draft);
-        let report = match draft.check() {
-            Ok(_) => "valid".to_owned(),
-            Err(problems) => problems.iter().map(|problem| format!("{problem}\n")).collect(),
-        };
-        expected.assert_eq(&report);
+        let problems = draft.check().err().unwrap_or_default();
+        let lines: Vec<String> = problems.iter().map(ToString::to_string).collect();
+        expected.assert_eq(&lines.join("\n"));
     }
 
     #[test]
@@ -132,8 +130,7 @@ mod tests {
                 /labels/2/color: "green" is not a colour like #56b4e9
                 /labels/2/connectsTo/0: no label has the id "co"
                 /labels/3/connectsTo/1: no label has the id "shelf"
-                /cogency/0/when/1: no label has the id "bin"; * stands for any
-            "#]],
+                /cogency/0/when/1: no label has the id "bin"; * stands for any"#]],
         );
     }
 
@@ -141,15 +138,11 @@ mod tests {
     fn a_label_without_functionality_is_needed() {
         check(
             |draft| draft.labels.truncate(3),
-            &expect![[r#"
-            /labels: a label without functionality is needed for places that nobody named
-        "#]],
+            &expect!["/labels: a label without functionality is needed for places that nobody named"],
         );
         check(
             |draft| draft.labels.clear(),
-            &expect![[r#"
-            /labels: a label without functionality is needed for places that nobody named
-        "#]],
+            &expect!["/labels: a label without functionality is needed for places that nobody named"],
         );
     }
 
@@ -161,23 +154,16 @@ mod tests {
                 draft.labels.push(Label { id, ..draft.labels[3].clone() });
             }
         };
-        check(|draft| grow(draft, 32), &expect!["valid"]);
-        check(
-            |draft| grow(draft, 33),
-            &expect![[r#"
-            /labels: 33 labels are more than 32
-        "#]],
-        );
+        check(|draft| grow(draft, 32), &expect![""]);
+        check(|draft| grow(draft, 33), &expect!["/labels: 33 labels are more than 32"]);
     }
 
     #[test]
     fn names_may_be_written_in_any_script() {
-        check(|draft| draft.labels[0].name = "通路".repeat(50), &expect!["valid"]);
+        check(|draft| draft.labels[0].name = "通路".repeat(50), &expect![""]);
         check(
             |draft| draft.labels[0].name = "通路".repeat(51),
-            &expect![[r#"
-            /labels/0/name: a name has 1 to 100 characters
-        "#]],
+            &expect!["/labels/0/name: a name has 1 to 100 characters"],
         );
     }
 }

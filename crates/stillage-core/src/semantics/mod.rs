@@ -78,8 +78,6 @@ pub struct CategoryEvidence {
     pub open_fraction: f64,
     /// Share of the length of their edges with an obstacle along it, or without a free face behind it.
     pub lined_fraction: f64,
-    /// Share of their area that no chain of unexplored faces joins with the outside of the map.
-    pub enclosed_fraction: f64,
 }
 
 /// Faces of one label that are mutually open, merged: a corridor, a junction, an office, a block of storage.

@@ -41,12 +41,20 @@ fn category(letter: u8) -> u8 {
 impl DrawnMap {
     /// Draws cells (`#` occupied, `.` free, else unknown) and faces (letters; a space is outside).
     pub fn new(cells: &str, faces: &str) -> Self {
+        Self::with_lines(cells, faces, &[])
+    }
+
+    /// Draws cells and faces, and cuts the faces along more lines.
+    pub fn with_lines(cells: &str, faces: &str, lines: &[[Point; 2]]) -> Self {
         let grid = OccupancyGrid::from_ascii(cells, RESOLUTION);
         let rows: Vec<&[u8]> =
             faces.lines().map(str::trim).filter(|line| !line.is_empty()).map(str::as_bytes).collect();
         assert!(rows.len() == grid.height() && rows.iter().all(|row| row.len() == grid.width()));
         let letters: Vec<u8> = rows.iter().rev().flat_map(|row| row.iter().copied()).collect();
-        let subdivision = arrangement::arrange(&borders(&letters, grid.width()), &Watch::unwatched()).unwrap();
+        let mut segments = borders(&letters, grid.width());
+        let line = |&[start, end]: &[Point; 2]| SourceSegment { start, end, source: EdgeSource::Boundary };
+        segments.extend(lines.iter().map(line));
+        let subdivision = arrangement::arrange(&segments, &Watch::unwatched()).unwrap();
         let graph = AdjacencyGraph::dual(&subdivision);
         let cells = CellFaces::rasterize(&subdivision, grid.width(), grid.height(), RESOLUTION);
         let (categories, regions) = (categories(&grid, &letters), one_region(&grid));
@@ -162,12 +170,10 @@ fn categories(grid: &OccupancyGrid, letters: &[u8]) -> CategoryMap {
         .zip(grid.cells())
         .map(|(&letter, &cell)| if cell == Occupancy::Free { category(letter) } else { CategoryMap::NONE })
         .collect();
-    let categories = (0..5)
-        .map(|category| Category {
-            cells: cells.iter().filter(|&&cell| cell == category).count(),
-            mean_features: Vec::new(),
-        })
-        .collect();
+    let mut categories = vec![Category { cells: 0, mean_features: Vec::new() }; 5];
+    for &cell in cells.iter().filter(|&&cell| cell != CategoryMap::NONE) {
+        categories[usize::from(cell)].cells += 1;
+    }
     CategoryMap { cells, categories, feature_names: Vec::new() }
 }
 

@@ -9,7 +9,6 @@
 
 use super::{CategoryEvidence, Functionality, Label, LabelId, RuleSet, Suggestion};
 use crate::analysis::Analysis;
-use crate::annotation::FaceAnnotation;
 use crate::arrangement::FaceId;
 use crate::categorization::CategoryMap;
 
@@ -20,14 +19,18 @@ const PLAIN_DRIVABLE: f64 = 0.75;
 /// A face is lined by an edge, or unexplored, by the majority of its length or cells.
 const MAJORITY: f64 = 0.5;
 
-/// Proposes a label for every category of an analysis (clusters, `occupied`, `unknown`), ascending.
+/// Proposes a label for every category of an analysis (clusters, `occupied`, `unknown`, `outside`), ascending.
 #[must_use]
 pub fn suggest(analysis: &Analysis, rule_set: &RuleSet) -> Vec<Suggestion> {
     let evidence = category_evidence(analysis);
     let mean_beam = mean_beam_of_map(&analysis.categories);
     let propose = |(category, evidence): (usize, CategoryEvidence)| {
         let sight = Sight::of(&analysis.categories, category, mean_beam);
-        propose(category as u8, evidence, sight, rule_set)
+        let category = category as u8;
+        if category == analysis.categories.outside() {
+            return propose_outside(category, evidence, rule_set);
+        }
+        propose(category, evidence, sight, rule_set)
     };
     evidence.into_iter().enumerate().map(propose).collect()
 }
@@ -63,6 +66,12 @@ fn propose(category: u8, evidence: CategoryEvidence, sight: Sight, rule_set: &Ru
     Suggestion { category, label, confidence: confidence.clamp(0.0, 1.0), reason, evidence }
 }
 
+/// Nothing is known of the ground outside, whatever it looks like.
+fn propose_outside(category: u8, evidence: CategoryEvidence, rule_set: &RuleSet) -> Suggestion {
+    let reason = "Unexplored ground around the site.".to_owned();
+    Suggestion { category, label: rule_set.unidentified(), confidence: 1.0, reason, evidence }
+}
+
 fn describe(evidence: &CategoryEvidence, sight: Sight) -> String {
     let percent = |share: f64| (share * 100.0).round();
     let beams = sight.relative_beam.map(|beam| format!(", beams {beam:.1} times the mean of the map"));
@@ -79,7 +88,7 @@ fn describe(evidence: &CategoryEvidence, sight: Sight) -> String {
     )
 }
 
-/// How far and how unevenly one sees from the cells of a cluster; nothing is known of `occupied` and `unknown`.
+/// How far and how unevenly one sees from the cells of a cluster; nothing is known of the other categories.
 #[derive(Debug, Clone, Copy, Default)]
 struct Sight {
     /// Mean beam length over that of the whole map.
@@ -148,7 +157,7 @@ impl Reading {
         // Nine blocks of a pallet cover about a tenth of its place, a misplaced line leaves a twentieth in a corridor.
         let seen_goods = ramp(evidence.occupied_fraction, 0.05, 0.15);
         // Beams do not enter a stack of goods: what stays unknown among known places holds something.
-        let unseen = ramp(evidence.unknown_fraction, 0.4, 0.8).min(ramp(evidence.enclosed_fraction, 0.5, 0.9));
+        let unseen = ramp(evidence.unknown_fraction, 0.4, 0.8);
         // An empty place has its neighbours on three sides and is open to the fourth at most.
         let closed_in = ramp(evidence.lined_fraction, 0.5, 0.75).min(1.0 - ramp(evidence.open_fraction, 0.25, 0.5));
         let goods = seen_goods.max(small.min(unseen)).max(tiny.min(closed_in));
@@ -196,7 +205,6 @@ impl Reading {
 pub(super) fn category_evidence(analysis: &Analysis) -> Vec<CategoryEvidence> {
     let count = analysis.categories.face_categories();
     let borders = Borders::measure(analysis);
-    let outside = joined_with_the_outside(analysis);
     let mut sums = vec![CategoryEvidence::default(); count];
     let mut areas: Vec<Vec<f64>> = vec![Vec::new(); count];
     let mut lengths = vec![0.0; count];
@@ -210,7 +218,6 @@ pub(super) fn category_evidence(analysis: &Analysis) -> Vec<CategoryEvidence> {
         sum.occupied_fraction += weight * annotation.occupied_fraction;
         sum.unknown_fraction += weight * annotation.unknown_fraction;
         sum.elongation += weight * annotation.elongation;
-        sum.enclosed_fraction += if outside[face] { 0.0 } else { weight };
         sum.open_fraction += borders.open[face];
         sum.lined_fraction += borders.lined[face];
         lengths[category] += borders.length[face];
@@ -219,13 +226,8 @@ pub(super) fn category_evidence(analysis: &Analysis) -> Vec<CategoryEvidence> {
     for ((sum, areas), length) in sums.iter_mut().zip(&mut areas).zip(lengths) {
         let share = |value: f64, whole: f64| if whole > 0.0 { value / whole } else { 0.0 };
         let area = sum.area;
-        for mean in [
-            &mut sum.free_fraction,
-            &mut sum.occupied_fraction,
-            &mut sum.unknown_fraction,
-            &mut sum.elongation,
-            &mut sum.enclosed_fraction,
-        ] {
+        for mean in [&mut sum.free_fraction, &mut sum.occupied_fraction, &mut sum.unknown_fraction, &mut sum.elongation]
+        {
             *mean = share(*mean, area);
         }
         sum.open_fraction = share(sum.open_fraction, length);
@@ -266,33 +268,6 @@ impl Borders {
         }
         borders
     }
-}
-
-/// Per face, whether a chain of unexplored faces joins it with the unbounded face: the ground outside the building.
-fn joined_with_the_outside(analysis: &Analysis) -> Vec<bool> {
-    let is_unexplored = |annotation: &FaceAnnotation| annotation.unknown_fraction > MAJORITY;
-    let mut outside = vec![false; analysis.faces.len()];
-    let mut waiting = Vec::new();
-    let mut reach = |face: FaceId, waiting: &mut Vec<FaceId>| {
-        if face != FaceId::OUTER && is_unexplored(&analysis.faces[face.index()]) && !outside[face.index()] {
-            outside[face.index()] = true;
-            waiting.push(face);
-        }
-    };
-    for edge in analysis.subdivision.edges() {
-        let sides = analysis.subdivision.sides(edge);
-        if sides.contains(&FaceId::OUTER) {
-            for face in sides {
-                reach(face, &mut waiting);
-            }
-        }
-    }
-    while let Some(face) = waiting.pop() {
-        for &(_, behind) in analysis.graph.links(face) {
-            reach(behind, &mut waiting);
-        }
-    }
-    outside
 }
 
 #[cfg(test)]

@@ -1,0 +1,32 @@
+//! The ground outside the building: unexplored faces that a chain of such faces joins with the unbounded one.
+//!
+//! The decomposition covers whole tiles, and beams end at walls and goods: both leave faces without a free cell. Those
+//! among known places hold something, those around the site hold nothing anyone knows of, so the two are told apart
+//! here and not left to one label. Cost: O(faces + edges).
+
+use super::FaceAnnotation;
+use crate::arrangement::{FaceId, Subdivision};
+use crate::categorization::CategoryMap;
+
+/// A face is unexplored when most of its cells are unknown.
+const UNEXPLORED: f64 = 0.5;
+
+/// Gives the faces outside their category.
+pub(super) fn mark_outside(faces: &mut [FaceAnnotation], subdivision: &Subdivision, categories: &CategoryMap) {
+    let is_candidate = |face: &FaceAnnotation| {
+        usize::from(face.category) >= categories.categories.len() && face.unknown_fraction > UNEXPLORED
+    };
+    let mut waiting = vec![FaceId::OUTER];
+    while let Some(face) = waiting.pop() {
+        for half_edge in subdivision.boundary(face) {
+            let behind = subdivision.half_edge(half_edge.twin()).face;
+            let annotation = &mut faces[behind.index()];
+            let is_marked = annotation.category == categories.outside();
+            if behind != FaceId::OUTER && !is_marked && is_candidate(annotation) {
+                annotation.category = categories.outside();
+                annotation.confidence = annotation.unknown_fraction;
+                waiting.push(behind);
+            }
+        }
+    }
+}

@@ -1,0 +1,174 @@
+//! A server process and its client.
+
+use std::io::{BufRead, BufReader};
+use std::os::unix::process::ExitStatusExt;
+use std::path::Path;
+use std::process::{Child, Command, Stdio};
+use std::time::{Duration, Instant};
+
+use rustix::process::{Pid, Signal, kill_process};
+use serde_json::{Value, json};
+
+/// How often a state is asked for while waiting.
+const TICK: Duration = Duration::from_millis(20);
+
+/// A running server. Killed when dropped.
+pub struct Server {
+    process: Child,
+    address: String,
+    client: ureq::Agent,
+}
+
+/// `stillage serve` on a folder and a free port.
+pub fn command(data: &Path, arguments: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_stillage"));
+    command.args(["serve", "--listen", "127.0.0.1:0", "--min-free-mib", "0", "--log", "error", "--data"]);
+    command.arg(data).args(arguments).env_remove("STILLAGE_FAIL_POINT");
+    command
+}
+
+impl Server {
+    /// Starts a server; `None` when it dies of its fail point before it listens.
+    pub fn start(data: &Path, fail_point: Option<&str>, arguments: &[&str]) -> Option<Self> {
+        let mut command = command(data, arguments);
+        if let Some(point) = fail_point {
+            command.env("STILLAGE_FAIL_POINT", point);
+        }
+        let mut process = command.stdout(Stdio::piped()).spawn().expect("the binary runs");
+        let mut line = String::new();
+        let output = process.stdout.take().expect("it is piped");
+        BufReader::new(output).read_line(&mut line).expect("its output is text");
+        let Some(address) = line.trim().strip_prefix("listening on ") else {
+            let status = process.wait().expect("it ended");
+            assert_eq!(status.signal(), Some(9), "it does not start: {status}");
+            return None;
+        };
+        let config = ureq::Agent::config_builder().timeout_global(Some(Duration::from_secs(30)));
+        let client = config.http_status_as_error(false).build().new_agent();
+        Some(Self { process, address: address.to_owned(), client })
+    }
+
+    /// Uploads a map: the path of its job when it was accepted, `None` when no answer came.
+    pub fn upload(&self, message: &Value, key: &str) -> Option<String> {
+        let request = self.client.post(format!("{}/v1/maps?name={key}", self.address)).header("idempotency-key", key);
+        let mut response = request.send_json(message).ok()?;
+        let accepted = [200, 202].contains(&response.status().as_u16());
+        assert!(accepted, "{}: {:?}", response.status(), response.body_mut().read_to_string());
+        Some(response.headers().get("location").expect("where the job is").to_str().expect("is text").to_owned())
+    }
+
+    /// Reads a JSON resource.
+    pub fn get(&self, path: &str) -> Value {
+        self.try_get(path).expect("it answers")
+    }
+
+    fn try_get(&self, path: &str) -> Option<Value> {
+        let url = if path.starts_with("http") { path.to_owned() } else { format!("{}{path}", self.address) };
+        self.client.get(url).call().ok()?.body_mut().read_json().ok()
+    }
+
+    /// Sends a DELETE; whether it is answered is another matter.
+    pub fn delete(&self, path: &str) {
+        let _ = self.client.delete(format!("{}{path}", self.address)).call();
+    }
+
+    /// Ids of the maps.
+    pub fn maps(&self) -> Vec<String> {
+        let maps = self.get("/v1/maps");
+        let maps = maps["maps"].as_array().expect("a list of maps");
+        maps.iter().map(|map| map["id"].as_str().expect("an id").to_owned()).collect()
+    }
+
+    /// Waits until no job waits or runs.
+    pub fn wait_until_idle(&self, patience: Duration) {
+        let begun = Instant::now();
+        while !self.is_idle().expect("it answers") {
+            assert!(begun.elapsed() < patience, "jobs are still under way after {patience:?}");
+            std::thread::sleep(TICK);
+        }
+    }
+
+    fn is_idle(&self) -> Option<bool> {
+        let jobs = self.try_get("/v1/jobs?status=accepted,running&limit=1")?;
+        Some(jobs["jobs"].as_array()?.is_empty())
+    }
+
+    /// Waits for the process to die by itself: its signal.
+    pub fn wait_for_death(&mut self, patience: Duration) -> Option<i32> {
+        let begun = Instant::now();
+        while begun.elapsed() < patience {
+            if let Some(status) = self.process.try_wait().expect("it can be asked") {
+                return status.signal();
+            }
+            std::thread::sleep(TICK);
+        }
+        None
+    }
+
+    /// Waits until the process dies (its signal) or has nothing to do.
+    pub fn wait_for_death_or_idle(&mut self, patience: Duration) -> Option<i32> {
+        let begun = Instant::now();
+        loop {
+            if let Some(status) = self.process.try_wait().expect("it can be asked") {
+                return status.signal();
+            }
+            if self.is_idle() == Some(true) {
+                return None;
+            }
+            assert!(begun.elapsed() < patience, "neither dead nor idle after {patience:?}");
+            std::thread::sleep(TICK);
+        }
+    }
+
+    /// SIGKILL, now.
+    pub fn kill(&mut self) {
+        self.process.kill().expect("it runs");
+        self.process.wait().expect("it ends");
+    }
+
+    /// SIGTERM, and an orderly end.
+    pub fn stop(mut self) {
+        let pid = Pid::from_child(&self.process);
+        kill_process(pid, Signal::TERM).expect("it runs");
+        let status = self.process.wait().expect("it ends");
+        assert!(status.success(), "told to stop, it ended with {status}");
+    }
+}
+
+impl Drop for Server {
+    fn drop(&mut self) {
+        let _ = self.process.kill();
+        let _ = self.process.wait();
+    }
+}
+
+/// A small hall with two rows of racks as an `OccupancyGrid` message; a different one for each index.
+pub fn map_message(index: u64) -> Value {
+    let (width, height) = (30 + (index % 7), 24);
+    let is_rack = |column: u64, row: u64| [6, 7, 16, 17].contains(&row) && (5..width - 5).contains(&column);
+    let is_wall = |column: u64, row: u64| column == 0 || row == 0 || column == width - 1 || row == height - 1;
+    let cell = |column, row| if is_wall(column, row) || is_rack(column, row) { 100 } else { 0 };
+    let data: Vec<u8> = (0..height).flat_map(|row| (0..width).map(move |column| cell(column, row))).collect();
+    let pose =
+        json!({"position": {"x": 0.0, "y": 0.0, "z": 0.0}, "orientation": {"x": 0.0, "y": 0.0, "z": 0.0, "w": 1.0}});
+    json!({
+        "header": {"frame_id": "map"},
+        "info": {"resolution": 0.25, "width": width, "height": height, "origin": pose},
+        "data": data,
+    })
+}
+
+/// A small generator of numbers, so that a run can be repeated.
+pub struct Dice(u64);
+
+impl Dice {
+    pub fn new(seed: u64) -> Self {
+        Self(seed)
+    }
+
+    /// A number from 0 to `bound`, exclusive. (Knuth's linear congruence, MMIX.)
+    pub fn below(&mut self, bound: u64) -> u64 {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 33) % bound
+    }
+}
