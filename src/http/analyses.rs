@@ -91,7 +91,10 @@ pub async fn create(
     Path(path): Path<MapPath>,
     JsonBody(options): JsonBody<AnalysisOptions>,
 ) -> Result<Response, Problem> {
-    Ok(match app.create_analysis(path.map_id.0, options).await? {
+    let ticket = app.create_analysis(path.map_id.0, options).await;
+    // The use case names the options as a part of an upload; here they are the whole body.
+    let in_body = |pointer: &str| pointer.strip_prefix("/options").unwrap_or(pointer).to_owned();
+    Ok(match ticket.map_err(|error| Problem::from(error).map_pointers(in_body))? {
         AnalysisTicket::Existing(record) => Json(AnalysisView::from(record)).into_response(),
         AnalysisTicket::Job(job) => JobView::accepted(&base, job),
     })

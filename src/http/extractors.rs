@@ -209,9 +209,15 @@ fn is_path(head: &str) -> bool {
     !head.is_empty() && !head.contains(char::is_whitespace)
 }
 
+/// A name as a step of a JSON pointer (RFC 6901).
+#[must_use]
+pub fn pointer_step(name: &str) -> String {
+    name.replace('~', "~0").replace('/', "~1")
+}
+
 /// `labels[0].id` as a JSON pointer, `/labels/0/id`.
 fn json_pointer(path: &str) -> String {
-    let steps = path.replace('~', "~0").replace('/', "~1").replace('[', ".").replace(']', "");
+    let steps = pointer_step(path).replace('[', ".").replace(']', "");
     steps.split('.').filter(|step| !step.is_empty()).map(|step| format!("/{step}")).collect()
 }
 

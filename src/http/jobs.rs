@@ -41,7 +41,6 @@ pub struct JobView {
     /// `process`
     #[schema(example = "process")]
     r#type: &'static str,
-    #[schema(inline)]
     status: JobStatus,
     /// Percent.
     #[schema(minimum = 0, maximum = 100)]

@@ -6,6 +6,8 @@ use utoipa::openapi::schema::Type;
 use utoipa::openapi::{ContentBuilder, OpenApi, Ref, RefOr, Required, Response, ResponseBuilder, Schema};
 use utoipa::{OpenApi as _, ToSchema as _};
 
+use super::collections::CollectionIdView;
+use super::crs::CrsName;
 use super::problem::{PROBLEM_JSON, ProblemDocument};
 
 /// What the document says of itself.
@@ -19,7 +21,8 @@ use super::problem::{PROBLEM_JSON, ProblemDocument};
         license(name = "MIT OR Apache-2.0", identifier = "MIT OR Apache-2.0")
     ),
     servers((url = "/", description = "This service")),
-    components(schemas(ProblemDocument)),
+    // Beside the problems, what occurs in parameters only.
+    components(schemas(ProblemDocument, CollectionIdView, CrsName)),
     tags(
         (name = "maps", description = "Upload maps and look at them"),
         (name = "jobs", description = "Watch and dismiss analyses"),

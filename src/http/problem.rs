@@ -10,7 +10,6 @@ use axum::middleware::Next;
 use axum::response::{IntoResponse, Response};
 use serde::Serialize;
 use stillage_core::routing::NoRoute;
-use stillage_core::spec::OptionProblem;
 use utoipa::ToSchema;
 
 use crate::app::{AppError, FieldProblem};
@@ -171,18 +170,6 @@ impl Problem {
         let (pointer, detail) = (pointer.into(), detail.into());
         let item = ProblemItem { pointer: Some(pointer), parameter: None, detail: detail.clone() };
         Self { errors: vec![item], ..Self::new(kind, detail) }
-    }
-
-    /// Options out of their ranges; they stand at `pointer` of the request.
-    #[must_use]
-    pub fn of_options(pointer: &str, problems: Vec<OptionProblem>) -> Self {
-        let item = |problem: OptionProblem| ProblemItem {
-            pointer: Some(format!("{pointer}{}", problem.pointer)),
-            parameter: None,
-            detail: problem.message,
-        };
-        let errors = problems.into_iter().map(item).collect();
-        Self { errors, ..Self::new(ProblemType::Invalid, "options are outside their ranges") }
     }
 
     /// Nothing is there.

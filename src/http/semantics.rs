@@ -15,7 +15,7 @@ use utoipa::ToSchema;
 use uuid::Uuid;
 
 use super::conditional::{EntityTag, IfMatch, IfNoneMatch};
-use super::extractors::{JsonBody, MapPath, Path};
+use super::extractors::{JsonBody, MapPath, Path, pointer_step};
 use super::links::{Base, JSON, Link};
 use super::problem::Problem;
 use crate::app::{App, MapContext, NewSemantics, SemanticsOrigin, SemanticsRecord};
@@ -237,7 +237,7 @@ pub struct SemanticsBody {
     /// Label by category. Categories that are not named become the rule set's unidentified label.
     #[serde(default)]
     #[schema(example = json!({"0": "co", "1": "pc"}))]
-    assignment: BTreeMap<u8, String>,
+    assignment: BTreeMap<String, String>,
     #[serde(default)]
     overrides: Vec<OverrideView>,
     #[serde(default, rename = "version")]
@@ -262,7 +262,14 @@ impl SemanticsBody {
                 ));
             }
         }
-        Ok(Assignment { assignment: self.assignment, overrides })
+        let mut assignment = BTreeMap::new();
+        for (category, label) in self.assignment {
+            let number = category.parse().ok().filter(|number: &u8| number.to_string() == category);
+            let unknown =
+                || Problem::invalid(format!("/assignment/{}", pointer_step(&category)), "there is no such category");
+            assignment.insert(number.ok_or_else(unknown)?, label);
+        }
+        Ok(Assignment { assignment, overrides })
     }
 }
 

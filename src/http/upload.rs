@@ -109,7 +109,7 @@ async fn read_form(mut parts: Multipart, limits: &Limits) -> Result<NewMap, Prob
             }
             unknown => {
                 let detail = "is not a part of the form: those are image, metadata, name, options and georeference";
-                return Err(Problem::invalid(format!("/{}", unknown.replace('~', "~0").replace('/', "~1")), detail));
+                return Err(Problem::invalid(format!("/{}", extractors::pointer_step(unknown)), detail));
             }
         }
     }
@@ -130,11 +130,7 @@ impl Form {
         if let Some(Name(name)) = self.name.or_else(file_stem) {
             map.name = name;
         }
-        if let Some(options) = self.options {
-            // Checked here too: only here it is known that the options are a part of a form.
-            map.options =
-                options.check().map_err(|problems| Problem::of_options("/options", problems))?.options().clone();
-        }
+        map.options = self.options.unwrap_or_default();
         map.georeference = match self.georeference {
             Some(georeference) => georeference.check("/georeference")?,
             None => None,

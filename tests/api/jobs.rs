@@ -24,10 +24,11 @@ async fn jobs_are_filtered_and_paged() {
             page["jobs"].as_array().expect("jobs").iter().map(path).collect::<Vec<String>>()
         }
     };
-    assert_eq!(list("").await, [&waiting[1], &waiting[0], &done]);
-    assert_eq!(list("?status=successful").await, [&done]);
-    assert_eq!(list("?status=accepted,running&type=process").await, [&waiting[1], &waiting[0]]);
-    assert_eq!(list("?limit=1").await, [&waiting[1]]);
+    let [first, second] = &waiting;
+    assert_eq!(list("").await, [second.as_str(), first, &done]);
+    assert_eq!(list("?status=successful").await, [done.as_str()]);
+    assert_eq!(list("?status=accepted,running&type=process").await, [second.as_str(), first]);
+    assert_eq!(list("?limit=1").await, [second.as_str()]);
     let page = api.get("/v1/jobs?limit=1&status=accepted").await.json();
     let next =
         page["links"][1]["href"].as_str().expect("a next page").trim_start_matches("http://stillage.test").to_owned();
@@ -74,9 +75,10 @@ async fn the_events_of_a_job_end_with_its_end() {
     let (stream, worked) = tokio::join!(api.get(&path), api.app.run_until_empty());
     worked.expect("the queue can be worked on");
     let seen = events(&stream);
-    assert_eq!(seen.first().map(|event| event.1.as_str()), Some("accepted"), "{seen:?}");
+    assert!(seen.len() >= 2 && seen[0].1 != "successful", "{seen:?}");
     assert_eq!(seen.last().map(|event| event.1.as_str()), Some("successful"), "{seen:?}");
-    assert!(seen.windows(2).all(|pair| pair[0].0.parse::<i64>() < pair[1].0.parse::<i64>()), "{seen:?}");
+    let ids: Vec<i64> = seen.iter().map(|event| event.0.parse().expect("a number")).collect();
+    assert!(ids.is_sorted_by(|earlier, later| earlier < later), "{ids:?}");
     // Whoever lost the connection early gets the end, whoever had it all is told to stay away.
     let resumed = api.get_with(&path, &[("last-event-id", &seen[0].0)]).await;
     assert_eq!(events(&resumed), [seen.last().expect("an end").clone()]);

@@ -152,7 +152,8 @@ async fn an_assignment_that_makes_no_sense_is_refused_piece_by_piece() {
     let cases = [
         (json!({"assignment": {"0": "xx"}}), "/assignment/0"),
         (json!({"assignment": {"99": "co"}}), "/assignment/99"),
-        (json!({"assignment": {"x": "co"}}), "/assignment/x"),
+        (json!({"assignment": {"x/y": "co"}}), "/assignment/x~1y"),
+        (json!({"assignment": {"300": "co"}}), "/assignment/300"),
         (json!({"overrides": [{"face": 1, "label": "co"}, {"face": 99_999, "label": "co"}]}), "/overrides/1"),
         (json!({"overrides": [{"face": 1, "label": "xx"}]}), "/overrides/0"),
         (json!({"ruleSet": "nonsense"}), "/ruleSet"),

@@ -330,7 +330,7 @@ mod tests {
                 0 co 1.00 100 % free, 0 % occupied, 0 % unknown; 2.1 times as long as wide, 2.0 m2 in the median, 40 % of the border lined by structure, beams 0.8 times the mean of the map: reads as corridor (1.00).
                 1 ju 1.00 100 % free, 0 % occupied, 0 % unknown; 2.0 times as long as wide, 8.0 m2 in the median, 67 % of the border lined by structure, beams 1.3 times the mean of the map: reads as junction (1.00).
                 5 pc 1.00 0 % free, 87 % occupied, 13 % unknown; 1.1 times as long as wide, 1.0 m2 in the median, 82 % of the border lined by structure: reads as pallet cell (1.00).
-                6 un 1.00 0 % free, 0 % occupied, 100 % unknown; 2.0 times as long as wide, 12.0 m2 in the median, 88 % of the border lined by structure: no label fits.
+                7 un 1.00 Unexplored ground around the site.
             "#]],
         );
     }
@@ -341,11 +341,11 @@ mod tests {
             &warehouse(),
             &RuleSet::warehouse(),
             &expect![[r#"
-            0 co 0.52 100 % free, 0 % occupied, 0 % unknown; 2.1 times as long as wide, 2.0 m2 in the median, 40 % of the border lined by structure: reads as corridor (0.68; next junction, 0.32).
-            1 co 1.00 100 % free, 0 % occupied, 0 % unknown; 2.0 times as long as wide, 8.0 m2 in the median, 67 % of the border lined by structure: reads as corridor (1.00).
-            5 pc 1.00 0 % free, 87 % occupied, 13 % unknown; 1.1 times as long as wide, 1.0 m2 in the median, 82 % of the border lined by structure: reads as pallet cell (1.00).
-            6 un 1.00 0 % free, 0 % occupied, 100 % unknown; 2.0 times as long as wide, 12.0 m2 in the median, 88 % of the border lined by structure: no label fits.
-        "#]],
+                0 co 0.52 100 % free, 0 % occupied, 0 % unknown; 2.1 times as long as wide, 2.0 m2 in the median, 40 % of the border lined by structure: reads as corridor (0.68; next junction, 0.32).
+                1 co 1.00 100 % free, 0 % occupied, 0 % unknown; 2.0 times as long as wide, 8.0 m2 in the median, 67 % of the border lined by structure: reads as corridor (1.00).
+                5 pc 1.00 0 % free, 87 % occupied, 13 % unknown; 1.1 times as long as wide, 1.0 m2 in the median, 82 % of the border lined by structure: reads as pallet cell (1.00).
+                7 un 1.00 Unexplored ground around the site.
+            "#]],
         );
     }
 
