@@ -2,9 +2,9 @@
 
 /// Bytes that an analysis needs at its peak for each cell of the grid.
 ///
-/// The feature stage decides: 17 features of 4 bytes for each free cell, their scaled copy for the clustering being made
-/// in place, 32 bytes of gradients or texture energies in the stages after it (when the features are gone), and the
-/// grid, categories, regions and faces at 1 to 4 bytes each.
+/// The feature stage decides: up to 17 features of 4 bytes for each free cell; the grid, categories and regions take a
+/// byte each, and the stages after it (when the features are gone) less. Measured on the service, process and all: 54
+/// bytes on an office floor of 2.3 million cells, 105 on a hall of which every cell is free.
 const BYTES_PER_CELL: u64 = 120;
 
 /// Memory of a job on a map of this size, by estimate, bytes.
