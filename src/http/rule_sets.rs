@@ -143,13 +143,13 @@ pub struct RuleSetBody {
     /// Explicit rules, first match wins; derived from the labels where absent or without a match.
     cogency: Option<Vec<CogencyRuleView>>,
     #[serde(default, rename = "builtIn")]
-    #[schema(ignore)]
+    #[schema(read_only, value_type = Option<bool>)]
     _built_in: IgnoredAny,
     #[serde(default, rename = "version")]
-    #[schema(ignore)]
+    #[schema(read_only, value_type = Option<u64>)]
     _version: IgnoredAny,
     #[serde(default, rename = "links")]
-    #[schema(ignore)]
+    #[schema(read_only, value_type = Option<Vec<Link>>)]
     _links: IgnoredAny,
 }
 

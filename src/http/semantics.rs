@@ -241,13 +241,13 @@ pub struct SemanticsBody {
     #[serde(default)]
     overrides: Vec<OverrideView>,
     #[serde(default, rename = "version")]
-    #[schema(ignore)]
+    #[schema(read_only, value_type = Option<u64>)]
     _version: IgnoredAny,
     #[serde(default, rename = "origin")]
-    #[schema(ignore)]
+    #[schema(read_only, value_type = Option<OriginView>, inline)]
     _origin: IgnoredAny,
     #[serde(default, rename = "created")]
-    #[schema(ignore)]
+    #[schema(read_only, value_type = Option<String>)]
     _created: IgnoredAny,
 }
 
