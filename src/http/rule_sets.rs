@@ -143,13 +143,13 @@ pub struct RuleSetBody {
     /// Explicit rules, first match wins; derived from the labels where absent or without a match.
     cogency: Option<Vec<CogencyRuleView>>,
     #[serde(default, rename = "builtIn")]
-    #[schema(read_only, value_type = Option<bool>)]
+    #[schema(read_only, value_type = serde_json::Value)]
     _built_in: IgnoredAny,
     #[serde(default, rename = "version")]
-    #[schema(read_only, value_type = Option<u64>)]
+    #[schema(read_only, value_type = serde_json::Value)]
     _version: IgnoredAny,
     #[serde(default, rename = "links")]
-    #[schema(read_only, value_type = Option<Vec<Link>>)]
+    #[schema(read_only, value_type = serde_json::Value)]
     _links: IgnoredAny,
 }
 
