@@ -28,25 +28,34 @@ pub struct NewMap {
 /// A stored map.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MapRecord {
+    /// Its id.
     pub id: Uuid,
+    /// Name for people.
     pub name: String,
+    /// When it was uploaded.
     pub created: Timestamp,
+    /// When it last changed.
     pub updated: Timestamp,
+    /// Columns of the grid.
     pub width: u32,
+    /// Rows of the grid.
     pub height: u32,
+    /// Side of a cell, metres.
     pub resolution: f64,
+    /// Where it lies on Earth.
     pub georeference: Option<Georeference>,
     /// The analysis that answers, when one is finished.
     pub analysis: Option<Uuid>,
     /// Remarks of the ingest.
     pub warnings: Vec<Diagnostic>,
-    /// Raised with every change (the strong ETag of the record).
+    /// Raised with every change (the strong `ETag` of the record).
     pub version: u64,
 }
 
 /// Changes to a map; absent fields stay.
 #[derive(Debug, Clone, Default)]
 pub struct MapPatch {
+    /// Its new name.
     pub name: Option<String>,
     /// `Some(None)` takes the georeference away.
     pub georeference: Option<Option<Georeference>>,
@@ -55,11 +64,17 @@ pub struct MapPatch {
 /// A finished analysis.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AnalysisRecord {
+    /// Its id.
     pub id: Uuid,
+    /// The map it belongs to.
     pub map: Uuid,
+    /// When it was made.
     pub created: Timestamp,
+    /// The options, whole.
     pub options: AnalysisOptions,
+    /// What each stage cost.
     pub stages: Vec<StageReport>,
+    /// What the user should know about the result.
     pub diagnostics: Vec<Diagnostic>,
 }
 
@@ -67,6 +82,7 @@ pub struct AnalysisRecord {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub struct StageReport {
+    /// The stage.
     pub name: String,
     /// Wall-clock seconds.
     pub wall_s: f64,
@@ -78,10 +94,15 @@ pub struct StageReport {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum JobState {
+    /// It waits.
     Accepted,
+    /// A worker has it.
     Running,
+    /// Its analysis is there.
     Successful,
+    /// It came to nothing; the message says why.
     Failed,
+    /// Somebody did not want it any more.
     Dismissed,
 }
 
@@ -117,20 +138,29 @@ impl JobState {
 /// A job.
 #[derive(Debug, Clone, PartialEq)]
 pub struct JobRecord {
+    /// Its id.
     pub id: Uuid,
+    /// The map that is analysed.
     pub map: Uuid,
+    /// Where it is in its life.
     pub state: JobState,
     /// 0 to 100.
     pub progress: u8,
     /// The stage it is in.
     pub stage: Option<String>,
+    /// What the stages that ended cost.
     pub stages: Vec<StageReport>,
     /// For people.
     pub message: String,
+    /// Attempts begun, those not counted that ended with an orderly stop of the service.
     pub attempt: u32,
+    /// When it was accepted.
     pub created: Timestamp,
+    /// When its first attempt began.
     pub started: Option<Timestamp>,
+    /// When it reached its final state.
     pub finished: Option<Timestamp>,
+    /// When it last changed.
     pub updated: Timestamp,
     /// The analysis it made.
     pub analysis: Option<Uuid>,
@@ -139,16 +169,22 @@ pub struct JobRecord {
 /// Which jobs to list: newest first, after a job when paging.
 #[derive(Debug, Clone, Default)]
 pub struct JobFilter {
+    /// In one of these states; all when empty.
     pub states: Vec<JobState>,
+    /// Of this map.
     pub map: Option<Uuid>,
+    /// At most this many.
     pub limit: u32,
+    /// Older than this one.
     pub after: Option<Uuid>,
 }
 
 /// A stored rule set.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RuleSetRecord {
+    /// Its id.
     pub id: String,
+    /// The labels and rules.
     pub draft: RuleSetDraft,
     /// Built in, so that it cannot be changed.
     pub built_in: bool,
@@ -159,13 +195,17 @@ pub struct RuleSetRecord {
 /// One version of the human level of a map.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SemanticsRecord {
+    /// Id of the rule set.
     pub rule_set: String,
     /// The rule set as it was when this version was made.
     pub draft: RuleSetDraft,
+    /// The decision.
     pub assignment: Assignment,
     /// 0 is the suggestion; assigned versions count from 1.
     pub version: u64,
+    /// Who decided.
     pub origin: SemanticsOrigin,
+    /// When it was made.
     pub created: Timestamp,
 }
 
@@ -184,6 +224,7 @@ pub enum SemanticsOrigin {
 pub struct NewSemantics {
     /// The rule set; the one in force when absent.
     pub rule_set: Option<String>,
+    /// The decision.
     pub assignment: Assignment,
 }
 

@@ -54,13 +54,12 @@ impl App {
         let Snapshot { record, source, analysis, semantics, job } = snapshot;
         let (analysis, blob) = analysis.ok_or(AppError::NotAnalysed { map, job })?;
         let _permit = self.decoders.acquire().await.map_err(|_| AppError::Unavailable)?;
-        let geometry = match previous.filter(|previous| previous.analysis_id == analysis.id) {
-            Some(previous) => Geometry::of(&previous),
-            None => {
-                let (source, blob) = (self.store.blobs().get(&source).await?, self.store.blobs().get(&blob).await?);
-                let (limits, record) = (self.config.limits, analysis.clone());
-                off_the_runtime(move || Geometry::read(&source, &blob, &record, &limits)).await?
-            }
+        let geometry = if let Some(previous) = previous.filter(|previous| previous.analysis_id == analysis.id) {
+            Geometry::of(&previous)
+        } else {
+            let (source, blob) = (self.store.blobs().get(&source).await?, self.store.blobs().get(&blob).await?);
+            let (limits, record) = (self.config.limits, analysis.clone());
+            off_the_runtime(move || Geometry::read(&source, &blob, &record, &limits)).await?
         };
         off_the_runtime(move || geometry.read_under(record, &analysis, semantics).map(Arc::new)).await
     }

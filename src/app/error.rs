@@ -13,35 +13,68 @@ use crate::store::StoreError;
 pub struct FieldProblem {
     /// JSON pointer.
     pub pointer: String,
+    /// For people.
     pub detail: String,
 }
 
 /// Why a use case could not be carried out.
 #[derive(Debug, thiserror::Error)]
 pub enum AppError {
+    /// There is no such thing.
     #[error("there is no {kind} {id}")]
-    NotFound { kind: &'static str, id: String },
+    NotFound {
+        /// What was looked for.
+        kind: &'static str,
+        /// Under which id.
+        id: String,
+    },
+    /// The map is there, its analysis is not.
     #[error("map {map} has no finished analysis yet: see job {job:?}")]
-    NotAnalysed { map: Uuid, job: Option<Uuid> },
+    NotAnalysed {
+        /// The map.
+        map: Uuid,
+        /// Its newest job.
+        job: Option<Uuid>,
+    },
+    /// Something in the request is wrong.
     #[error("{detail}")]
-    Invalid { detail: String, fields: Vec<FieldProblem> },
+    Invalid {
+        /// For people.
+        detail: String,
+        /// The fields that are wrong, when it is fields.
+        fields: Vec<FieldProblem>,
+    },
+    /// The upload cannot be read.
     #[error(transparent)]
     Ingest(#[from] IngestError),
+    /// Somebody changed the resource since it was read.
     #[error("the resource is at version {current}, not at the one in If-Match")]
-    PreconditionFailed { current: u64 },
+    PreconditionFailed {
+        /// The version it is at.
+        current: u64,
+    },
+    /// The write does not say what it replaces.
     #[error("this write needs an If-Match header with the ETag that was read")]
     PreconditionRequired,
+    /// Against the state of the resource.
     #[error("{0}")]
     Conflict(String),
     /// Needs more than is configured: memory of a job.
     #[error("{0}")]
     TooLarge(String),
+    /// As many jobs wait as may.
     #[error("the queue is full: try again in {retry_after_s} s")]
-    Busy { retry_after_s: u32 },
+    Busy {
+        /// When to try again, seconds.
+        retry_after_s: u32,
+    },
+    /// Below the floor of free space.
     #[error("the server is short of disk space")]
     NoSpace,
+    /// The database is held by somebody else, or the service is about to stop.
     #[error("the store cannot be reached")]
     Unavailable,
+    /// For the log, not for clients.
     #[error("internal error")]
     Internal(#[source] Box<dyn std::error::Error + Send + Sync>),
 }
@@ -53,8 +86,8 @@ impl AppError {
         Self::Invalid { detail: field.detail.clone(), fields: vec![field] }
     }
 
-    pub(crate) fn not_found(kind: &'static str, id: impl ToString) -> Self {
-        Self::NotFound { kind, id: id.to_string() }
+    pub(crate) fn not_found(kind: &'static str, id: impl Into<String>) -> Self {
+        Self::NotFound { kind, id: id.into() }
     }
 }
 

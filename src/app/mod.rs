@@ -41,7 +41,7 @@ pub use error::{AppError, FieldProblem};
 use context::ContextCache;
 
 /// A blob whose row never came is removed at a start after this time.
-const ORPHAN_AGE: Duration = Duration::from_secs(24 * 3600);
+const ORPHAN_AGE: Duration = Duration::from_hours(24);
 
 /// When a client may try again after finding the queue full, seconds: about the time of a job on a large map.
 const RETRY_AFTER_S: u32 = 10;

@@ -30,6 +30,7 @@ const COLUMNS: [&str; 17] = [
 ///
 /// Text that a spreadsheet would run as a formula is preceded by an apostrophe.
 #[must_use]
+#[allow(clippy::missing_panics_doc, reason = "memory takes every byte")]
 pub fn locations_csv(view: &MapView<'_>) -> Vec<u8> {
     let mut writer = csv::WriterBuilder::new().terminator(csv::Terminator::CRLF).from_writer(Vec::new());
     let mut write =

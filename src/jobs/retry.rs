@@ -8,7 +8,7 @@ use uuid::Uuid;
 const FIRST: Duration = Duration::from_secs(5);
 
 /// The longest wait, before jitter.
-const LONGEST: Duration = Duration::from_secs(600);
+const LONGEST: Duration = Duration::from_mins(10);
 
 /// Largest departure from the plain wait, either way, so that jobs that failed together do not come back together.
 const JITTER: f64 = 0.2;

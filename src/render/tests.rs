@@ -1,6 +1,36 @@
 //! Pictures, read back.
 
+use stillage_core::annotation::CellFaces;
+use stillage_core::semantics::{self, Assignment, RuleSet};
+use stillage_core::{AnalysisOptions, Watch};
+
 use super::*;
+
+/// A room with a wall and an unknown corner.
+fn room() -> (OccupancyGrid, Analysis) {
+    let grid = OccupancyGrid::from_ascii(
+        "
+        ################
+        #......#.......#
+        #......#.......#
+        #..............#
+        #......#.......#
+        ##########......
+        ",
+        0.5,
+    );
+    let spec = AnalysisOptions::default().check().unwrap();
+    let analysis = stillage_core::analyze(&grid, &spec, &Watch::unwatched()).unwrap();
+    (grid, analysis)
+}
+
+/// The palette indices of a picture.
+fn indices(picture: &[u8]) -> Vec<u8> {
+    let mut reader = png::Decoder::new(std::io::Cursor::new(picture)).read_info().unwrap();
+    let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
+    assert_eq!(reader.next_frame(&mut pixels).unwrap().color_type, png::ColorType::Indexed);
+    pixels
+}
 
 fn read(png: &[u8]) -> ::image::DynamicImage {
     ::image::load_from_memory(png).unwrap()
@@ -25,4 +55,41 @@ fn colours_are_all_different() {
     colours.sort_unstable();
     colours.dedup();
     assert_eq!(colours.len(), 32);
+}
+
+#[test]
+fn the_index_of_a_pixel_is_its_category_and_one() {
+    let (grid, analysis) = room();
+    let pixels = indices(&categories(&analysis));
+    for (row, pixels) in pixels.chunks(grid.width()).rev().enumerate() {
+        for (column, &pixel) in pixels.iter().enumerate() {
+            let category = analysis.categories.cells[row * grid.width() + column];
+            let is_free = grid.row(row)[column] == Occupancy::Free;
+            assert_eq!((pixel > 0, pixel), (is_free, if is_free { category + 1 } else { 0 }));
+        }
+    }
+}
+
+#[test]
+fn regions_lie_over_the_map() {
+    let (grid, analysis) = room();
+    let pixels = indices(&regions(&analysis, &grid));
+    // Three shades of each region: free, occupied, unknown.
+    let shades: Vec<u8> = pixels.chunks(grid.width()).rev().flatten().map(|pixel| pixel % 3).collect();
+    assert_eq!(shades, grid.cells().iter().map(|&cell| cell as u8).collect::<Vec<_>>());
+}
+
+#[test]
+fn the_semantic_map_is_enlarged_and_has_a_legend() {
+    let (grid, analysis) = room();
+    let map = semantics::apply(&analysis, &RuleSet::warehouse(), &Assignment::default()).unwrap();
+    let cells = CellFaces::rasterize(&analysis.subdivision, grid.width(), grid.height(), grid.resolution());
+    let picture = semantic(&grid, &cells, &analysis, &map);
+    assert_eq!(picture, semantic(&grid, &cells, &analysis, &map));
+    let picture = read(&picture).into_rgb8();
+    // 16 x 6 cells, 50 pixels each.
+    assert_eq!(picture.width(), 800);
+    assert!(picture.height() > 300);
+    let wall = picture.get_pixel(125, 25).0;
+    assert!(wall.iter().all(|&channel| channel < 60), "walls are dark: {wall:?}");
 }

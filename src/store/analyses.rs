@@ -40,8 +40,11 @@ impl AnalysisAddress {
 /// A finished analysis to be stored.
 #[derive(Debug, Clone)]
 pub struct NewAnalysis {
+    /// Its id.
     pub id: Uuid,
+    /// What each stage cost.
     pub stages: Vec<StageReport>,
+    /// What the user should know about the result.
     pub diagnostics: Vec<Diagnostic>,
 }
 
@@ -61,7 +64,9 @@ pub enum Request {
 /// All that is needed to answer questions about a map, as of one moment.
 #[derive(Debug, Clone)]
 pub struct Snapshot {
+    /// The map.
     pub record: MapRecord,
+    /// Blob of the upload.
     pub source: BlobId,
     /// The analysis in force and its blob; `None` before the first one, and when another version of the algorithms
     /// wrote it.

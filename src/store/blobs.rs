@@ -223,11 +223,6 @@ fn is_address(name: &str) -> bool {
 
 /// Runs something long on a thread that may block.
 pub async fn off_the_runtime<T: Send + 'static>(run: impl FnOnce() -> T + Send + 'static) -> T {
-    match tokio::task::spawn_blocking(run).await {
-        Ok(value) => value,
-        Err(error) => match error.try_into_panic() {
-            Ok(panic) => std::panic::resume_unwind(panic),
-            Err(error) => panic!("a blocking task is cancelled only when the runtime stops: {error}"),
-        },
-    }
+    // A task that has begun to block cannot be cancelled, so the error is a panic, and the caller's.
+    tokio::task::spawn_blocking(run).await.unwrap_or_else(|error| std::panic::resume_unwind(error.into_panic()))
 }

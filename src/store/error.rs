@@ -8,30 +8,66 @@ use super::BlobId;
 /// Why the store could not do it.
 #[derive(Debug, thiserror::Error)]
 pub enum StoreError {
+    /// Another process has the lock of the folder.
     #[error("the data folder {} is in use by another process{}: stop it, or choose another folder with --data",
         .folder.display(), .holder.map(|pid| format!(" (pid {pid})")).unwrap_or_default())]
-    FolderInUse { folder: PathBuf, holder: Option<u32> },
+    FolderInUse {
+        /// The folder.
+        folder: PathBuf,
+        /// Id of the process that has it.
+        holder: Option<u32>,
+    },
+    /// A file or folder cannot be made, read or locked.
     #[error("the data folder cannot be used: {}: {source}", .path.display())]
-    Folder { path: PathBuf, source: io::Error },
+    Folder {
+        /// The file or folder.
+        path: PathBuf,
+        /// What the system says.
+        source: io::Error,
+    },
+    /// The database knows migrations that this program does not.
     #[error("the database {} was written by a newer stillage (schema {found}, this program knows up to {known}): \
         run the newer program, or restore the backup made before the upgrade", .database.display())]
-    NewerDatabase { database: PathBuf, found: i64, known: i64 },
+    NewerDatabase {
+        /// The database file.
+        database: PathBuf,
+        /// A migration that was applied to it.
+        found: i64,
+        /// The last migration of this program.
+        known: i64,
+    },
+    /// A migration failed.
     #[error("the database could not be brought up to date: {0}")]
     Migration(#[source] sqlx::migrate::MigrateError),
     /// Another process holds the database, or all connections are taken.
     #[error("the database is busy")]
     Busy,
+    /// The disk is full, or below the configured floor.
     #[error("the disk is full")]
     NoSpace,
     /// The claim was lost: the job was cancelled, deleted, or handed to another worker.
     #[error("the job is no longer held by this claim")]
     ClaimLost,
+    /// A blob is not what was written.
     #[error("blob {blob} is damaged: {reason}")]
-    Damaged { blob: BlobId, reason: String },
+    Damaged {
+        /// Its address.
+        blob: BlobId,
+        /// What is wrong with it.
+        reason: String,
+    },
+    /// A column holds what the program never writes.
     #[error("column {column} of the database holds {value:?}")]
-    BadValue { column: &'static str, value: String },
+    BadValue {
+        /// The column.
+        column: &'static str,
+        /// What it holds.
+        value: String,
+    },
+    /// The blobs' file system says no.
     #[error("blob storage: {0}")]
     Blob(#[source] object_store::Error),
+    /// The database says no.
     #[error("database: {0}")]
     Database(#[source] sqlx::Error),
 }
@@ -54,14 +90,13 @@ fn is_full(error: &io::Error) -> bool {
 
 impl From<sqlx::Error> for StoreError {
     fn from(error: sqlx::Error) -> Self {
-        // Primary result codes are the low byte: https://sqlite.org/rescode.html
+        // Primary result codes are the low byte: <https://sqlite.org/rescode.html>
         const BUSY: i64 = 5;
         const LOCKED: i64 = 6;
         const FULL: i64 = 13;
         let code = error.as_database_error().and_then(|error| error.code()?.parse::<i64>().ok());
         match (&error, code.map(|code| code & 0xff)) {
-            (_, Some(BUSY | LOCKED)) => Self::Busy,
-            (sqlx::Error::PoolTimedOut | sqlx::Error::PoolClosed, _) => Self::Busy,
+            (_, Some(BUSY | LOCKED)) | (sqlx::Error::PoolTimedOut | sqlx::Error::PoolClosed, _) => Self::Busy,
             (_, Some(FULL)) => Self::NoSpace,
             _ => Self::Database(error),
         }

@@ -14,18 +14,25 @@ use crate::geojson::Georeference;
 use crate::records::{JobRecord, MapPatch, MapRecord};
 
 /// How long an idempotency key is remembered, microseconds: a day, as Stripe keeps them at least
-/// (docs.stripe.com/api/idempotent_requests).
+/// (<https://docs.stripe.com/api/idempotent_requests>).
 const KEY_LIFE_US: i64 = 24 * 3600 * 1_000_000;
 
 /// A map to be stored.
 #[derive(Debug, Clone)]
 pub struct NewMapRow {
+    /// Its id.
     pub id: Uuid,
+    /// Name for people.
     pub name: String,
+    /// Columns of the grid.
     pub width: u32,
+    /// Rows of the grid.
     pub height: u32,
+    /// Side of a cell, metres.
     pub resolution: f64,
+    /// Where it lies on Earth.
     pub georeference: Option<Georeference>,
+    /// Remarks of the ingest.
     pub warnings: Vec<Diagnostic>,
     /// Options of the first analysis.
     pub options: AnalysisOptions,
@@ -34,7 +41,9 @@ pub struct NewMapRow {
 /// The key of a request and the hash of what it asked.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct IdempotencyKey {
+    /// What the client chose.
     pub key: String,
+    /// Hash of the request.
     pub content: String,
 }
 

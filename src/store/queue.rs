@@ -35,22 +35,30 @@ use crate::records::{JobFilter, JobRecord, JobState, StageReport};
 /// A job to be queued.
 #[derive(Debug)]
 pub struct NewJob<'a> {
+    /// Its id.
     pub id: Uuid,
+    /// The map to analyse.
     pub map: Uuid,
+    /// The options of the analysis.
     pub options: &'a AnalysisOptions,
+    /// The address of the analysis.
     pub address: AnalysisAddress,
 }
 
 /// The right to work on a job, until the lease ends.
 #[derive(Debug, Clone)]
 pub struct Claim {
+    /// The job.
     pub job: Uuid,
+    /// Its map.
     pub map: Uuid,
     /// The fencing token.
     pub token: i64,
     /// From 1.
     pub attempt: u32,
+    /// The options of the analysis.
     pub options: AnalysisOptions,
+    /// The address of the analysis.
     pub address: AnalysisAddress,
     /// Blob of the upload.
     pub source: BlobId,
@@ -59,7 +67,9 @@ pub struct Claim {
 /// How long a job is held, how often it is tried and what it waits in between.
 #[derive(Debug, Clone, Copy)]
 pub struct Terms {
+    /// How long a claim lasts without a heartbeat.
     pub lease: Duration,
+    /// How often a job is tried in all.
     pub max_attempts: u32,
     /// The wait after the n-th attempt (from 1) of a job.
     pub backoff: fn(Uuid, u32) -> Duration,
@@ -70,7 +80,9 @@ pub struct Terms {
 pub struct Progress {
     /// 0 to 100.
     pub percent: u8,
+    /// The stage it is in.
     pub stage: Option<String>,
+    /// What the stages that ended cost.
     pub stages: Vec<StageReport>,
 }
 

@@ -12,13 +12,17 @@ use crate::records::SemanticsRecord;
 /// A decision to be stored.
 #[derive(Debug, Clone)]
 pub struct NewSemanticsRow {
+    /// The map.
     pub map: Uuid,
     /// The analysis it was checked against.
     pub analysis: Uuid,
     /// The version that was in force when it was made; 0 for the suggestion.
     pub replaces: u64,
+    /// Id of the rule set.
     pub rule_set: String,
+    /// The rule set as it is.
     pub draft: RuleSetDraft,
+    /// The decision.
     pub assignment: Assignment,
 }
 

@@ -165,7 +165,7 @@ async fn blobs_without_a_row_are_swept_when_they_are_old() {
     let staging = fixture.config.data.join("blobs").join("ab#1");
     std::fs::write(&staging, "half of").unwrap();
 
-    assert_eq!(store.sweep_blobs(Duration::from_secs(24 * 3600)).await.unwrap(), 0);
+    assert_eq!(store.sweep_blobs(Duration::from_hours(24)).await.unwrap(), 0);
     assert!(!staging.exists(), "what is left of an interrupted write goes at once");
     store.blobs.get(orphan.id()).await.expect("young orphans stay: their row may be on its way");
     assert_eq!(store.sweep_blobs(Duration::ZERO).await.unwrap(), 1);

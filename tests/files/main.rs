@@ -1,4 +1,4 @@
-//! The ingest against real maps, found in the wild.
+//! Files in, files out: the ingest against real maps found in the wild, and `stillage analyze`.
 //!
 //! The maps lie beside the repository in `../shared/maps` (`STILLAGE_SHARED` names another place). Where they are
 //! missing the tests say so and pass, except under `CI=true`.
@@ -11,6 +11,7 @@
     reason = "a test that unwraps says what it expects well enough"
 )]
 
+mod analyze;
 mod maps;
 mod wild_metadata;
 

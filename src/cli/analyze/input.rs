@@ -22,7 +22,13 @@ pub(super) fn map(path: &Path) -> Result<MapSource, Failure> {
         return Err(Failure::Input(message));
     }
     let entry = ingest::image_entry(&bytes).map_err(|error| refused(path, &error))?;
-    let image = read(&image_path(path, &entry))?;
+    let image_path = image_path(path, &entry);
+    let image = std::fs::read(&image_path).map_err(|error| {
+        let (metadata, image) = (path.display(), image_path.display());
+        Failure::Input(format!(
+            "the image of {metadata}, {image}, cannot be opened ({error}): put it beside the YAML file"
+        ))
+    })?;
     Ok(MapSource::Image { image, metadata: bytes })
 }
 
@@ -90,7 +96,8 @@ pub(super) fn list(problems: &[impl Display]) -> String {
 }
 
 fn read(path: &Path) -> Result<Vec<u8>, Failure> {
-    std::fs::read(path).map_err(|error| Failure::Input(format!("{} cannot be opened: {error}", path.display())))
+    std::fs::read(path)
+        .map_err(|error| Failure::Input(format!("{} cannot be opened ({error}): check the path", path.display())))
 }
 
 fn read_json<T: DeserializeOwned>(path: &Path) -> Result<T, Failure> {

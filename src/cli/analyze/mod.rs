@@ -21,7 +21,7 @@ use progress::Progress;
 /// Arguments of `stillage analyze`.
 #[derive(Debug, clap::Args)]
 pub(super) struct Arguments {
-    /// The map: a `map_server` YAML file with its image beside it, or a nav_msgs/OccupancyGrid message as JSON.
+    /// The map: a `map_server` YAML file with its image beside it, or a `nav_msgs/OccupancyGrid` message as JSON.
     #[arg(value_name = "MAP")]
     map: PathBuf,
     /// Folder for the results; `<map name>.stillage` in the current folder when absent.

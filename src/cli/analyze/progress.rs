@@ -50,18 +50,15 @@ impl Progress {
 impl Observer for Progress {
     fn progress(&self, stage: Stage, fraction: f64) {
         self.clock.progress(stage, fraction);
-        match &self.bar {
-            Some(bar) => {
-                bar.set_message(stage.name());
-                bar.set_position(u64::from(self.clock.percent()));
-            }
-            None => {
-                // A stage may say twice that it is done.
-                let done = stage as usize + 1;
-                if fraction >= 1.0 && self.printed.fetch_max(done, Ordering::Relaxed) < done {
-                    eprintln!("{} done", stage.name());
-                }
-            }
+        if let Some(bar) = &self.bar {
+            bar.set_message(stage.name());
+            bar.set_position(u64::from(self.clock.percent()));
+            return;
+        }
+        // A stage may say twice that it is done.
+        let done = stage as usize + 1;
+        if fraction >= 1.0 && self.printed.fetch_max(done, Ordering::Relaxed) < done {
+            eprintln!("{} done", stage.name());
         }
     }
 }

@@ -14,7 +14,9 @@ const UNEXPLORED: f64 = 0.5;
 /// Gives the faces outside their category.
 pub(super) fn mark_outside(faces: &mut [FaceAnnotation], subdivision: &Subdivision, categories: &CategoryMap) {
     let is_candidate = |face: &FaceAnnotation| {
-        usize::from(face.category) >= categories.categories.len() && face.unknown_fraction > UNEXPLORED
+        // A face too thin for a cell says nothing of the ground.
+        let is_unexplored = face.cells > 0 && face.unknown_fraction > UNEXPLORED;
+        usize::from(face.category) >= categories.categories.len() && is_unexplored
     };
     let mut waiting = vec![FaceId::OUTER];
     while let Some(face) = waiting.pop() {

@@ -130,7 +130,7 @@ fn cells_vote_and_ties_go_to_the_lower_category() {
         category 2 0.93 of [0.06666667, 0.0, 0.93333334], free 0.9375 occupied 0.0625 unknown 0, region 0, Observed
         category 3 1.00 of [0.0, 0.0, 0.0], free 0 occupied 1 unknown 0, region 0, Observed
         category 3 1.00 of [0.0, 0.0, 0.0], free 0 occupied 0.8125 unknown 0.1875, region 0, Observed
-        category 4 0.00 of [0.0, 0.0, 0.0], free 0 occupied 0 unknown 1, region 0, Interpolated
+        category 5 1.00 of [0.0, 0.0, 0.0], free 0 occupied 0 unknown 1, region 0, Interpolated
     "#]]
     .assert_eq(&faces.iter().chain(&blank[1..2]).map(line).collect::<String>());
 }

@@ -339,7 +339,6 @@ mod tests {
             &[(0, "co"), (9, "co"), (3, "")],
             &expect![[r#"
                 /assignment/1: no label has the id "shelf"; there are co, ju, pc, un
-                /assignment/7: no category 7: they run from 0 to 6
                 /overrides/0: no face 0: they run from 1 to 8
                 /overrides/3: no label has the id ""; there are co, ju, pc, un
                 /overrides/9: no face 9: they run from 1 to 8"#]],

@@ -158,9 +158,11 @@ impl Reading {
         let seen_goods = ramp(evidence.occupied_fraction, 0.05, 0.15);
         // Beams do not enter a stack of goods: what stays unknown among known places holds something.
         let unseen = ramp(evidence.unknown_fraction, 0.4, 0.8);
+        let free = ramp(evidence.free_fraction, 0.5, 0.85);
         // An empty place has its neighbours on three sides and is open to the fourth at most.
         let closed_in = ramp(evidence.lined_fraction, 0.5, 0.75).min(1.0 - ramp(evidence.open_fraction, 0.25, 0.5));
-        let goods = seen_goods.max(small.min(unseen)).max(tiny.min(closed_in));
+        let nook = free.min(tiny).min(closed_in);
+        let goods = seen_goods.max(small.min(unseen)).max(nook);
         let lined = ramp(evidence.lined_fraction, 0.2, 0.5);
         // Faces may be cut anywhere by the lines of the racks, so beams tell better what is long, and what is wide.
         let long = match sight.elongation {
@@ -168,14 +170,7 @@ impl Reading {
             None => ramp(evidence.elongation, 1.5, 4.0),
         };
         let far = sight.relative_beam.map_or(1.0 - lined, |beam| ramp(beam, 0.7, 1.2));
-        Self {
-            free: ramp(evidence.free_fraction, 0.5, 0.85),
-            goods,
-            long,
-            wide: far.min(1.0 - long),
-            lined,
-            roomy: ramp(evidence.median_area, 2.0, 8.0),
-        }
+        Self { free, goods, long, wide: far.min(1.0 - long), lined, roomy: ramp(evidence.median_area, 2.0, 8.0) }
     }
 
     /// A label is as likely as the least likely of its functionalities.
@@ -335,7 +330,7 @@ mod tests {
                 0 co 1.00 100 % free, 0 % occupied, 0 % unknown; 2.1 times as long as wide, 2.0 m2 in the median, 40 % of the border lined by structure, beams 0.8 times the mean of the map: reads as corridor (1.00).
                 1 ju 1.00 100 % free, 0 % occupied, 0 % unknown; 2.0 times as long as wide, 8.0 m2 in the median, 67 % of the border lined by structure, beams 1.3 times the mean of the map: reads as junction (1.00).
                 5 pc 1.00 0 % free, 87 % occupied, 13 % unknown; 1.1 times as long as wide, 1.0 m2 in the median, 82 % of the border lined by structure: reads as pallet cell (1.00).
-                6 un 1.00 0 % free, 0 % occupied, 100 % unknown; 2.0 times as long as wide, 12.0 m2 in the median, 88 % of the border lined by structure: no label fits.
+                7 un 1.00 Unexplored ground around the site.
             "#]],
         );
     }
@@ -346,11 +341,11 @@ mod tests {
             &warehouse(),
             &RuleSet::warehouse(),
             &expect![[r#"
-            0 co 0.52 100 % free, 0 % occupied, 0 % unknown; 2.1 times as long as wide, 2.0 m2 in the median, 40 % of the border lined by structure: reads as corridor (0.68; next junction, 0.32).
-            1 co 1.00 100 % free, 0 % occupied, 0 % unknown; 2.0 times as long as wide, 8.0 m2 in the median, 67 % of the border lined by structure: reads as corridor (1.00).
-            5 pc 1.00 0 % free, 87 % occupied, 13 % unknown; 1.1 times as long as wide, 1.0 m2 in the median, 82 % of the border lined by structure: reads as pallet cell (1.00).
-            6 un 1.00 0 % free, 0 % occupied, 100 % unknown; 2.0 times as long as wide, 12.0 m2 in the median, 88 % of the border lined by structure: no label fits.
-        "#]],
+                0 co 0.52 100 % free, 0 % occupied, 0 % unknown; 2.1 times as long as wide, 2.0 m2 in the median, 40 % of the border lined by structure: reads as corridor (0.68; next junction, 0.32).
+                1 co 1.00 100 % free, 0 % occupied, 0 % unknown; 2.0 times as long as wide, 8.0 m2 in the median, 67 % of the border lined by structure: reads as corridor (1.00).
+                5 pc 1.00 0 % free, 87 % occupied, 13 % unknown; 1.1 times as long as wide, 1.0 m2 in the median, 82 % of the border lined by structure: reads as pallet cell (1.00).
+                7 un 1.00 Unexplored ground around the site.
+            "#]],
         );
     }
 

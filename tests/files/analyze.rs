@@ -1,0 +1,87 @@
+//! `stillage analyze` as a person runs it.
+
+use std::path::Path;
+use std::process::{Command, Output};
+
+use expect_test::expect;
+use serde_json::Value;
+
+const METADATA: &str = "image: room.pgm\nresolution: 0.5\norigin: [-4.0, 1.0, 0.0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n";
+
+/// A folder with a map of two rooms.
+fn folder() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    let pixel = |index: usize| {
+        let (column, row) = (index % 24, index / 24);
+        let is_wall = column == 0 || column == 23 || row == 0 || row == 15 || (column == 11 && row != 7);
+        if is_wall { 0 } else { 254 }
+    };
+    let mut image = b"P5 24 16 255\n".to_vec();
+    image.extend((0..24 * 16).map(pixel));
+    std::fs::write(folder.path().join("room.pgm"), image).unwrap();
+    std::fs::write(folder.path().join("room.yaml"), METADATA).unwrap();
+    folder
+}
+
+fn analyze(folder: &Path, arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_stillage")).arg("analyze").args(arguments).current_dir(folder).output().unwrap()
+}
+
+#[test]
+fn a_map_becomes_a_folder_of_layers_and_pictures() {
+    let folder = folder();
+    let output = analyze(folder.path(), &["room.yaml", "--threads", "1"]);
+    assert!(output.status.success(), "{output:?}");
+    assert_eq!(output.stdout, b"room.stillage\n");
+    let results = folder.path().join("room.stillage");
+    let mut names: Vec<String> =
+        results.read_dir().unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+    names.sort_unstable();
+    expect!["categories.png edges.geojson faces.geojson image.png lines.geojson links.geojson locations.csv locations.geojson nodes.geojson places.geojson regions.geojson regions.png report.json semantic.png vertices.geojson"].assert_eq(&names.join(" "));
+    let json = |name: &str| -> Value { serde_json::from_slice(&std::fs::read(results.join(name)).unwrap()).unwrap() };
+    let report = json("report.json");
+    assert_eq!(report["cells"], 24 * 16);
+    assert_eq!(report["map"]["origin"], serde_json::json!([-4.0, 1.0, 0.0]));
+    assert_eq!(report["counts"]["faces"], json("faces.geojson")["features"].as_array().unwrap().len());
+    // A second run replaces the files of the first, with the same bytes.
+    let before = std::fs::read(results.join("faces.geojson")).unwrap();
+    assert!(analyze(folder.path(), &["room.yaml", "--threads", "2"]).status.success());
+    assert!(before == std::fs::read(results.join("faces.geojson")).unwrap());
+}
+
+#[test]
+fn faults_of_the_input_end_with_2_and_a_sentence() {
+    let folder = folder();
+    let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).unwrap();
+    write("flat.yaml", &METADATA.replace("0.5", "0"));
+    write("lost.yaml", &METADATA.replace("room.pgm", "nowhere.pgm"));
+    write("options.json", r#"{"categorization": {"k": 0}}"#);
+    write("assignment.json", r#"{"assignment": {"0": "zz"}}"#);
+    let report: String = [
+        &["nowhere.yaml"][..],
+        &["flat.yaml"],
+        &["lost.yaml"],
+        &["room.pgm"],
+        &["room.yaml", "--rule-set", "garden"],
+        &["room.yaml", "--options", "options.json"],
+        &["room.yaml", "--out", "room.pgm"],
+        &["room.yaml", "--assignment", "assignment.json"],
+    ]
+    .iter()
+    .map(|arguments| {
+        let output = analyze(folder.path(), arguments);
+        let last = String::from_utf8_lossy(&output.stderr).lines().last().unwrap_or_default().to_owned();
+        format!("{} -> {}: {last}\n", arguments.join(" "), output.status.code().unwrap())
+    })
+    .collect();
+    expect![[r#"
+        nowhere.yaml -> 2: error: nowhere.yaml cannot be opened (No such file or directory (os error 2)): check the path
+        flat.yaml -> 2: error: flat.yaml cannot be read as a map, at `/metadata/resolution`: the resolution is 0 m per cell, it must lie between 0.0001 and 100: give the side of a cell in metres
+        lost.yaml -> 2: error: the image of lost.yaml, nowhere.pgm, cannot be opened (No such file or directory (os error 2)): put it beside the YAML file
+        room.pgm -> 2: error: room.pgm is an image: name the YAML file beside it, which says its resolution
+        room.yaml --rule-set garden -> 2: error: there is no rule set garden: name `warehouse`, `office`, or a JSON file
+        room.yaml --options options.json -> 2: error: options.json: /categorization/k: 0 is outside 2 to 32
+        room.yaml --out room.pgm -> 2: error: room.pgm is a file: name a folder with --out
+        room.yaml --assignment assignment.json -> 2: error: the assignment does not fit this map: /assignment/0: no label has the id "zz"; there are co, ju, pc, un
+    "#]].assert_eq(&report);
+}
