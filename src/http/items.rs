@@ -103,13 +103,12 @@ pub struct FeatureView {
 }
 
 /// Id of a feature.
-#[derive(Debug, ToSchema)]
+#[derive(Debug, Serialize, ToSchema)]
+#[serde(untagged)]
 #[schema(as = FeatureId)]
 #[allow(dead_code, reason = "it describes what is written straight to bytes")]
 pub enum FeatureIdView {
-    #[schema(value_type = u64)]
     Number(u64),
-    #[schema(value_type = String)]
     Text(String),
 }
 
