@@ -38,6 +38,7 @@ const DIRECTIONS_PER_WALK: usize = 8;
 const ROWS_PER_CHECK: usize = 64;
 
 /// A grid prepared for casting all beams of any of its tiles.
+#[derive(Debug)]
 pub struct Sweep {
     pub(super) directions: Vec<Direction>,
     /// The mask, and its transpose.
