@@ -2,7 +2,9 @@
 
 use axum::http::HeaderValue;
 use serde::Deserialize;
-use utoipa::ToSchema;
+use utoipa::openapi::RefOr;
+use utoipa::openapi::schema::{ObjectBuilder, Schema, Type};
+use utoipa::{PartialSchema, ToSchema};
 
 use crate::geojson::Crs;
 
@@ -12,10 +14,18 @@ pub const CRS84: &str = "http://www.opengis.net/def/crs/OGC/1.3/CRS84";
 pub const EPSG_3857: &str = "http://www.opengis.net/def/crs/EPSG/0/3857";
 
 /// A coordinate reference system as a parameter: its OGC URI or its short form.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, ToSchema)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize)]
 #[serde(try_from = "String")]
-#[schema(value_type = String, example = "http://www.opengis.net/def/crs/EPSG/0/3857")]
 pub struct CrsName(pub Crs);
+
+impl PartialSchema for CrsName {
+    fn schema() -> RefOr<Schema> {
+        let names = [CRS84, EPSG_3857, "CRS84", "OGC:CRS84", "EPSG:3857"];
+        ObjectBuilder::new().schema_type(Type::String).enum_values(Some(names)).into()
+    }
+}
+
+impl ToSchema for CrsName {}
 
 impl TryFrom<String> for CrsName {
     type Error = String;

@@ -180,6 +180,10 @@ pub fn broken_body(error: &(dyn Error + 'static)) -> Problem {
 /// # Errors
 /// 400 what is not JSON, 422 what does not fit, with the JSON pointer of the culprit.
 pub fn parse_json<T: DeserializeOwned>(pointer: &str, bytes: &[u8]) -> Result<T, Problem> {
+    // serde would read an array as the members of a structure in their order.
+    if bytes.trim_ascii_start().first() == Some(&b'[') {
+        return Err(Problem::invalid(pointer, "must be an object"));
+    }
     match axum::Json::from_bytes(bytes) {
         Ok(axum::Json(value)) => Ok(value),
         Err(JsonRejection::JsonDataError(error)) => {
@@ -273,6 +277,7 @@ mod tests {
         .assert_eq(&refusal(r#"{"color":1}"#));
         expect_test::expect!["422 Unprocessable Entity /options: missing field `labels` at line 1 column 2"]
             .assert_eq(&refusal("{}"));
+        expect_test::expect!["422 Unprocessable Entity /options: must be an object"].assert_eq(&refusal(" [[]]"));
         expect_test::expect!["400 Bad Request /options: EOF while parsing an object at line 1 column 1"]
             .assert_eq(&refusal("{"));
     }

@@ -80,8 +80,8 @@ fn is_own_origin(request: &Request) -> bool {
     let Some(origin) = request.headers().get(header::ORIGIN) else { return true };
     let origin = origin.to_str().ok().and_then(|origin| origin.parse::<Uri>().ok());
     let host = request.headers().get(header::HOST).and_then(|host| host.to_str().ok());
-    let host = host.or_else(|| request.uri().authority().map(|authority| authority.as_str()));
-    origin.as_ref().and_then(Uri::authority).map(|authority| authority.as_str()) == host
+    let host = host.or_else(|| request.uri().authority().map(axum::http::uri::Authority::as_str));
+    origin.as_ref().and_then(Uri::authority).map(axum::http::uri::Authority::as_str) == host
 }
 
 /// The query parameters of every operation, as the OpenAPI document lists them.

@@ -103,13 +103,12 @@ pub struct FeatureView {
 }
 
 /// Id of a feature.
-#[derive(Debug, ToSchema)]
+#[derive(Debug, Serialize, ToSchema)]
+#[serde(untagged)]
 #[schema(as = FeatureId)]
 #[allow(dead_code, reason = "it describes what is written straight to bytes")]
 pub enum FeatureIdView {
-    #[schema(value_type = u64)]
     Number(u64),
-    #[schema(value_type = String)]
     Text(String),
 }
 
@@ -220,9 +219,10 @@ impl<'a> Page<'a> {
     fn csv(&self, base: &Base, context: &MapContext, query: &ItemsQuery) -> Response {
         let is_here =
             |code: &str| self.features.iter().any(|feature| matches!(&feature.id, FeatureId::Text(id) if id == code));
-        let locations: Vec<_> = match self.features.len() == context.locations.len() {
-            true => context.locations.clone(),
-            false => context.locations.iter().filter(|location| is_here(&location.code)).cloned().collect(),
+        let locations: Vec<_> = if self.features.len() == context.locations.len() {
+            context.locations.clone()
+        } else {
+            context.locations.iter().filter(|location| is_here(&location.code)).cloned().collect()
         };
         let rows = locations_csv(&MapView { locations: &locations, ..context.view() });
         let mut headers = headers("text/csv; charset=utf-8", query.crs);

@@ -153,7 +153,7 @@ pub struct JobPath {
 #[serde(deny_unknown_fields)]
 pub struct JobQuery {
     /// States, separated by commas.
-    #[param(value_type = Option<Vec<JobStatus>>, style = Form, explode = false)]
+    #[param(value_type = Option<Vec<JobStatus>>, style = Form, explode = false, min_items = 1)]
     status: Option<States>,
     /// Type of the jobs: all are `process`.
     #[serde(rename = "type")]
@@ -249,6 +249,21 @@ pub async fn dismiss(
     Ok(Json(JobView::new(&base, app.dismiss_job(path.job_id.0).await?)))
 }
 
+/// One event of the stream, field by field.
+#[derive(Debug, ToSchema)]
+#[allow(dead_code, reason = "it describes the lines of the stream")]
+pub struct JobEvent {
+    /// `progress`
+    #[schema(example = "progress")]
+    event: String,
+    /// Ascends with the changes of the job.
+    id: String,
+    /// Milliseconds until a client comes back to a stream that broke off.
+    retry: u32,
+    /// The job, as JSON.
+    data: String,
+}
+
 /// Watch a job
 ///
 /// Server-sent events: `progress` with the job as its data and its time of change as its id. The stream ends with the
@@ -256,7 +271,7 @@ pub async fn dismiss(
 /// tells it to stay away.
 #[utoipa::path(get, path = "/v1/jobs/{jobId}/events", tag = "jobs", operation_id = "watchJob",
     params(JobPath, ("Last-Event-ID" = Option<String>, Header, description = "Id of the last event that arrived")),
-    responses((status = 200, description = "The events", body = String, content_type = "text/event-stream"),
+    responses((status = 200, description = "The events", body = JobEvent, content_type = "text/event-stream"),
         (status = 204, description = "The job is over, and the client knows")))]
 pub async fn events(
     State(app): State<Arc<App>>,

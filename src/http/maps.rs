@@ -43,7 +43,7 @@ pub struct MapView {
     analysis_id: Option<Id>,
     /// Remarks of the upload.
     warnings: Vec<DiagnosticView>,
-    /// Raised with every change; the ETag.
+    /// Raised with every change; the `ETag`.
     version: u64,
     links: Vec<Link>,
 }

@@ -1,5 +1,6 @@
 //! The OpenAPI 3.1 document: collected from the routes, completed by rules that hold for every operation.
 
+use serde_json::Value;
 use stillage_core::AnalysisOptions;
 use utoipa::openapi::path::{Operation, Parameter, ParameterBuilder, ParameterIn};
 use utoipa::openapi::schema::Type;
@@ -59,27 +60,6 @@ pub fn complete(document: &mut OpenApi) {
     let components = document.components.get_or_insert_default();
     for (name, status, description) in PROBLEMS {
         components.responses.insert((*name).to_owned(), problem_response(*status, description).into());
-    }
-    let defaults = serde_json::to_value(AnalysisOptions::default()).expect("options are plain data");
-    let group_of = |name: &str| match name {
-        "GridOptions" => Some("grid"),
-        "CategorizationOptions" => Some("categorization"),
-        "OrientationOptions" => Some("orientation"),
-        "RegionOptions" => Some("regions"),
-        "DecompositionOptions" => Some("decomposition"),
-        "AnnotationOptions" => Some("annotation"),
-        _ => None,
-    };
-    for (name, schema) in &mut components.schemas {
-        let group =
-            if name == "AnalysisOptions" { Some(&defaults) } else { group_of(name).map(|group| &defaults[group]) };
-        if let (RefOr::T(Schema::Object(object)), Some(group)) = (schema, group) {
-            for (field, schema) in &mut object.properties {
-                if let RefOr::T(Schema::Object(schema)) = schema {
-                    schema.default = group.get(field).filter(|value| !value.is_null()).cloned();
-                }
-            }
-        }
     }
 }
 
@@ -161,10 +141,36 @@ fn complete_operation(operation: &mut Operation, path: &str, is_read: bool) {
     }
 }
 
-/// The document as it is served and stored: pretty, with a last line break.
+/// The schemas of the options, with the member of [`AnalysisOptions`] that each describes.
+const OPTIONS: [(&str, &str); 7] = [
+    ("AnalysisOptions", ""),
+    ("GridOptions", "/grid"),
+    ("CategorizationOptions", "/categorization"),
+    ("OrientationOptions", "/orientation"),
+    ("RegionOptions", "/regions"),
+    ("DecompositionOptions", "/decomposition"),
+    ("AnnotationOptions", "/annotation"),
+];
+
+/// The document as it is served and stored: pretty, with the defaults of the core and a last line break.
 #[must_use]
 pub fn write(document: &OpenApi) -> String {
-    let mut text = document.to_pretty_json().expect("the document is plain data");
+    let mut document = serde_json::to_value(document).expect("the document is plain data");
+    let options = serde_json::to_value(AnalysisOptions::default()).expect("options are plain data");
+    for (schema, member) in OPTIONS {
+        let properties = document.pointer_mut(&format!("/components/schemas/{schema}/properties"));
+        for (name, property) in properties.and_then(Value::as_object_mut).into_iter().flatten() {
+            let default =
+                options.pointer(&format!("{member}/{name}")).filter(|value| !value.is_null() && !value.is_object());
+            let property = property.as_object_mut().expect("a schema is an object");
+            match default {
+                Some(default) => property.insert("default".to_owned(), default.clone()),
+                // What the view itself has for a default means nothing.
+                None => property.remove("default"),
+            };
+        }
+    }
+    let mut text = serde_json::to_string_pretty(&document).expect("the document is plain data");
     text.push('\n');
     text
 }

@@ -9,22 +9,22 @@ use utoipa::ToSchema;
 /// Everything that decides the result of an analysis beside the map itself. Every field is optional.
 #[derive(Debug, Default, Serialize, ToSchema)]
 #[schema(as = AnalysisOptions)]
-#[serde(deny_unknown_fields, rename_all = "camelCase")]
+#[serde(default, deny_unknown_fields, rename_all = "camelCase")]
 pub struct AnalysisOptionsView {
     /// Seed of every random choice.
-    seed: Option<u64>,
-    grid: Option<GridOptionsView>,
-    categorization: Option<CategorizationOptionsView>,
-    orientation: Option<OrientationOptionsView>,
-    regions: Option<RegionOptionsView>,
-    decomposition: Option<DecompositionOptionsView>,
-    annotation: Option<AnnotationOptionsView>,
+    seed: u64,
+    grid: GridOptionsView,
+    categorization: CategorizationOptionsView,
+    orientation: OrientationOptionsView,
+    regions: RegionOptionsView,
+    decomposition: DecompositionOptionsView,
+    annotation: AnnotationOptionsView,
 }
 
 /// Overrides of the thresholds in the map's own metadata.
 #[derive(Debug, Default, Serialize, ToSchema)]
 #[schema(as = GridOptions)]
-#[serde(deny_unknown_fields, rename_all = "camelCase")]
+#[serde(default, deny_unknown_fields, rename_all = "camelCase")]
 pub struct GridOptionsView {
     /// Replaces `occupied_thresh`.
     #[schema(minimum = 0, maximum = 1)]
@@ -37,51 +37,51 @@ pub struct GridOptionsView {
 /// Place categories (paper, II-A).
 #[derive(Debug, Default, Serialize, ToSchema)]
 #[schema(as = CategorizationOptions)]
-#[serde(deny_unknown_fields, rename_all = "camelCase")]
+#[serde(default, deny_unknown_fields, rename_all = "camelCase")]
 pub struct CategorizationOptionsView {
     /// `paper13`: the thirteen features of the paper's Table I. `halmstad2017`: those of the author's code of 2017.
-    #[schema(inline)]
-    profile: Option<FeatureProfile>,
+    profile: FeatureProfile,
     /// Beams per cell.
     #[schema(minimum = 8, maximum = 3600)]
-    beams: Option<u32>,
+    beams: u32,
     /// Longest beam, metres; unlimited when absent.
     #[schema(minimum = 0.1, maximum = 10_000)]
     max_range_m: Option<f64>,
     /// Whether unknown cells stop beams.
-    unknown_blocks: Option<bool>,
+    unknown_blocks: bool,
     /// Every how many columns and rows a free cell is measured.
     #[schema(minimum = 1, maximum = 64)]
-    stride: Option<u32>,
+    stride: u32,
     /// Smallest difference of consecutive beams that counts as a gap, metres.
     #[schema(minimum = 0, maximum = 1000)]
-    gap_m: Option<f64>,
+    gap_m: f64,
     /// Number of categories.
     #[schema(minimum = 2, maximum = 32)]
-    k: Option<u32>,
+    k: u32,
     /// How features are made comparable.
-    #[schema(inline)]
-    scaling: Option<Scaling>,
+    scaling: Scaling,
     /// Restarts of k-means.
     #[schema(minimum = 1, maximum = 100)]
-    restarts: Option<u32>,
+    restarts: u32,
     /// Most iterations of one k-means run.
     #[schema(minimum = 1, maximum = 10_000)]
-    max_iterations: Option<u32>,
+    max_iterations: u32,
 }
 
 /// Set of features.
-#[derive(Debug, Serialize, ToSchema)]
+#[derive(Debug, Default, Serialize, ToSchema)]
 #[serde(rename_all = "lowercase")]
 enum FeatureProfile {
+    #[default]
     Paper13,
     Halmstad2017,
 }
 
 /// How features are made comparable.
-#[derive(Debug, Serialize, ToSchema)]
+#[derive(Debug, Default, Serialize, ToSchema)]
 #[serde(rename_all = "camelCase")]
 enum Scaling {
+    #[default]
     None,
     DivideByMean,
     ZScore,
@@ -91,59 +91,59 @@ enum Scaling {
 /// Dominant orientations (paper, II-B).
 #[derive(Debug, Default, Serialize, ToSchema)]
 #[schema(as = OrientationOptions)]
-#[serde(deny_unknown_fields, rename_all = "camelCase")]
+#[serde(default, deny_unknown_fields, rename_all = "camelCase")]
 pub struct OrientationOptionsView {
     /// Standard deviation of the Gaussian derivative, metres.
     #[schema(minimum = 0.001, maximum = 10)]
-    gradient_scale_m: Option<f64>,
+    gradient_scale_m: f64,
     /// Bins of the histogram over half a turn.
     #[schema(minimum = 36, maximum = 7200)]
-    bins: Option<u32>,
+    bins: u32,
     /// Most components of the mixture.
     #[schema(minimum = 1, maximum = 32)]
-    max_components: Option<u32>,
+    max_components: u32,
     /// Smallest height of a peak above the floor, as a share of the highest.
     #[schema(minimum = 0, maximum = 1)]
-    min_peak: Option<f64>,
+    min_peak: f64,
     /// Smallest angle between two orientations, degrees.
     #[schema(minimum = 0.1, maximum = 89)]
-    min_separation_deg: Option<f64>,
+    min_separation_deg: f64,
     /// Whether each orientation is refined to the nearby maximum of radiogram energy.
-    refine: Option<bool>,
+    refine: bool,
 }
 
 /// Texture regions (paper, II-D).
 #[derive(Debug, Default, Serialize, ToSchema)]
 #[schema(as = RegionOptions)]
-#[serde(deny_unknown_fields, rename_all = "camelCase")]
+#[serde(default, deny_unknown_fields, rename_all = "camelCase")]
 pub struct RegionOptionsView {
     /// `single`: the whole map is one region. `gabor`: by texture.
-    #[schema(inline)]
-    method: Option<RegionMethod>,
+    method: RegionMethod,
     /// Number of texture clusters; chosen automatically when absent.
     #[schema(minimum = 1, maximum = 16)]
     count: Option<u32>,
     /// Most texture clusters when the number is chosen automatically.
     #[schema(minimum = 1, maximum = 16)]
-    max_count: Option<u32>,
+    max_count: u32,
     /// Shortest and longest wavelength of the Gabor bank, metres.
     #[schema(min_items = 2, max_items = 2)]
-    wavelengths_m: Option<Vec<f64>>,
+    wavelengths_m: Vec<f64>,
     /// Smoothing of the texture energy, metres.
     #[schema(minimum = 0.1, maximum = 100)]
-    smoothing_m: Option<f64>,
+    smoothing_m: f64,
     /// Side of a tile, the grain of region boundaries, metres.
     #[schema(minimum = 0.1, maximum = 100)]
-    tile_m: Option<f64>,
+    tile_m: f64,
     /// Smallest region, as a share of the known area.
     #[schema(minimum = 0, maximum = 1)]
-    min_share: Option<f64>,
+    min_share: f64,
 }
 
 /// How regions are found.
-#[derive(Debug, Serialize, ToSchema)]
+#[derive(Debug, Default, Serialize, ToSchema)]
 #[serde(rename_all = "camelCase")]
 enum RegionMethod {
+    #[default]
     Single,
     Gabor,
 }
@@ -151,36 +151,36 @@ enum RegionMethod {
 /// Radiography and lines (paper, II-B).
 #[derive(Debug, Default, Serialize, ToSchema)]
 #[schema(as = DecompositionOptions)]
-#[serde(deny_unknown_fields, rename_all = "camelCase")]
+#[serde(default, deny_unknown_fields, rename_all = "camelCase")]
 pub struct DecompositionOptionsView {
     /// Width of the Hann window over a radiogram, metres.
     #[schema(minimum = 0, maximum = 10)]
-    smoothing_m: Option<f64>,
+    smoothing_m: f64,
     /// Smallest distance between two parallel lines, metres.
     #[schema(minimum = 0.01, maximum = 100)]
-    min_distance_m: Option<f64>,
+    min_distance_m: f64,
     /// Smallest peak, as a share of the highest of its radiogram.
     #[schema(minimum = 0, maximum = 1)]
-    min_peak: Option<f64>,
+    min_peak: f64,
 }
 
 /// Categories of faces (paper, II-B).
 #[derive(Debug, Default, Serialize, ToSchema)]
 #[schema(as = AnnotationOptions)]
-#[serde(deny_unknown_fields, rename_all = "camelCase")]
+#[serde(default, deny_unknown_fields, rename_all = "camelCase")]
 pub struct AnnotationOptionsView {
     /// `vote`: the category of most of its free cells.
-    #[schema(inline)]
-    method: Option<AnnotationMethod>,
+    method: AnnotationMethod,
     /// Half width of the strip along an edge in which occupied cells support it, metres.
     #[schema(minimum = 0, maximum = 10)]
-    support_width_m: Option<f64>,
+    support_width_m: f64,
 }
 
 /// How a face gets its category.
-#[derive(Debug, Serialize, ToSchema)]
+#[derive(Debug, Default, Serialize, ToSchema)]
 #[serde(rename_all = "camelCase")]
 enum AnnotationMethod {
+    #[default]
     Vote,
 }
 
@@ -203,16 +203,7 @@ mod tests {
 
     #[test]
     fn the_view_has_the_fields_of_the_options_and_no_others() {
-        let view = AnalysisOptionsView {
-            seed: None,
-            grid: Some(GridOptionsView::default()),
-            categorization: Some(CategorizationOptionsView::default()),
-            orientation: Some(OrientationOptionsView::default()),
-            regions: Some(RegionOptionsView::default()),
-            decomposition: Some(DecompositionOptionsView::default()),
-            annotation: Some(AnnotationOptionsView::default()),
-        };
-        let view = serde_json::to_value(view).expect("can be written");
+        let view = serde_json::to_value(AnalysisOptionsView::default()).expect("can be written");
         let options = serde_json::to_value(AnalysisOptions::default()).expect("can be written");
         assert_eq!(paths("", &view), paths("", &options));
     }

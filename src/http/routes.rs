@@ -27,10 +27,10 @@ use crate::geojson::{Geometry, Transform};
 #[serde(deny_unknown_fields)]
 pub struct RouteQuery {
     /// Where it begins: `x,y` in the coordinates of `crs`, `face:ID`, or `location:CODE`.
-    #[param(value_type = String, example = "face:3")]
+    #[param(value_type = String, pattern = "^(face:[0-9]{1,9}|location:.+|-?[0-9]{1,9}([.][0-9]+)?,-?[0-9]{1,9}([.][0-9]+)?)$", example = "face:3")]
     from: End,
     /// Where it ends, likewise. At a location a route ends before the location's access edge.
-    #[param(value_type = String, example = "location:01-002")]
+    #[param(value_type = String, pattern = "^(face:[0-9]{1,9}|location:.+|-?[0-9]{1,9}([.][0-9]+)?,-?[0-9]{1,9}([.][0-9]+)?)$", example = "location:01-002")]
     to: End,
     /// System of the coordinates, of `from` and `to` and of the answer alike. CRS84 (longitude, latitude) when absent,
     /// as everywhere; `EPSG:3857` for the metres of the map frame (of a map without georeference).

@@ -143,13 +143,13 @@ pub struct RuleSetBody {
     /// Explicit rules, first match wins; derived from the labels where absent or without a match.
     cogency: Option<Vec<CogencyRuleView>>,
     #[serde(default, rename = "builtIn")]
-    #[schema(ignore)]
+    #[schema(read_only, value_type = serde_json::Value)]
     _built_in: IgnoredAny,
     #[serde(default, rename = "version")]
-    #[schema(ignore)]
+    #[schema(read_only, value_type = serde_json::Value)]
     _version: IgnoredAny,
     #[serde(default, rename = "links")]
-    #[schema(ignore)]
+    #[schema(read_only, value_type = serde_json::Value)]
     _links: IgnoredAny,
 }
 

@@ -28,7 +28,6 @@ pub struct CategoryView {
     /// The category: a key of the assignment.
     id: u8,
     /// Whether it is a cluster of free cells, or stands for faces without any.
-    #[schema(inline)]
     kind: CategoryKind,
     /// Free cells that carry it (clusters), or cells of its faces (the others).
     cells: usize,
@@ -172,12 +171,11 @@ pub struct SemanticsView {
     #[schema(example = "warehouse")]
     rule_set: String,
     /// Label by category.
-    #[schema(example = json!({"0": "co", "1": "pc"}))]
+    #[schema(value_type = BTreeMap<String, String>, example = json!({"0": "co", "1": "pc"}))]
     assignment: BTreeMap<u8, String>,
     overrides: Vec<OverrideView>,
     /// 0 is the suggestion; assigned versions count from 1.
     version: u64,
-    #[schema(inline)]
     origin: OriginView,
     #[schema(value_type = String, format = DateTime)]
     created: Timestamp,
@@ -241,13 +239,13 @@ pub struct SemanticsBody {
     #[serde(default)]
     overrides: Vec<OverrideView>,
     #[serde(default, rename = "version")]
-    #[schema(ignore)]
+    #[schema(read_only, value_type = serde_json::Value)]
     _version: IgnoredAny,
     #[serde(default, rename = "origin")]
-    #[schema(ignore)]
+    #[schema(read_only, value_type = serde_json::Value)]
     _origin: IgnoredAny,
     #[serde(default, rename = "created")]
-    #[schema(ignore)]
+    #[schema(read_only, value_type = serde_json::Value)]
     _created: IgnoredAny,
 }
 

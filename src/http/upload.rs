@@ -12,7 +12,7 @@ use super::views::GeoreferenceView;
 use crate::app::NewMap;
 use crate::ingest::{Limits, MapSource};
 
-/// Bytes that the part `metadata` or `options` may have: a hundred times what map_server writes.
+/// Bytes that the part `metadata` or `options` may have: a hundred times what `map_server` writes.
 const TEXT_PART_BYTES: usize = 64 << 10;
 /// Bytes that the part `name` or `georeference` may have.
 const SMALL_PART_BYTES: usize = 4 << 10;
@@ -27,16 +27,18 @@ pub struct MapUploadView {
     /// The picture: PNG, PGM (P2, P5, 8 or 16 bit), BMP, TIFF, JPEG or WebP.
     #[schema(value_type = String, format = Binary, content_media_type = "application/octet-stream")]
     image: Vec<u8>,
-    /// The metadata of `map_server`, as YAML or as JSON: `resolution`, `origin`, `occupied_thresh`, `free_thresh`,
-    /// `negate`, `mode`. Its `image` is never opened.
-    #[schema(value_type = String, example = "{resolution: 0.05, origin: [0, 0, 0], negate: 0, occupied_thresh: 0.65, free_thresh: 0.196}")]
+    /// The metadata of `map_server`, as YAML or as JSON: `image`, `resolution`, `origin`, `occupied_thresh`,
+    /// `free_thresh`, `negate`, `mode`. The file that its `image` names is never opened.
+    #[schema(value_type = String, example = "{image: map.pgm, resolution: 0.05, origin: [0, 0, 0], negate: 0, occupied_thresh: 0.65, free_thresh: 0.196}")]
     metadata: String,
     /// Name for people; that of the image file when absent.
     name: Option<Name>,
     /// Options of the first analysis.
-    options: Option<super::options::AnalysisOptionsView>,
+    #[schema(required = false)]
+    options: super::options::AnalysisOptionsView,
     /// Where the map lies on Earth.
-    georeference: Option<GeoreferenceView>,
+    #[schema(required = false)]
+    georeference: GeoreferenceView,
 }
 
 /// Reads an upload of either shape.

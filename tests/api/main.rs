@@ -1,5 +1,7 @@
 //! The API as a client sees it: real requests against the real service in a temporary folder, without a socket.
 
+#![allow(clippy::panic, clippy::type_complexity, reason = "a test is read from top to bottom: no detours")]
+
 mod client;
 mod document;
 mod features;

@@ -151,6 +151,7 @@ impl GridWalk {
 }
 
 /// The state of consecutive lines of one phase: units from the border last crossed to where the line is stopped.
+#[derive(Debug)]
 pub(super) struct Lines {
     first: isize,
     states: Vec<u16>,
