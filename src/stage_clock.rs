@@ -10,16 +10,16 @@ use stillage_core::watch::{Observer, Stage};
 
 use crate::records::StageReport;
 
-/// Share of each stage in the time of a whole analysis, percent, for one progress bar over all of them. The features
-/// (beams from every free cell) are most of the work.
+/// Share of each stage in the time of a whole analysis, percent, for one progress bar over all of them; measured on
+/// floors of two million cells. The features (beams from every free cell) are most of the work.
 const SHARES: [(Stage, f64); 7] = [
-    (Stage::Features, 50.0),
-    (Stage::Categorization, 15.0),
-    (Stage::Orientation, 5.0),
-    (Stage::Regions, 15.0),
-    (Stage::Radiography, 5.0),
-    (Stage::Arrangement, 5.0),
-    (Stage::Annotation, 5.0),
+    (Stage::Features, 80.0),
+    (Stage::Categorization, 8.0),
+    (Stage::Orientation, 2.0),
+    (Stage::Regions, 7.0),
+    (Stage::Radiography, 1.0),
+    (Stage::Arrangement, 1.0),
+    (Stage::Annotation, 1.0),
 ];
 
 /// An observer with a clock: wall time and CPU time of the process, by stage.
@@ -138,9 +138,9 @@ mod tests {
         let clock = StageClock::new();
         clock.progress(Stage::Features, 0.0);
         clock.progress(Stage::Features, 0.5);
-        assert_eq!((clock.stage(), clock.percent(), clock.reports().len()), (Some(Stage::Features), 25, 0));
+        assert_eq!((clock.stage(), clock.percent(), clock.reports().len()), (Some(Stage::Features), 40, 0));
         clock.progress(Stage::Features, 1.0);
-        assert_eq!((clock.stage(), clock.percent()), (None, 50));
+        assert_eq!((clock.stage(), clock.percent()), (None, 80));
         assert_eq!(clock.reports()[0].name, "features");
     }
 
@@ -150,7 +150,7 @@ mod tests {
         for fraction in [0.0, 1.0, 1.0] {
             clock.progress(Stage::Features, fraction);
         }
-        assert_eq!((clock.percent(), clock.reports().len()), (50, 1));
+        assert_eq!((clock.percent(), clock.reports().len()), (80, 1));
     }
 
     #[test]
