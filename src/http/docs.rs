@@ -58,7 +58,6 @@ pub async fn openapi(axum::Extension(document): axum::Extension<Document>, if_no
 }
 
 /// The reference page at `/docs/`: swagger-ui, built into the program.
-#[must_use]
 pub fn reference_page<S: Clone + Send + Sync + 'static>() -> axum::Router<S> {
     SwaggerUi::new("/docs").config(Config::from("/openapi.json").use_base_layout()).into()
 }

@@ -219,9 +219,10 @@ impl<'a> Page<'a> {
     fn csv(&self, base: &Base, context: &MapContext, query: &ItemsQuery) -> Response {
         let is_here =
             |code: &str| self.features.iter().any(|feature| matches!(&feature.id, FeatureId::Text(id) if id == code));
-        let locations: Vec<_> = match self.features.len() == context.locations.len() {
-            true => context.locations.clone(),
-            false => context.locations.iter().filter(|location| is_here(&location.code)).cloned().collect(),
+        let locations: Vec<_> = if self.features.len() == context.locations.len() {
+            context.locations.clone()
+        } else {
+            context.locations.iter().filter(|location| is_here(&location.code)).cloned().collect()
         };
         let rows = locations_csv(&MapView { locations: &locations, ..context.view() });
         let mut headers = headers("text/csv; charset=utf-8", query.crs);
@@ -274,6 +275,7 @@ fn feature_id(collection: Collection, text: &str) -> Result<FeatureId, &'static 
 #[derive(Debug, Deserialize, IntoParams)]
 #[into_params(parameter_in = Path)]
 #[serde(rename_all = "camelCase")]
+#[allow(clippy::struct_field_names, reason = "they are the names in the path")]
 pub struct FeaturePath {
     /// The map.
     map_id: Id,

@@ -4,6 +4,7 @@ use std::convert::Infallible;
 
 use axum::extract::FromRequestParts;
 use axum::http::request::Parts;
+use axum::http::uri::Authority;
 use axum::http::{HeaderValue, header};
 use serde::Serialize;
 use utoipa::ToSchema;
@@ -70,7 +71,7 @@ impl<S: Sync> FromRequestParts<S> for Base {
 
     async fn from_request_parts(parts: &mut Parts, _: &S) -> Result<Self, Infallible> {
         let text = |name| parts.headers.get(name).and_then(|value: &HeaderValue| value.to_str().ok());
-        let authority = text(header::HOST).or_else(|| parts.uri.authority().map(|authority| authority.as_str()));
+        let authority = text(header::HOST).or_else(|| parts.uri.authority().map(Authority::as_str));
         let scheme = match text(header::HeaderName::from_static("x-forwarded-proto")) {
             Some("https") => "https",
             _ => "http",
@@ -88,7 +89,10 @@ pub fn encode(value: &str) -> String {
             b'A'..=b'Z' | b'a'..=b'z' | b'0'..=b'9' | b'-' | b'.' | b'_' | b'~' | b',' | b':' | b'/' => {
                 encoded.push(char::from(byte));
             }
-            byte => encoded.push_str(&format!("%{byte:02X}")),
+            byte => {
+                let digit = |half: u8| char::from(b"0123456789ABCDEF"[usize::from(half)]);
+                encoded.extend(['%', digit(byte >> 4), digit(byte & 15)]);
+            }
         }
     }
     encoded

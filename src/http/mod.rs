@@ -102,7 +102,6 @@ fn document<S: Clone + Send + Sync + 'static>(routes: OpenApiRouter<S>) -> (Rout
 ///
 /// From the outside in: id, log line and metrics of the request; headers for browsers; entity tags by coding, around
 /// the compression; bodies of problems; panics; checks of host and origin; patience; unknown parameters; `Accept`.
-#[must_use]
 pub fn router(app: Arc<App>) -> Router {
     let upload_bytes = app.config().limits.max_bytes + upload::FORM_OVERHEAD_BYTES;
     let (router, document) = document(routes(upload_bytes));

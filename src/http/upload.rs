@@ -12,7 +12,7 @@ use super::views::GeoreferenceView;
 use crate::app::NewMap;
 use crate::ingest::{Limits, MapSource};
 
-/// Bytes that the part `metadata` or `options` may have: a hundred times what map_server writes.
+/// Bytes that the part `metadata` or `options` may have: a hundred times what `map_server` writes.
 const TEXT_PART_BYTES: usize = 64 << 10;
 /// Bytes that the part `name` or `georeference` may have.
 const SMALL_PART_BYTES: usize = 4 << 10;
