@@ -103,6 +103,7 @@ pub async fn create(
 /// All that a plot of the analysis needs. Lengths and angles are those of the grid frame.
 #[derive(Debug, Serialize, ToSchema)]
 #[serde(rename_all = "camelCase")]
+#[allow(clippy::struct_field_names, reason = "the remarks are called so wherever there are any")]
 pub struct Diagnostics {
     analysis_id: Id,
     frame: FrameView,

@@ -222,13 +222,14 @@ pub fn pointer_step(name: &str) -> String {
 /// `labels[0].id` as a JSON pointer, `/labels/0/id`.
 fn json_pointer(path: &str) -> String {
     let steps = pointer_step(path).replace('[', ".").replace(']', "");
-    steps.split('.').filter(|step| !step.is_empty()).map(|step| format!("/{step}")).collect()
+    steps.split('.').filter(|step| !step.is_empty()).flat_map(|step| ["/", step]).collect()
 }
 
-/// Reads a member that may be absent (`None`), null (`Some(None)`) or a value.
+/// Reads a member that may be absent (`None`), null (`Some(None)`) or a value: the three states of a merge patch.
 ///
 /// # Errors
 /// Those of the value.
+#[allow(clippy::option_option, reason = "a merge patch tells absent from null")]
 pub fn present<'de, D: Deserializer<'de>, T: Deserialize<'de>>(deserializer: D) -> Result<Option<Option<T>>, D::Error> {
     Option::deserialize(deserializer).map(Some)
 }

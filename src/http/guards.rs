@@ -8,6 +8,7 @@ use std::time::Duration;
 
 use axum::body::{Body, BodyDataStream, Bytes};
 use axum::extract::{MatchedPath, Query, Request, State};
+use axum::http::uri::Authority;
 use axum::http::{HeaderName, HeaderValue, Method, StatusCode, Uri, Version, header};
 use axum::middleware::Next;
 use axum::response::{IntoResponse, Response};
@@ -27,9 +28,7 @@ const PACE: f64 = 16_384.0;
 /// Middleware: exactly one valid `Host` (RFC 9112, 3.2). Requests that smuggle a second one end here.
 pub async fn one_host(request: Request, next: Next) -> Response {
     let mut hosts = request.headers().get_all(header::HOST).iter();
-    let valid = |host: &HeaderValue| {
-        host.to_str().ok().and_then(|host| host.parse::<axum::http::uri::Authority>().ok()).is_some()
-    };
+    let valid = |host: &HeaderValue| host.to_str().ok().and_then(|host| host.parse::<Authority>().ok()).is_some();
     let allowed = match (hosts.next(), hosts.next()) {
         (Some(host), None) => valid(host),
         // HTTP/2 names the authority in the address, HTTP/1.0 not at all.
@@ -80,8 +79,8 @@ fn is_own_origin(request: &Request) -> bool {
     let Some(origin) = request.headers().get(header::ORIGIN) else { return true };
     let origin = origin.to_str().ok().and_then(|origin| origin.parse::<Uri>().ok());
     let host = request.headers().get(header::HOST).and_then(|host| host.to_str().ok());
-    let host = host.or_else(|| request.uri().authority().map(axum::http::uri::Authority::as_str));
-    origin.as_ref().and_then(Uri::authority).map(axum::http::uri::Authority::as_str) == host
+    let host = host.or_else(|| request.uri().authority().map(Authority::as_str));
+    origin.as_ref().and_then(Uri::authority).map(Authority::as_str) == host
 }
 
 /// The query parameters of every operation, as the OpenAPI document lists them.

@@ -275,6 +275,7 @@ fn feature_id(collection: Collection, text: &str) -> Result<FeatureId, &'static 
 #[derive(Debug, Deserialize, IntoParams)]
 #[into_params(parameter_in = Path)]
 #[serde(rename_all = "camelCase")]
+#[allow(clippy::struct_field_names, reason = "they are the names in the path")]
 pub struct FeaturePath {
     /// The map.
     map_id: Id,

@@ -2,10 +2,9 @@
 
 use std::convert::Infallible;
 
-use std::fmt::Write as _;
-
 use axum::extract::FromRequestParts;
 use axum::http::request::Parts;
+use axum::http::uri::Authority;
 use axum::http::{HeaderValue, header};
 use serde::Serialize;
 use utoipa::ToSchema;
@@ -72,7 +71,7 @@ impl<S: Sync> FromRequestParts<S> for Base {
 
     async fn from_request_parts(parts: &mut Parts, _: &S) -> Result<Self, Infallible> {
         let text = |name| parts.headers.get(name).and_then(|value: &HeaderValue| value.to_str().ok());
-        let authority = text(header::HOST).or_else(|| parts.uri.authority().map(axum::http::uri::Authority::as_str));
+        let authority = text(header::HOST).or_else(|| parts.uri.authority().map(Authority::as_str));
         let scheme = match text(header::HeaderName::from_static("x-forwarded-proto")) {
             Some("https") => "https",
             _ => "http",
@@ -91,8 +90,8 @@ pub fn encode(value: &str) -> String {
                 encoded.push(char::from(byte));
             }
             byte => {
-                // Writing to a string cannot fail.
-                let _ = write!(encoded, "%{byte:02X}");
+                let digit = |half: u8| char::from(b"0123456789ABCDEF"[usize::from(half)]);
+                encoded.extend(['%', digit(byte >> 4), digit(byte & 15)]);
             }
         }
     }

@@ -180,6 +180,7 @@ pub struct MapPatchBody {
     /// Where the map lies on Earth; null makes it nominal.
     #[serde(default, deserialize_with = "present")]
     #[schema(value_type = Option<GeoreferenceView>)]
+    #[allow(clippy::option_option, reason = "a merge patch tells absent from null")]
     georeference: Option<Option<GeoreferenceView>>,
 }
 

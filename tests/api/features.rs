@@ -202,7 +202,7 @@ async fn locations_are_a_table_too() {
     let api = Api::new().await;
     let map = api.hall().await;
     // Every face a pallet cell but the first, so that there are locations for sure.
-    let all: serde_json::Map<String, Value> = (0..7).map(|category| (category.to_string(), json!("pc"))).collect();
+    let all: serde_json::Map<String, Value> = (0..8).map(|category| (category.to_string(), json!("pc"))).collect();
     let answer = api
         .send_json(Method::PUT, &format!("{map}/semantics"), &[("if-match", "*")], &json!({"assignment": all}))
         .await;

@@ -8,7 +8,7 @@ use crate::client::Api;
 /// A hall in which every place is a corridor: robots may drive wherever cells are free.
 async fn drivable_hall(api: &Api) -> String {
     let map = api.hall().await;
-    let all: serde_json::Map<String, Value> = (0..7).map(|category| (category.to_string(), json!("co"))).collect();
+    let all: serde_json::Map<String, Value> = (0..8).map(|category| (category.to_string(), json!("co"))).collect();
     let body = json!({"ruleSet": "warehouse", "assignment": all});
     let answer = api.send_json(Method::PUT, &format!("{map}/semantics"), &[("if-match", "*")], &body).await;
     assert_eq!(answer.status, 200, "{}", answer.text());

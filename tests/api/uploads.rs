@@ -26,7 +26,7 @@ async fn an_upload_is_stored_and_queued() {
 #[tokio::test]
 async fn a_form_carries_name_options_and_georeference() {
     let api = Api::new().await;
-    let parts: [(&str, Option<&str>, &[u8]); 5] = [
+    let parts: [Part<'_>; 5] = [
         ("image", Some("x.pgm"), &pgm(HALL)),
         ("metadata", None, METADATA.as_bytes()),
         ("name", None, "Halle 3 – Süd".as_bytes()),
@@ -63,7 +63,7 @@ async fn a_message_of_ros_is_taken_too() {
 async fn an_idempotency_key_makes_one_job() {
     let api = Api::new().await;
     let with_key = |name: &'static [u8]| {
-        let parts: [(&str, Option<&str>, &[u8]); 3] =
+        let parts: [Part<'_>; 3] =
             [("image", None, &pgm(HALL)), ("metadata", None, METADATA.as_bytes()), ("name", None, name)];
         let mut request = form(&parts);
         request.headers_mut().insert("idempotency-key", "upload-7".parse().expect("is a header"));
@@ -80,6 +80,9 @@ async fn an_idempotency_key_makes_one_job() {
     empty.headers_mut().insert("idempotency-key", "".parse().expect("is a header"));
     api.send(empty).await.problem(400, "bad-request");
 }
+
+/// Name, file name and content of a part.
+type Part<'a> = (&'a str, Option<&'a str>, &'a [u8]);
 
 /// A grey PNG of 8 x 8 pixels.
 fn png_file() -> Vec<u8> {
@@ -111,6 +114,7 @@ async fn what_is_no_map_is_refused_with_a_reason() {
     let whole = png_file();
     let truncated = &whole[..whole.len() - 20];
     let metadata = |from: &str, to: &str| METADATA.replace(from, to);
+    #[allow(clippy::type_complexity, reason = "a table")]
     let cases: [(&str, &[u8], String, u16, &str, &str); 11] = [
         ("not an image", b"hello", METADATA.into(), 415, "unsupported-media-type", "/image"),
         ("an empty image", b"", METADATA.into(), 422, "invalid", "/image"),
@@ -138,7 +142,6 @@ async fn forms_have_their_parts_once() {
     let api = Api::new().await;
     let hall = pgm(HALL);
     let (image, metadata) = (("image", None, hall.as_slice()), ("metadata", None, METADATA.as_bytes()));
-    type Part<'a> = (&'a str, Option<&'a str>, &'a [u8]);
     let cases: [(Vec<Part<'_>>, &str); 10] = [
         (vec![image], "/metadata"),
         (vec![metadata], "/image"),

@@ -1,4 +1,5 @@
-//! The ground outside the building: unexplored faces that a chain of such faces joins with the unbounded one.
+//! The ground outside the site: unexplored faces that a chain of such faces joins with the unbounded one, or with a hole
+//! in the regions (a courtyard that nobody saw).
 //!
 //! The decomposition covers whole tiles, and beams end at walls and goods: both leave faces without a free cell. Those
 //! among known places hold something, those around the site hold nothing anyone knows of, so the two are told apart
@@ -7,6 +8,7 @@
 use super::FaceAnnotation;
 use crate::arrangement::{FaceId, Subdivision};
 use crate::categorization::CategoryMap;
+use crate::segmentation::RegionMap;
 
 /// A face is unexplored when most of its cells are unknown.
 const UNEXPLORED: f64 = 0.5;
@@ -19,16 +21,27 @@ pub(super) fn mark_outside(faces: &mut [FaceAnnotation], subdivision: &Subdivisi
         usize::from(face.category) >= categories.categories.len() && is_unexplored
     };
     let mut waiting = vec![FaceId::OUTER];
+    for face in subdivision.faces() {
+        let annotation = &mut faces[face.index()];
+        if annotation.region == RegionMap::NONE && is_candidate(annotation) {
+            mark(annotation, categories);
+            waiting.push(face);
+        }
+    }
     while let Some(face) = waiting.pop() {
         for half_edge in subdivision.boundary(face) {
             let behind = subdivision.half_edge(half_edge.twin()).face;
             let annotation = &mut faces[behind.index()];
             let is_marked = annotation.category == categories.outside();
             if behind != FaceId::OUTER && !is_marked && is_candidate(annotation) {
-                annotation.category = categories.outside();
-                annotation.confidence = annotation.unknown_fraction;
+                mark(annotation, categories);
                 waiting.push(behind);
             }
         }
     }
+}
+
+fn mark(face: &mut FaceAnnotation, categories: &CategoryMap) {
+    face.category = categories.outside();
+    face.confidence = face.unknown_fraction;
 }
