@@ -24,7 +24,7 @@ async fn ids(api: &Api, path: &str) -> Vec<Value> {
         let next = page["links"].as_array().expect("links").iter().find(|link| link["rel"] == "next");
         let Some(next) = next else { return ids };
         assert!(answer.header("link").contains("rel=\"next\""));
-        path = next["href"].as_str().expect("an address").trim_start_matches("http://stillage.test").to_owned();
+        next["href"].as_str().expect("an address").trim_start_matches("http://stillage.test").clone_into(&mut path);
     }
 }
 

@@ -4,6 +4,8 @@
 //! the features that is the same for any thread count, the time of the categories, and that of the exact beams of a
 //! sample of cells.
 
+#![allow(clippy::print_stdout, reason = "an example prints what it measured")]
+
 use std::fs::File;
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::io::BufReader;

@@ -245,7 +245,7 @@ pub struct OptionProblem {
 }
 
 /// Options that were checked: each value is within its range.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
 #[serde(transparent)]
 pub struct AnalysisSpec(AnalysisOptions);
 
@@ -254,12 +254,6 @@ impl AnalysisSpec {
     #[must_use]
     pub const fn options(&self) -> &AnalysisOptions {
         &self.0
-    }
-}
-
-impl Default for AnalysisSpec {
-    fn default() -> Self {
-        Self(AnalysisOptions::default())
     }
 }
 

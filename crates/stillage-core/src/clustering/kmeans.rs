@@ -7,7 +7,7 @@
 //! stretches. Where there are fewer distinct rows than clusters, there are fewer clusters; a cluster that loses its
 //! last row takes the row farthest from its own centroid.
 //!
-//! Deterministic: random numbers come from the seed alone (ChaCha, the same on every machine), sums are taken over
+//! Deterministic: random numbers come from the seed alone (`ChaCha`, the same on every machine), sums are taken over
 //! fixed blocks of rows and combined in order, ties go to the lower number.
 //!
 //! Cost: O(iterations x sample x k x columns) and O(rows x k x columns) once. Limits: 255 clusters.
@@ -292,7 +292,9 @@ impl Points {
             .par_chunks(GROUPS_PER_BLOCK)
             .map(|groups| {
                 let mut sums = ClusterSums::new(clusters, self.columns);
-                groups.iter().for_each(|&group| self.add_group(group, centroids, &mut sums));
+                for &group in groups {
+                    self.add_group(group, centroids, &mut sums);
+                }
                 sums
             })
             .collect();

@@ -14,6 +14,7 @@ const ROWS_PER_BLOCK: usize = 4_096;
 const CONSTANT: f64 = 1e-6;
 
 /// Rows of equal length with a scaling of their columns.
+#[derive(Debug)]
 pub struct ScaledRows<'a> {
     values: &'a [f32],
     columns: Vec<ColumnScaling>,

@@ -291,7 +291,7 @@ mod tests {
                 let row = at(row, length * direction.y, grid.height());
                 *sample == caster.samples || grid.at(column, row) != Occupancy::Free
             };
-            ((1..).find(stops).expect("the last sample stops") - 1) as f64
+            ((1..=caster.samples).find(stops).expect("the last sample stops") - 1) as f64
         };
         caster.directions.iter().map(length).collect()
     }

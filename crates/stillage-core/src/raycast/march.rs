@@ -171,7 +171,7 @@ mod tests {
     /// The same beam in steps of a thousandth of a cell.
     fn brute_force(grid: &OccupancyGrid, (column, row): (usize, usize), direction: Vector) -> f64 {
         let center = Vector::new(column as f64 + 0.5, row as f64 + 0.5);
-        (1..)
+        (1..1_000_000)
             .map(|step| f64::from(step) * 1e-3)
             .find(|length| {
                 let point = center + direction * *length;

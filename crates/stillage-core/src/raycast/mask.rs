@@ -9,6 +9,7 @@ use crate::grid::OccupancyGrid;
 const TRANSPOSE_BLOCK: usize = 32;
 
 /// All bits set where beams pass, none where they stop. One column on either side stops every beam.
+#[derive(Debug)]
 pub(super) struct Mask {
     columns: usize,
     rows: usize,

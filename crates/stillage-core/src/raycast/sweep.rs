@@ -38,6 +38,7 @@ const DIRECTIONS_PER_WALK: usize = 8;
 const ROWS_PER_CHECK: usize = 64;
 
 /// A grid prepared for casting all beams of any of its tiles.
+#[derive(Debug)]
 pub struct Sweep {
     pub(super) directions: Vec<Direction>,
     /// The mask, and its transpose.
@@ -150,6 +151,7 @@ impl GridWalk {
 }
 
 /// The state of consecutive lines of one phase: units from the border last crossed to where the line is stopped.
+#[derive(Debug)]
 pub(super) struct Lines {
     first: isize,
     states: Vec<u16>,

@@ -59,6 +59,7 @@ fn on_lattice(range: &Range<usize>, stride: usize) -> std::iter::StepBy<Range<us
 }
 
 /// Working memory of [`Sweep::cast`], reused from beam to beam.
+#[derive(Debug)]
 pub struct TileScratch {
     lines: [Lines; PHASES],
     row: [u16; TILE],
