@@ -1,6 +1,7 @@
 //! Links between resources, absolute, under the name by which the client reached the service.
 
 use std::convert::Infallible;
+use std::fmt::Write as _;
 
 use axum::extract::FromRequestParts;
 use axum::http::request::Parts;
@@ -90,8 +91,8 @@ pub fn encode(value: &str) -> String {
                 encoded.push(char::from(byte));
             }
             byte => {
-                let digit = |half: u8| char::from(b"0123456789ABCDEF"[usize::from(half)]);
-                encoded.extend(['%', digit(byte >> 4), digit(byte & 15)]);
+                // Writing to a string cannot fail.
+                let _ = write!(encoded, "%{byte:02X}");
             }
         }
     }

@@ -336,7 +336,7 @@ pub async fn render(request: Request, next: Next) -> Response {
 
 /// What a panic becomes.
 #[must_use]
-#[allow(clippy::needless_pass_by_value, reason = "the layer hands it over")]
+#[expect(clippy::needless_pass_by_value, reason = "the layer that catches panics hands them over")]
 pub fn of_panic(panic: Box<dyn std::any::Any + Send>) -> Response {
     let message = panic.downcast_ref::<&str>().copied().map(str::to_owned);
     let message = message.or_else(|| panic.downcast_ref::<String>().cloned()).unwrap_or_default();

@@ -1,7 +1,11 @@
 //! The API as a client sees it: real requests against the real service in a temporary folder, without a socket.
 
-#![allow(clippy::panic, reason = "helpers of tests fail like tests")]
-#![allow(clippy::assigning_clones, reason = "what is cloned is borrowed from the old value")]
+#![allow(
+    clippy::panic,
+    clippy::type_complexity,
+    clippy::assigning_clones,
+    reason = "a test is read from top to bottom: no detours"
+)]
 
 mod client;
 mod document;
