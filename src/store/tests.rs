@@ -487,3 +487,14 @@ async fn below_the_floor_there_is_no_space() {
     let store = Store::open(&Config { min_free_bytes: u64::MAX, ..fixture.config.clone() }).await.unwrap();
     assert!(matches!(store.check().await, Err(StoreError::NoSpace)));
 }
+
+#[tokio::test]
+async fn a_transaction_that_ended_behind_the_driver_does_not_block_the_writer() {
+    // What SQLite does by itself on some errors of the disk: https://sqlite.org/lang_transaction.html, section 3.
+    let fixture = Fixture::new();
+    let store = fixture.open().await;
+    let mut transaction = store.write().await.unwrap();
+    sqlx::query("ROLLBACK").execute(&mut *transaction).await.unwrap();
+    assert!(transaction.commit().await.is_err());
+    upload(&store, "map").await;
+}
