@@ -20,7 +20,7 @@ lint:
 # Re-bless golden data: expected texts, golden files and the OpenAPI document.
 bless:
     UPDATE_EXPECT=1 cargo test --workspace
-    cargo run -- openapi --out openapi/openapi.json
+    cargo run -- openapi --write openapi/openapi.json
 
 # What continuous integration runs.
 ci:
