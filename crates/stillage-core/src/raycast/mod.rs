@@ -12,8 +12,6 @@
 mod directions;
 mod march;
 mod mask;
-#[cfg(test)]
-pub(crate) mod real_maps;
 mod sweep;
 mod tile_sweep;
 

@@ -208,7 +208,8 @@ pub(super) fn mask_range(row: &[u16], column: isize, length: usize) -> &[u16] {
 mod tests {
     use super::*;
     use crate::grid::Occupancy;
-    use crate::raycast::{beam_direction, march_around, real_maps};
+    use crate::raycast::{beam_direction, march_around};
+    use crate::test_maps::real_maps;
     use proptest::prelude::*;
 
     /// Differences (cells) between the sweep and the exact beams, over all beams of every `stride`-th free cell.
