@@ -1,9 +1,9 @@
 //! Pictures of a map, as PNG bytes: row 0 is the top, as people see maps.
 //!
-//! - [`image`]: the cells as `map_saver` draws them (occupied 0, unknown 205, free 254);
+//! - [`image()`]: the cells as `map_saver` draws them (occupied 0, unknown 205, free 254);
 //! - [`categories`]: a palette picture, the index of a pixel is its category + 1, 0 for none;
 //! - [`regions`]: a palette picture, regions coloured over the dimmed map;
-//! - [`semantic`]: drawn like the paper's Fig. 9, with a legend.
+//! - [`semantic()`]: drawn like the paper's Fig. 9, with a legend.
 //!
 //! The first three have the size of the map. Deterministic; O(cells).
 

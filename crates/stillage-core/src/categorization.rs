@@ -204,8 +204,8 @@ fn flood(
 mod tests {
     use super::*;
     use crate::features;
-    use crate::raycast::real_maps::{self, Picture};
     use crate::spec::Scaling;
+    use crate::test_maps::real_maps::{self, Picture};
     use expect_test::{Expect, expect};
     use proptest::prelude::*;
 

@@ -4,7 +4,7 @@
 //! faces that share several edges are joined by as many links (the author's code joins them by one), and no link joins
 //! a node to itself, since every edge of a subdivision separates two faces.
 //!
-//! A node lies well inside its face, where the paper draws it: see [`pole`]. Cost: O(E), and the poles.
+//! A node lies well inside its face, where the paper draws it: see [`pole()`]. Cost: O(E), and the poles.
 
 mod pole;
 

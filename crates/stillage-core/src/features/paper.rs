@@ -256,7 +256,7 @@ impl<'a> Measure<'a> {
 mod tests {
     use super::*;
     use crate::features::{CellFeatures, extract};
-    use crate::raycast::real_maps;
+    use crate::test_maps::real_maps;
     use proptest::prelude::*;
 
     fn features(grid: &OccupancyGrid, options: &CategorizationOptions) -> CellFeatures {

@@ -1,6 +1,6 @@
 //! Beams: how far one sees from a cell, in every direction.
 //!
-//! Two ways to the same numbers. [`march`] follows one beam exactly, cell by cell; it is the definition, and costs as
+//! Two ways to the same numbers. [`march()`] follows one beam exactly, cell by cell; it is the definition, and costs as
 //! much as the beam is long. [`Sweep`] gives the beams of all cells in constant time each, along digital lines that
 //! pass within an eighth of a cell of the cell's centre; it is what the features are computed from. No set of beams is
 //! ever stored: the sweep hands out the beams of one tile of the grid and one direction at a time.
@@ -12,8 +12,6 @@
 mod directions;
 mod march;
 mod mask;
-#[cfg(test)]
-pub(crate) mod real_maps;
 mod sweep;
 mod tile_sweep;
 

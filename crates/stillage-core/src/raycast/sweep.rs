@@ -7,7 +7,7 @@
 //! addition and two masks over contiguous numbers, which compilers turn into vector instructions.
 //!
 //! Two passes keep memory small. The first, here, walks the whole grid and keeps the state of all lines at the borders
-//! between tiles: [`PHASES`](super::directions::PHASES) numbers of two bytes per border cell and beam, 22.5 bytes per
+//! between tiles: [`PHASES`] numbers of two bytes per border cell and beam, 22.5 bytes per
 //! cell of the grid for 360 beams. The second ([`Sweep::cast`]) walks single tiles from those states, in any order and
 //! on any thread, always with the same result.
 //!
@@ -208,7 +208,8 @@ pub(super) fn mask_range(row: &[u16], column: isize, length: usize) -> &[u16] {
 mod tests {
     use super::*;
     use crate::grid::Occupancy;
-    use crate::raycast::{beam_direction, march_around, real_maps};
+    use crate::raycast::{beam_direction, march_around};
+    use crate::test_maps::real_maps;
     use proptest::prelude::*;
 
     /// Differences (cells) between the sweep and the exact beams, over all beams of every `stride`-th free cell.

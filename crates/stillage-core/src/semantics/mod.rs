@@ -1,7 +1,7 @@
 //! The human level: labels, rule sets, cogency and connectivity.
 //!
 //! A [`RuleSet`] says what labels there are and what edges between them mean; an [`Assignment`] names the categories
-//! of an analysis; [`apply`] reads the one under the other; [`suggest`] proposes an assignment.
+//! of an analysis; [`apply()`] reads the one under the other; [`suggest`] proposes an assignment.
 
 mod apply;
 mod draft;

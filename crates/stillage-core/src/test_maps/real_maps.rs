@@ -1,7 +1,7 @@
 //! Real maps for tests; they are not part of the repository.
 
 use std::env;
-use std::fs::File;
+use std::fs::{self, File};
 use std::io::BufReader;
 use std::path::{Path, PathBuf};
 
@@ -13,12 +13,21 @@ use crate::grid::{GridFrame, Occupancy, OccupancyGrid};
 /// # Panics
 /// Where there are no maps although `CI` is `true`.
 pub(crate) fn find(file: &str) -> Option<PathBuf> {
+    find_where(file, Path::is_file)
+}
+
+/// The path of a folder among the maps; otherwise as [`find`].
+pub(crate) fn find_folder(folder: &str) -> Option<PathBuf> {
+    find_where(folder, Path::is_dir)
+}
+
+fn find_where(file: &str, is_there: fn(&Path) -> bool) -> Option<PathBuf> {
     let workspace = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
     let places = match env::var_os("STILLAGE_SHARED") {
         Some(place) => vec![PathBuf::from(place)],
         None => vec![workspace.join("../shared"), workspace.join("../../shared")],
     };
-    let found = places.iter().map(|place| place.join("maps").join(file)).find(|path| path.is_file());
+    let found = places.iter().map(|place| place.join("maps").join(file)).find(|path| is_there(path));
     if found.is_none() {
         assert!(env::var("CI").as_deref() != Ok("true"), "the maps are missing: {file} is in none of {places:?}");
         println!("skipped: {file} is in none of {places:?}");
@@ -35,8 +44,34 @@ pub(crate) struct Picture {
 }
 
 impl Picture {
-    /// Reads a PNG file.
+    /// Reads a PNG or PGM file.
     pub(crate) fn read(path: &Path) -> Self {
+        if path.extension().is_some_and(|extension| extension == "pgm") { Self::pgm(path) } else { Self::png(path) }
+    }
+
+    /// A binary PGM file (`P5`, 8 bits).
+    fn pgm(path: &Path) -> Self {
+        let bytes = fs::read(path).expect("the file is there");
+        let mut at = 0;
+        let mut word = || {
+            loop {
+                let end = at + bytes[at..].iter().position(u8::is_ascii_whitespace).expect("a PGM header");
+                let word = std::str::from_utf8(&bytes[at..end]).expect("a PGM header in ASCII");
+                at = end + 1;
+                if word.starts_with('#') {
+                    at = end + bytes[end..].iter().position(|&byte| byte == b'\n').expect("a comment that ends") + 1;
+                } else if !word.is_empty() {
+                    return word;
+                }
+            }
+        };
+        assert_eq!(word(), "P5");
+        let [width, height, _] = [(); 3].map(|()| word().parse::<usize>().expect("a number in the PGM header"));
+        let pixels = bytes[at..at + width * height].chunks_exact(width).rev().flatten().copied().collect();
+        Self { width, height, channels: 1, pixels }
+    }
+
+    fn png(path: &Path) -> Self {
         let mut decoder = png::Decoder::new(BufReader::new(File::open(path).expect("the file is there")));
         decoder.set_transformations(png::Transformations::normalize_to_color8());
         let mut reader = decoder.read_info().expect("the file is a PNG");
