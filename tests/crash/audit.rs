@@ -41,6 +41,11 @@ impl Ledger {
     }
 }
 
+/// How many jobs were cut off and begun again.
+pub fn interrupted(data: &Path) -> usize {
+    block_on(whole_folder(data)).values().filter(|(_, attempt)| *attempt > 1).count()
+}
+
 /// Jobs that were put back count no attempt, those that ended count one.
 pub fn check_no_attempt_was_burnt(data: &Path) {
     for (job, (state, attempt)) in block_on(whole_folder(data)) {

@@ -105,10 +105,11 @@ fn random_kills_lose_nothing_and_double_nothing() {
     let mut dice = Dice::new(setting("STILLAGE_CRASH_SEED", 1));
     let folder = tempfile::tempdir().expect("a temporary folder");
     let mut ledger = Ledger::default();
+    // Kills are no fault of the jobs here, so they may happen to one of them as often as they like.
+    let arguments = ["--max-attempts", "1000000", "--max-queued-jobs", "1000000"];
     let mut killed = 0;
     while killed < kills || ledger.len() < jobs {
-        // Kills are no fault of the jobs here, so they may happen to one of them as often as they like.
-        let Some(mut server) = Server::start(folder.path(), None, &["--max-attempts", "1000000"]) else {
+        let Some(mut server) = Server::start(folder.path(), None, &arguments) else {
             panic!("the server does not start after {killed} kills");
         };
         let death = Instant::now() + Duration::from_millis(dice.below(400));
@@ -128,11 +129,11 @@ fn random_kills_lose_nothing_and_double_nothing() {
             killed += 1;
         }
     }
-    let server = Server::start(folder.path(), None, &["--max-attempts", "1000000"]).expect("it starts");
+    let server = Server::start(folder.path(), None, &arguments).expect("it starts");
     server.wait_until_idle(PATIENCE + Duration::from_millis(500 * jobs));
     server.stop();
     ledger.check_exactly(folder.path());
-    println!("{killed} kills over {jobs} jobs");
+    println!("{killed} kills over {jobs} jobs, {} of them cut off at least once", audit::interrupted(folder.path()));
 }
 
 #[test]
