@@ -6,16 +6,17 @@ use crate::adjacency::AdjacencyGraph;
 use crate::annotation::{self, CellFaces, EdgeAnnotation, FaceAnnotation};
 use crate::arrangement::{self, Subdivision};
 use crate::categorization::{self, CategoryMap};
-use crate::features;
+use crate::features::FeatureSource;
 use crate::grid::{GridFrame, OccupancyGrid};
 use crate::orientation::{self, Orientations};
 use crate::radiography::{self, Line, Radiogram};
 use crate::segmentation::{self, RegionMap};
 use crate::spec::{AnalysisOptions, AnalysisSpec};
+use crate::vectors::Vectors;
 use crate::watch::{Stage, Stopped, Watch};
 
 /// Version of the algorithms: part of the address of a stored analysis, raised whenever results change.
-pub const ALGORITHM_VERSION: u32 = 1;
+pub const ALGORITHM_VERSION: u32 = 2;
 
 /// What the geometric level finds in a map. Immutable; addressed by grid, options and [`ALGORITHM_VERSION`].
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -75,7 +76,9 @@ impl Diagnostic {
 /// [`Stopped`] when the watch says so.
 pub fn analyze(grid: &OccupancyGrid, spec: &AnalysisSpec, watch: &Watch<'_>) -> Result<Analysis, Stopped> {
     let options = spec.options();
-    let features = watch.stage(Stage::Features, || features::extract(grid, &options.categorization, watch))?;
+    let features = watch.stage(Stage::Features, || {
+        FeatureSource::new(grid, &options.categorization, Vectors::widest(), watch)?.all(watch)
+    })?;
     let categories = watch.stage(Stage::Categorization, || {
         categorization::categorize(grid, &features, &options.categorization, options.seed, watch)
     })?;

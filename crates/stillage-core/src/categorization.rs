@@ -203,15 +203,21 @@ fn flood(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::features;
+    use crate::features::FeatureSource;
+    use crate::vectors::Vectors;
     use crate::spec::Scaling;
     use crate::test_maps::real_maps::{self, Picture};
     use expect_test::{Expect, expect};
     use proptest::prelude::*;
 
+    fn all_features(grid: &OccupancyGrid, options: &CategorizationOptions) -> Result<CellFeatures, Stopped> {
+        let watch = Watch::unwatched();
+        FeatureSource::new(grid, options, Vectors::widest(), &watch)?.all(&watch)
+    }
+
     fn categories(grid: &OccupancyGrid, options: &CategorizationOptions) -> CategoryMap {
         let watch = Watch::unwatched();
-        let features = features::extract(grid, options, &watch).expect("nobody stops it");
+        let features = all_features(grid, options).expect("nobody stops it");
         categorize(grid, &features, options, 1, &watch).expect("nobody stops it")
     }
 
@@ -342,7 +348,7 @@ mod tests {
             ..CategorizationOptions::default()
         };
         let watch = Watch::unwatched();
-        let features = features::extract(&grid, &options, &watch).expect("nobody stops it");
+        let features = all_features(&grid, &options).expect("nobody stops it");
         let found = categorize(&grid, &features, &options, 1, &watch).expect("nobody stops it");
         let colours: Vec<usize> = Picture::read(&labels)
             .pixels()

@@ -29,6 +29,7 @@ pub mod raycast;
 pub mod clustering;
 pub mod linalg;
 pub mod signal;
+pub mod vectors;
 
 pub mod categorization;
 pub mod orientation;
