@@ -4,6 +4,9 @@
 //! saw. Pallets show their outline to the aisle; what is behind it is unknown, as a laser scanner leaves it. The same
 //! bytes on every machine.
 
+use std::collections::HashSet;
+use std::ops::Range;
+
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 use stillage_core::grid::{GridFrame, Occupancy, OccupancyGrid};
@@ -38,29 +41,31 @@ const FLUE: f64 = 0.2;
 /// Thickness of walls and outlines, metres.
 const OUTLINE: f64 = 0.1;
 
-/// Draws the warehouse.
-pub fn warehouse() -> OccupancyGrid {
-    let fields = fields();
-    let unseen = unseen();
-    let [width, height] = SIZE;
-    let mut cells: Vec<Occupancy> = (0..width * height)
-        .map(|cell| {
-            let point = Point::new((cell % width) as f64 + 0.5, (cell / width) as f64 + 0.5) * RESOLUTION;
-            if unseen.iter().any(|&(center, radius)| (point - center).norm() < radius) {
-                return Occupancy::Unknown;
-            }
-            fields.iter().find_map(|field| field.at(point)).unwrap_or_else(|| building(point))
-        })
-        .collect();
-    let mut random = ChaCha8Rng::seed_from_u64(2);
-    for _ in 0..SPECKLE {
-        let cell = (random.next_u64() % cells.len() as u64) as usize;
-        if cells[cell] == Occupancy::Free {
-            cells[cell] = Occupancy::Occupied;
+/// Draws some columns and rows of the warehouse.
+pub fn warehouse([columns, rows]: [Range<usize>; 2]) -> OccupancyGrid {
+    let (fields, unseen, speckle) = (fields(), unseen(), speckle());
+    let mut cells = Vec::with_capacity(columns.len() * rows.len());
+    for row in rows.clone() {
+        for column in columns.clone() {
+            let point = Point::new(column as f64 + 0.5, row as f64 + 0.5) * RESOLUTION;
+            cells.push(if unseen.iter().any(|&(center, radius)| (point - center).norm() < radius) {
+                Occupancy::Unknown
+            } else {
+                match fields.iter().find_map(|field| field.at(point)).unwrap_or_else(|| building(point)) {
+                    Occupancy::Free if speckle.contains(&[column, row]) => Occupancy::Occupied,
+                    seen => seen,
+                }
+            });
         }
     }
     let frame = GridFrame { resolution: RESOLUTION, origin: Point::origin(), yaw: 0.0 };
-    OccupancyGrid::new(width, height, frame, cells)
+    OccupancyGrid::new(columns.len(), rows.len(), frame, cells)
+}
+
+/// Columns and rows of the speckle.
+fn speckle() -> HashSet<[usize; 2]> {
+    let mut random = ChaCha8Rng::seed_from_u64(2);
+    (0..SPECKLE).map(|_| SIZE.map(|end| (random.next_u64() % end as u64) as usize)).collect()
 }
 
 fn fields() -> [RackField; 3] {
@@ -68,9 +73,9 @@ fn fields() -> [RackField; 3] {
         RackField { center: Point::from(center), size, degrees, place, aisle }
     };
     [
-        field([95.0, 66.0], [168.0, 104.0], 0.0, [1.2, 0.9], 2.6),
-        field([51.0, 172.0], [88.0, 78.0], 90.0, [1.2, 1.3], 3.0),
-        field([137.0, 172.0], [78.0, 74.0], 13.0, [1.0, 1.0], 2.4),
+        field([95.0, 66.0], [174.0, 112.0], 0.0, [1.2, 0.9], 2.0),
+        field([51.0, 172.0], [88.0, 78.0], 90.0, [1.2, 1.3], 2.6),
+        field([137.0, 172.0], [78.0, 74.0], 13.0, [1.2, 1.0], 2.2),
     ]
 }
 
@@ -136,7 +141,7 @@ fn is_taken(place: [f64; 4]) -> bool {
 /// Walls, offices and pillars: everything outside the rack fields.
 fn building(point: Point) -> Occupancy {
     let [width, height] = SIZE.map(|cells| cells as f64 * RESOLUTION);
-    let to_wall = [point.x - 5.0, width - 5.0 - point.x, point.y - 5.0, height - 5.0 - point.y]
+    let to_wall = [point.x - 9.0, width - 9.0 - point.x, point.y - 9.0, height - 9.0 - point.y]
         .into_iter()
         .fold(f64::INFINITY, f64::min);
     if to_wall < 0.0 {
