@@ -44,7 +44,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     );
 
     let start = Instant::now();
-    let map = categorize(&grid, &features, &options, 1, &Watch::unwatched())?;
+    let map = categorize(&grid, &features, &options, 1, &Watch::unwatched())?.map;
     println!("categories  {:8.3} s, {} of them", start.elapsed().as_secs_f64(), map.categories.len());
 
     let start = Instant::now();

@@ -1,21 +1,24 @@
 //! Place categories: features, scaled and clustered (paper, II-A; doi 10.1109/ECMR.2015.7324207).
 //!
-//! k-means over the features of the measured cells; a free cell that was not measured takes the category of the nearest
+//! A clustering is fitted to the features (of a sample of the measured cells) and gives every measured cell a category,
+//! and its memberships where they are asked for; relaxation, an option, lets neighbours settle on one. A free cell that was not measured takes the category of the nearest
 //! measured one, going through free space, and through walls only where there is no other way. The paper stops at the
 //! clusters; here they are numbered by their mean beam length, from the narrowest places to the widest, so that the
 //! same map has the same numbers whatever the seed.
 //!
-//! Cost: that of k-means, and O(cells) for the cells between. Limits: 32 categories by the checked options, 253 by the
+//! Cost: that of the clustering, and O(cells) for the cells between. Limits: 32 categories by the checked options, 253 by the
 //! type.
 
 use std::collections::VecDeque;
 
+use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use crate::clustering::{Clusters, KMeansOptions, ScaledRows, k_means};
+use crate::clustering::{self, FitOptions, FitReport, Method, PlaceModel};
 use crate::features::CellFeatures;
 use crate::grid::{Occupancy, OccupancyGrid};
-use crate::spec::{CategorizationOptions, FeatureProfile};
+use crate::relaxation::{Lattice, Memberships, RelaxationReport, relax_cells};
+use crate::spec::{CategorizationOptions, ClusteringMethod, FeatureProfile};
 use crate::watch::{Stopped, Watch};
 
 /// Cells that categories are fitted to: the standard error of a centroid is then below half a percent of the spread.
@@ -24,6 +27,9 @@ const FIT_CELLS: usize = 200_000;
 const TOLERANCE: f64 = 1e-6;
 /// The same of the author, who fitted to all cells (the default of scikit-learn).
 const AUTHORS_TOLERANCE: f64 = 1e-4;
+
+/// Measured cells that a task gives their clusters.
+const ROWS_PER_BLOCK: usize = 1 << 14;
 
 /// Cells between two looks at the stop flag.
 const CELLS_PER_CHECK: usize = 1 << 16;
@@ -37,6 +43,10 @@ pub struct CategoryMap {
     pub categories: Vec<Category>,
     /// Names of the features behind [`Category::mean_features`].
     pub feature_names: Vec<String>,
+    /// How the clusters were found.
+    pub fit: FitReport,
+    /// What the relaxation of the cells did, where it was asked for.
+    pub relaxation: Option<RelaxationReport>,
 }
 
 /// One cluster of places.
@@ -44,7 +54,8 @@ pub struct CategoryMap {
 pub struct Category {
     /// How many free cells carry it.
     pub cells: usize,
-    /// Mean of each feature over the measured cells, unscaled, in the order of [`CategoryMap::feature_names`].
+    /// Mean of each feature over the measured cells of the cluster (before any relaxation), unscaled, in the order of
+    /// [`CategoryMap::feature_names`].
     pub mean_features: Vec<f64>,
 }
 
@@ -77,6 +88,25 @@ impl CategoryMap {
     }
 }
 
+/// The categories of a map, and how sure they are.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Categorization {
+    /// The category of every cell.
+    pub map: CategoryMap,
+    /// The distribution of every measured cell over the categories; absent where no one asked for it, since then a cell
+    /// is of its category and no other.
+    pub memberships: Option<CellMemberships>,
+}
+
+/// Distributions of the measured cells over the categories.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct CellMemberships {
+    /// Number (row-major) of each measured cell, ascending.
+    pub cells: Vec<u32>,
+    /// Their distributions.
+    pub shares: Memberships,
+}
+
 /// Clusters the features into place categories and gives every free cell one.
 ///
 /// There are fewer categories than asked for where there are fewer distinct places, and none without free cells.
@@ -89,57 +119,95 @@ pub fn categorize(
     options: &CategorizationOptions,
     seed: u64,
     watch: &Watch<'_>,
-) -> Result<CategoryMap, Stopped> {
-    let rows = ScaledRows::new(&features.values, features.names.len(), options.scaling);
-    let (tolerance, fit_rows) = match options.profile {
-        FeatureProfile::Paper13 => (TOLERANCE, FIT_CELLS),
-        FeatureProfile::Halmstad2017 => (AUTHORS_TOLERANCE, usize::MAX),
-    };
-    let search = KMeansOptions {
-        k: options.k,
-        restarts: options.restarts,
-        max_iterations: options.max_iterations,
-        tolerance,
-        fit_rows,
-        seed,
-    };
-    let clusters = k_means(&rows, &search, watch)?;
-    let (numbers, mut categories) = number(&clusters, features);
+) -> Result<Categorization, Stopped> {
+    let (model, fit) = clustering::fit(&features.values, features.names.len(), &fit_options(options, seed), watch)?;
+    let mut labels = vec![0; features.cells.len()];
+    let is_graded = options.clustering == ClusteringMethod::GaussianMixture || options.relaxation.is_some();
+    let mut shares = is_graded.then(|| Memberships::new(features.cells.len(), model.len()));
+    assign(&model, &features.values, &mut labels, shares.as_mut(), watch)?;
+    let mut categories = describe(&model, features, &labels);
+    let mut relaxation = None;
+    if let (Some(wanted), Some(shares)) = (&options.relaxation, &mut shares) {
+        let lattice = Lattice::new(&features.cells, grid.width(), options.stride);
+        relaxation = Some(relax_cells(&lattice, shares, wanted, watch)?);
+        labels = shares.categories();
+    }
     let mut cells = vec![CategoryMap::NONE; grid.cells().len()];
-    for (&cell, &label) in features.cells.iter().zip(&clusters.labels) {
-        cells[cell as usize] = numbers[usize::from(label)];
+    for (&cell, &label) in features.cells.iter().zip(&labels) {
+        cells[cell as usize] = label;
     }
     spread(grid, &features.cells, &mut cells, watch)?;
     for &category in cells.iter().filter(|&&category| category != CategoryMap::NONE) {
         categories[usize::from(category)].cells += 1;
     }
     let feature_names = features.names.iter().map(|&name| name.to_owned()).collect();
-    Ok(CategoryMap { cells, categories, feature_names })
+    let memberships = shares.map(|shares| CellMemberships { cells: features.cells.clone(), shares });
+    Ok(Categorization { map: CategoryMap { cells, categories, feature_names, fit, relaxation }, memberships })
 }
 
-/// Numbers the clusters by ascending mean beam length, the first feature. Gives the number of each cluster, and the
-/// categories with their cells yet to be counted; clusters without cells have no category.
-fn number(clusters: &Clusters, features: &CellFeatures) -> (Vec<u8>, Vec<Category>) {
+/// What the options mean for the clustering.
+fn fit_options(options: &CategorizationOptions, seed: u64) -> FitOptions {
+    let (tolerance, fit_rows) = match options.profile {
+        FeatureProfile::Paper13 => (TOLERANCE, FIT_CELLS),
+        FeatureProfile::Halmstad2017 => (AUTHORS_TOLERANCE, usize::MAX),
+    };
+    FitOptions {
+        method: match options.clustering {
+            ClusteringMethod::KMeans => Method::KMeans,
+            ClusteringMethod::GaussianMixture => Method::GaussianMixture(options.covariance),
+        },
+        count: options.k,
+        max_count: options.max_k,
+        scaling: options.scaling,
+        restarts: options.restarts,
+        max_iterations: options.max_iterations,
+        tolerance,
+        fit_rows,
+        seed,
+    }
+}
+
+/// Gives every row its cluster, block by block, and its memberships where there is room for them.
+fn assign(
+    model: &PlaceModel,
+    rows: &[f32],
+    labels: &mut [u8],
+    memberships: Option<&mut Memberships>,
+    watch: &Watch<'_>,
+) -> Result<(), Stopped> {
+    let blocks = rows.par_chunks(ROWS_PER_BLOCK * model.columns()).zip(labels.par_chunks_mut(ROWS_PER_BLOCK));
+    let Some(memberships) = memberships.filter(|_| !model.is_empty()) else {
+        return blocks.try_for_each(|(rows, labels)| {
+            watch.check()?;
+            model.assign(rows, labels);
+            Ok(())
+        });
+    };
+    blocks.zip(memberships.values_mut().par_chunks_mut(ROWS_PER_BLOCK * model.len())).try_for_each(
+        |((rows, labels), packed)| {
+            watch.check()?;
+            let mut shares = vec![0.0; packed.len()];
+            model.memberships(rows, labels, &mut shares);
+            Memberships::pack(&shares, packed);
+            Ok(())
+        },
+    )
+}
+
+/// The categories with the means of their features, their cells yet to be counted.
+fn describe(model: &PlaceModel, features: &CellFeatures, labels: &[u8]) -> Vec<Category> {
     let columns = features.names.len();
-    let mut counts = vec![0_usize; clusters.count];
-    let mut sums = vec![vec![0.0_f64; columns]; clusters.count];
-    for (row, &label) in features.values.chunks_exact(columns).zip(&clusters.labels) {
+    let mut counts = vec![0_usize; model.len()];
+    let mut sums = vec![vec![0.0_f64; columns]; model.len()];
+    for (row, &label) in features.values.chunks_exact(columns).zip(labels) {
         counts[usize::from(label)] += 1;
         sums[usize::from(label)].iter_mut().zip(row).for_each(|(sum, &value)| *sum += f64::from(value));
     }
-    let mut order: Vec<(usize, Vec<f64>)> = sums
-        .into_iter()
-        .zip(&counts)
-        .map(|(sums, &count)| sums.into_iter().map(|sum| sum / count as f64).collect())
-        .enumerate()
-        .filter(|&(cluster, _)| counts[cluster] > 0)
-        .collect();
-    order.sort_by(|(_, a), (_, b)| a[0].total_cmp(&b[0]));
-    let mut numbers = vec![CategoryMap::NONE; clusters.count];
-    for (number, (cluster, _)) in order.iter().enumerate() {
-        numbers[*cluster] = number as u8;
-    }
-    (numbers, order.into_iter().map(|(_, mean_features)| Category { cells: 0, mean_features }).collect())
+    let mean = |(sums, count): (Vec<f64>, usize)| Category {
+        cells: 0,
+        mean_features: sums.into_iter().map(|sum| sum / count.max(1) as f64).collect(),
+    };
+    sums.into_iter().zip(counts).map(mean).collect()
 }
 
 /// Spreads the categories of the measured cells to the other free cells, to the nearest first.
@@ -204,7 +272,7 @@ fn flood(
 mod tests {
     use super::*;
     use crate::features;
-    use crate::spec::Scaling;
+    use crate::spec::{CategoryCount, Scaling};
     use crate::test_maps::real_maps::{self, Picture};
     use expect_test::{Expect, expect};
     use proptest::prelude::*;
@@ -212,7 +280,7 @@ mod tests {
     fn categories(grid: &OccupancyGrid, options: &CategorizationOptions) -> CategoryMap {
         let watch = Watch::unwatched();
         let features = features::extract(grid, options, &watch).expect("nobody stops it");
-        categorize(grid, &features, options, 1, &watch).expect("nobody stops it")
+        categorize(grid, &features, options, 1, &watch).expect("nobody stops it").map
     }
 
     /// The categories of a map as digits, first row on top.
@@ -239,26 +307,27 @@ mod tests {
 
     #[test]
     fn narrow_places_come_before_wide_ones() {
-        let options = CategorizationOptions { k: 2, ..CategorizationOptions::default() };
+        let options = CategorizationOptions { k: CategoryCount::Fixed(2), ..CategorizationOptions::default() };
         check(
             CORRIDOR_AND_HALL,
             &options,
             &expect![[r#"
-            ########################
-            #############1111111111#
-            #############0111111111#
-            #000000000000#111111111#
-            ###0####0#####111111111#
-            #000##000#####111111111#
-            #000##000#####111111111#
-            #000##000#####111111111#
-            ########################"#]],
+                ########################
+                #############1111111111#
+                #############1111111111#
+                #000000000000#111111111#
+                ###0####0#####111111111#
+                #000##000#####111111111#
+                #000##000#####111111111#
+                #000##000#####111111111#
+                ########################"#]],
         );
     }
 
     #[test]
     fn cells_between_the_measured_ones_take_the_nearest_category() {
-        let options = CategorizationOptions { k: 2, stride: 3, ..CategorizationOptions::default() };
+        let options =
+            CategorizationOptions { k: CategoryCount::Fixed(2), stride: 3, ..CategorizationOptions::default() };
         check(
             CORRIDOR_AND_HALL,
             &options,
@@ -283,7 +352,8 @@ mod tests {
             ####.#.#
             .....###
             ";
-        let options = CategorizationOptions { k: 2, stride: 4, ..CategorizationOptions::default() };
+        let options =
+            CategorizationOptions { k: CategoryCount::Fixed(2), stride: 4, ..CategorizationOptions::default() };
         check(
             picture,
             &options,
@@ -335,7 +405,7 @@ mod tests {
         let options = CategorizationOptions {
             profile: FeatureProfile::Halmstad2017,
             scaling: Scaling::DivideByMean,
-            k,
+            k: CategoryCount::Fixed(k),
             stride,
             restarts: 20,
             max_iterations: 500,
@@ -343,7 +413,7 @@ mod tests {
         };
         let watch = Watch::unwatched();
         let features = features::extract(&grid, &options, &watch).expect("nobody stops it");
-        let found = categorize(&grid, &features, &options, 1, &watch).expect("nobody stops it");
+        let found = categorize(&grid, &features, &options, 1, &watch).expect("nobody stops it").map;
         let colours: Vec<usize> = Picture::read(&labels)
             .pixels()
             .map(|pixel| pixel.iter().fold(0, |colour, &channel| colour << 8 | usize::from(channel)))
@@ -382,7 +452,7 @@ mod tests {
             k in 2_usize..9,
         ) {
             let grid = OccupancyGrid::from_ascii(&rows.join("\n"), 0.05);
-            let options = CategorizationOptions { stride, k, beams: 16, ..CategorizationOptions::default() };
+            let options = CategorizationOptions { stride, k: CategoryCount::Fixed(k), beams: 16, ..CategorizationOptions::default() };
             let map = categories(&grid, &options);
             prop_assert!(map.categories.len() <= k);
             for (&cell, &category) in grid.cells().iter().zip(&map.cells) {
