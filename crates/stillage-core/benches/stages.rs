@@ -12,13 +12,15 @@ use divan::Bencher;
 use divan::counter::ItemsCount;
 use stillage_core::annotation::{self, CellFaces};
 use stillage_core::arrangement;
+use stillage_core::categorization::Categorization;
+use stillage_core::clustering::{self, FitOptions, Method, PlaceModel};
 use stillage_core::features::{CellFeatures, FeatureSource};
 use stillage_core::orientation::dominant_orientations;
 use stillage_core::radiography;
 use stillage_core::raycast::{BeamOptions, march_around};
 use stillage_core::segmentation::segment;
 use stillage_core::vectors::Vectors;
-use stillage_core::{Analysis, AnalysisSpec, Occupancy, OccupancyGrid, Watch, analyze, categorization};
+use stillage_core::{Analysis, AnalysisSpec, Occupancy, OccupancyGrid, Watch, analyze};
 
 /// The corner of a rack field: racks, aisles, a cross aisle, the wall.
 static GRID: LazyLock<OccupancyGrid> = LazyLock::new(|| site::warehouse([100..612, 200..712]));
@@ -49,18 +51,25 @@ fn beams_by_exact_march(bencher: Bencher<'_, '_>) {
     let free: Vec<usize> = (0..GRID.cells().len()).filter(|&cell| GRID.cells()[cell] == Occupancy::Free).collect();
     let cells: Vec<usize> = free.iter().copied().step_by(free.len() / MARCHED).collect();
     let march = |&cell: &usize| march_around(&GRID, (cell % GRID.width(), cell / GRID.width()), &options);
-    bencher
-        .counter(ItemsCount::new(cells.len() * options.beams))
-        .bench(|| cells.iter().flat_map(march).sum::<f64>());
+    bencher.counter(ItemsCount::new(cells.len() * options.beams)).bench(|| cells.iter().flat_map(march).sum::<f64>());
 }
 
+/// The fit of k-means to the features of every free cell.
 #[divan::bench]
-fn categories(bencher: Bencher<'_, '_>) {
+fn clusters_fitted(bencher: Bencher<'_, '_>) {
     let features = features(Vectors::widest());
-    let options = &SPEC.options().categorization;
+    bencher.counter(ItemsCount::new(features.cells.len())).bench(|| fit(&features));
+}
+
+/// The category of every free cell from its features.
+#[divan::bench]
+fn clusters_assigned(bencher: Bencher<'_, '_>) {
+    let features = features(Vectors::widest());
+    let model = fit(&features);
+    let mut labels = vec![0; features.cells.len()];
     bencher
         .counter(ItemsCount::new(features.cells.len()))
-        .bench(|| categorization::categorize(&GRID, &features, options, 1, &Watch::unwatched()));
+        .bench_local(|| model.assign(&features.values, divan::black_box(&mut labels)));
 }
 
 #[divan::bench]
@@ -93,11 +102,11 @@ fn subdivision(bencher: Bencher<'_, '_>) {
 #[divan::bench]
 fn votes(bencher: Bencher<'_, '_>) {
     let (analysis, options) = (&*ANALYSIS, &SPEC.options().annotation);
+    let categorization = Categorization { map: analysis.categories.clone(), memberships: None };
     bencher.counter(cells()).bench(|| {
         let faces = CellFaces::rasterize(&analysis.subdivision, GRID.width(), GRID.height(), GRID.resolution());
-        let (categories, regions) = (&analysis.categories, &analysis.regions);
         let watch = Watch::unwatched();
-        annotation::annotate(&GRID, categories, regions, &analysis.subdivision, &faces, options, &watch)
+        annotation::annotate(&GRID, &categorization, &analysis.regions, &analysis.subdivision, &faces, options, &watch)
     });
 }
 
@@ -106,6 +115,25 @@ fn features(vectors: Vectors) -> CellFeatures {
     FeatureSource::new(&GRID, &SPEC.options().categorization, vectors, &watch)
         .and_then(|source| source.all(&watch))
         .expect("nobody stops it")
+}
+
+/// Five clusters, as by default.
+fn fit(features: &CellFeatures) -> PlaceModel {
+    let options = &SPEC.options().categorization;
+    let fit_options = FitOptions {
+        method: Method::KMeans,
+        count: options.k,
+        max_count: options.max_k,
+        scaling: options.scaling,
+        restarts: options.restarts,
+        max_iterations: options.max_iterations,
+        tolerance: 1e-6,
+        fit_rows: 200_000,
+        seed: 1,
+    };
+    clustering::fit(&features.values, features.names.len(), &fit_options, &Watch::unwatched())
+        .expect("nobody stops it")
+        .0
 }
 
 fn cells() -> ItemsCount {

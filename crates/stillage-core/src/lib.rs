@@ -28,6 +28,7 @@ pub mod raycast;
 
 pub mod clustering;
 pub mod linalg;
+pub mod relaxation;
 pub mod signal;
 pub mod vectors;
 

@@ -69,8 +69,12 @@ fn speckle() -> HashSet<[usize; 2]> {
 }
 
 fn fields() -> [RackField; 3] {
-    let field = |center: [f64; 2], size, degrees, place, aisle| {
-        RackField { center: Point::from(center), size, degrees, place, aisle }
+    let field = |center: [f64; 2], size, degrees, place, aisle| RackField {
+        center: Point::from(center),
+        size,
+        degrees,
+        place,
+        aisle,
     };
     [
         field([95.0, 66.0], [174.0, 112.0], 0.0, [1.2, 0.9], 2.0),

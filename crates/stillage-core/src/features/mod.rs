@@ -49,6 +49,9 @@ enum Profile<'a> {
 }
 
 impl<'a> FeatureSource<'a> {
+    /// How much of the work is done, by measure, when a source is ready and no part is.
+    pub const PREPARATION_SHARE: f64 = 0.2;
+
     /// Prepares the measurement of every free cell (of the stride).
     ///
     /// # Errors
@@ -93,12 +96,7 @@ impl<'a> FeatureSource<'a> {
     ///
     /// # Errors
     /// [`Stopped`] when the watch says so.
-    pub fn part(
-        &self,
-        index: usize,
-        workspace: &mut Workspace,
-        watch: &Watch<'_>,
-    ) -> Result<CellFeatures, Stopped> {
+    pub fn part(&self, index: usize, workspace: &mut Workspace, watch: &Watch<'_>) -> Result<CellFeatures, Stopped> {
         match &self.profile {
             Profile::Paper(features) => features.tile(index, workspace, watch),
             Profile::Halmstad(features) => features.chunk(index, watch),

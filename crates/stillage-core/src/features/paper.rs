@@ -21,8 +21,8 @@
 //! the sums are turned once and no beam is. Cost: O(cells x beams). Tiles are independent, and no sum depends on the
 //! width of the machine's vectors, so the result depends on neither.
 
-use super::CellFeatures;
 use super::paper_sums::{BeamTerms, FanTerms, GROUP, Planes, TileSums};
+use super::{CellFeatures, FeatureSource};
 use crate::grid::{Occupancy, OccupancyGrid};
 use crate::raycast::{BeamOptions, PLANE_PITCH, Sweep, Tile, TileScratch, beam_direction};
 use crate::spec::CategorizationOptions;
@@ -51,9 +51,6 @@ const BEAMS_PER_BLOCK: usize = 16;
 
 /// Beams, evenly around, whose mean length is the pivot of the sums.
 const PIVOT_BEAMS: usize = 8;
-
-/// The share of the work on the features that is done when the sweep is ready.
-const SWEEP_SHARE: f64 = 0.2;
 
 /// The features of a grid, tile by tile.
 #[derive(Debug)]
@@ -106,7 +103,7 @@ impl<'a> PaperFeatures<'a> {
         vectors: Vectors,
         watch: &Watch<'_>,
     ) -> Result<Self, Stopped> {
-        let progress = |done: f64| watch.progress(Stage::Features, SWEEP_SHARE * done);
+        let progress = |done: f64| watch.progress(Stage::Features, FeatureSource::PREPARATION_SHARE * done);
         let sweep = Sweep::new(grid, &BeamOptions::from(options), vectors, watch, progress)?;
         let count = options.beams;
         let beams: Vec<BeamTerms> = (0..count)
@@ -312,7 +309,6 @@ impl TileWork<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::features::FeatureSource;
     use crate::raycast::PLANE_LENGTH;
     use crate::test_maps::real_maps;
     use proptest::prelude::*;

@@ -220,12 +220,7 @@ fn add_length<const N: usize>(sums: &mut [Lanes<N>; SUMS], length: Lanes<N>, piv
 
 /// Adds the terms of a beam and the one before it.
 #[inline(always)]
-fn add_change<const N: usize>(
-    sums: &mut [Lanes<N>; SUMS],
-    previous: Lanes<N>,
-    length: Lanes<N>,
-    fan: &FanTerms,
-) {
+fn add_change<const N: usize>(sums: &mut [Lanes<N>; SUMS], previous: Lanes<N>, length: Lanes<N>, fan: &FanTerms) {
     let change = length - previous;
     let (change_size, change_squared) = (change.abs(), change * change);
     sums[4] += change_size;
