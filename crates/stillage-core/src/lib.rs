@@ -45,6 +45,7 @@ pub mod adjacency;
 pub mod annotation;
 
 pub mod analysis;
+pub mod memory;
 
 pub mod semantics;
 

@@ -23,6 +23,7 @@ use crate::spec::{CategorizationOptions, ClusteringMethod, FeatureProfile};
 use crate::vectors::Vectors;
 use crate::watch::{Stage, Stopped, Watch};
 
+pub(crate) use parts::KEPT_CELLS;
 use parts::{PartLabels, Sample, assign_parts};
 use spread::spread;
 

@@ -16,7 +16,7 @@ use crate::relaxation::Memberships;
 use crate::watch::{Stage, Stopped, Watch};
 
 /// Cells whose features are kept for the clustering: 104 MB of them, from a hundred and more parts all over the map.
-const KEPT_CELLS: usize = 2_000_000;
+pub(crate) const KEPT_CELLS: usize = 2_000_000;
 
 /// The features of some parts, drawn by lot, or of all.
 pub(super) struct Sample {

@@ -77,10 +77,10 @@ impl<'a> FeatureSource<'a> {
     /// The names of the features, in their order. The first is the mean beam length.
     #[must_use]
     pub fn names(&self) -> &'static [&'static str] {
-        match self.profile {
-            Profile::Paper(_) => &paper::NAMES,
-            Profile::Halmstad(_) => &halmstad::NAMES,
-        }
+        names(match self.profile {
+            Profile::Paper(_) => FeatureProfile::Paper13,
+            Profile::Halmstad(_) => FeatureProfile::Halmstad2017,
+        })
     }
 
     /// How many parts there are. Every measured cell is in one of them.
@@ -122,6 +122,15 @@ impl<'a> FeatureSource<'a> {
             names: self.names(),
             values: rows.iter().flat_map(|&(_, values)| values).copied().collect(),
         })
+    }
+}
+
+/// The names of the features of a profile, in their order.
+#[must_use]
+pub const fn names(profile: FeatureProfile) -> &'static [&'static str] {
+    match profile {
+        FeatureProfile::Paper13 => &paper::NAMES,
+        FeatureProfile::Halmstad2017 => &halmstad::NAMES,
     }
 }
 

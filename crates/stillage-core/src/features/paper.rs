@@ -495,6 +495,22 @@ mod tests {
         #![proptest_config(ProptestConfig::with_cases(24))]
 
         #[test]
+        fn every_vector_width_gives_the_same_features_of_random_maps(
+            rows in proptest::collection::vec("[.]{4,200}[.#?]{0,30}", 1..150),
+            beams in 8_usize..40,
+            stride in 1_usize..4,
+        ) {
+            let grid = OccupancyGrid::from_ascii(&rows.join("\n"), 0.1);
+            let options = CategorizationOptions { beams, stride, ..CategorizationOptions::default() };
+            let watch = Watch::unwatched();
+            let features = |vectors| FeatureSource::new(&grid, &options, vectors, &watch)?.all(&watch);
+            let portable = features(Vectors::Portable).expect("nobody stops it");
+            for vectors in Vectors::available() {
+                prop_assert_eq!(&portable, &features(vectors).expect("nobody stops it"));
+            }
+        }
+
+        #[test]
         fn running_sums_give_the_defined_features_of_random_maps(
             rows in proptest::collection::vec("[.]{4,20}[.#]{0,10}", 1..40),
             beams in 8_usize..80,

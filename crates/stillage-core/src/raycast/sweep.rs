@@ -42,6 +42,12 @@ pub(super) const LINES_PER_STEP: usize = 32;
 /// Rows between two looks at the stop flag.
 const ROWS_PER_CHECK: usize = 64;
 
+/// Bytes of the states at the borders between tiles, for each cell of the grid.
+#[must_use]
+pub fn border_bytes_per_cell(beams: usize) -> f64 {
+    (beams * PHASES * size_of::<u16>()) as f64 / TILE as f64
+}
+
 /// A grid prepared for casting all beams of any of its tiles.
 #[derive(Debug)]
 pub struct Sweep {
