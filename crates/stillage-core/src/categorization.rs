@@ -127,7 +127,7 @@ pub fn categorize(
     assign(&model, &features.values, &mut labels, shares.as_mut(), watch)?;
     let mut categories = describe(&model, features, &labels);
     let mut relaxation = None;
-    if let (Some(wanted), Some(shares)) = (&options.relaxation, &mut shares) {
+    if let (Some(wanted), Some(shares)) = (options.relaxation, &mut shares) {
         let lattice = Lattice::new(&features.cells, grid.width(), options.stride);
         relaxation = Some(relax_cells(&lattice, shares, wanted, watch)?);
         labels = shares.categories();
