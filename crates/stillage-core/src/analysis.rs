@@ -6,7 +6,6 @@ use crate::adjacency::AdjacencyGraph;
 use crate::annotation::{self, CellFaces, EdgeAnnotation, FaceAnnotation};
 use crate::arrangement::{self, Subdivision};
 use crate::categorization::{self, CategoryMap};
-use crate::features;
 use crate::grid::{GridFrame, OccupancyGrid};
 use crate::orientation::{self, Orientations};
 use crate::radiography::{self, Line, Radiogram};
@@ -78,11 +77,7 @@ impl Diagnostic {
 /// [`Stopped`] when the watch says so.
 pub fn analyze(grid: &OccupancyGrid, spec: &AnalysisSpec, watch: &Watch<'_>) -> Result<Analysis, Stopped> {
     let options = spec.options();
-    let features = watch.stage(Stage::Features, || features::extract(grid, &options.categorization, watch))?;
-    let categorization = watch.stage(Stage::Categorization, || {
-        categorization::categorize(grid, &features, &options.categorization, options.seed, watch)
-    })?;
-    drop(features);
+    let categorization = categorization::categorize(grid, &options.categorization, options.seed, watch)?;
     let orientations =
         watch.stage(Stage::Orientation, || orientation::dominant_orientations(grid, &options.orientation, watch))?;
     let regions = watch.stage(Stage::Regions, || segmentation::segment(grid, &orientations, options, watch))?;

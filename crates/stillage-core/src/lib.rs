@@ -30,6 +30,7 @@ pub mod clustering;
 pub mod linalg;
 pub mod relaxation;
 pub mod signal;
+pub mod vectors;
 
 pub mod categorization;
 pub mod orientation;

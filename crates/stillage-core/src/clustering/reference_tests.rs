@@ -3,8 +3,10 @@
 //! log-likelihood of a row may be better.
 
 use super::*;
+use crate::features::FeatureSource;
 use crate::spec::CategorizationOptions;
 use crate::test_maps;
+use crate::vectors::Vectors;
 
 const ROWS: usize = 2_000;
 const COLUMNS: usize = 13;
@@ -94,7 +96,9 @@ fn the_likelihood_of_mixtures_of_blobs_is_that_of_scikit_learn() {
 fn the_inertia_of_real_features_is_that_of_scikit_learn() {
     let Some(grid) = test_maps::real("warehouse__tuw_warehouse_grid", 0.066_667) else { return };
     let options = CategorizationOptions { stride: 4, ..CategorizationOptions::default() };
-    let features = crate::features::extract(&grid, &options, &Watch::unwatched()).expect("nobody stops it");
+    let watch = Watch::unwatched();
+    let source = FeatureSource::new(&grid, &options, Vectors::widest(), &watch).expect("nobody stops it");
+    let features = source.all(&watch).expect("nobody stops it");
     let rows = &features.values;
     for (k, reference) in [(2, 5.3007), (5, 2.0311), (8, 1.3382)] {
         let found = report(rows, k, Method::KMeans).mean_squared_distance;
