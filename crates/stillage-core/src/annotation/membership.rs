@@ -67,7 +67,7 @@ pub(super) fn relax(
     faces: &mut [FaceAnnotation],
     subdivision: &Subdivision,
     count: usize,
-    options: &RelaxationOptions,
+    options: RelaxationOptions,
     watch: &Watch<'_>,
 ) -> Result<RelaxationReport, Stopped> {
     let start = |face: &FaceAnnotation| face.membership.clone().unwrap_or_else(|| voted(face).to_vec());

@@ -121,7 +121,7 @@ pub fn annotate(
         membership::average(&mut faces, cells, memberships, watch)?;
     }
     let relax = |relaxation| membership::relax(&mut faces, subdivision, categories.categories.len(), relaxation, watch);
-    let relaxation = options.relaxation.as_ref().map(relax).transpose()?;
+    let relaxation = options.relaxation.map(relax).transpose()?;
     outside::mark_outside(&mut faces, subdivision, categories);
     let edges = edges::annotate_edges(grid, subdivision, options, watch)?;
     Ok(Annotations { faces, edges, relaxation })

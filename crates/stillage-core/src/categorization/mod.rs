@@ -141,7 +141,7 @@ pub fn categorize(
         let mut memberships = is_graded.then(|| CellMemberships::gather(measured.clone(), &parts, model.len()));
         drop(parts);
         let mut relaxation = None;
-        if let (Some(wanted), Some(CellMemberships { shares, .. })) = (&options.relaxation, &mut memberships) {
+        if let (Some(wanted), Some(CellMemberships { shares, .. })) = (options.relaxation, &mut memberships) {
             let lattice = Lattice::new(&measured, grid.width(), options.stride);
             relaxation = Some(relax_cells(&lattice, shares, wanted, watch)?);
             for (&cell, label) in measured.iter().zip(shares.categories()) {

@@ -142,7 +142,9 @@ fn cluster_sums(points: &Points, centroids: &[f32], watch: &Watch<'_>) -> Result
         .map(|groups| {
             watch.check()?;
             let mut sums = empty();
-            groups.iter().for_each(|&group| sums.add_group(points, group, centroids));
+            for &group in groups {
+                sums.add_group(points, group, centroids);
+            }
             Ok(sums)
         })
         .collect();

@@ -132,7 +132,7 @@ impl Lattice {
 pub fn relax_cells(
     lattice: &Lattice,
     memberships: &mut Memberships,
-    options: &RelaxationOptions,
+    options: RelaxationOptions,
     watch: &Watch<'_>,
 ) -> Result<RelaxationReport, Stopped> {
     let before = memberships.categories();

@@ -18,7 +18,7 @@ pub fn relax_faces(
     distributions: &mut [Vec<f32>],
     adjacency: &Adjacency,
     count: usize,
-    options: &RelaxationOptions,
+    options: RelaxationOptions,
     watch: &Watch<'_>,
 ) -> Result<RelaxationReport, Stopped> {
     let categories = |distributions: &[Vec<f32>]| -> Vec<usize> {

@@ -88,9 +88,10 @@ fn entropy(shares: impl Iterator<Item = f32>) -> f64 {
 
 /// Raises every share to the least one.
 fn soften(shares: &mut [f32]) {
-    shares.iter_mut().for_each(|share| *share = share.max(LEAST));
-    let sum: f32 = shares.iter().sum();
-    shares.iter_mut().for_each(|share| *share /= sum);
+    let sum: f32 = shares.iter().map(|share| share.max(LEAST)).sum();
+    for share in shares {
+        *share = share.max(LEAST) / sum;
+    }
 }
 
 /// The greatest share, the first of equals.

@@ -38,7 +38,7 @@ fn relaxed(picture: &str, own: f32, iterations: usize) -> (Memberships, Relaxati
     let (cells, categories, width) = read(picture);
     let mut memberships = memberships(&categories, own);
     let lattice = Lattice::new(&cells, width, 1);
-    let report = relax_cells(&lattice, &mut memberships, &RelaxationOptions { iterations }, &Watch::unwatched())
+    let report = relax_cells(&lattice, &mut memberships, RelaxationOptions { iterations }, &Watch::unwatched())
         .expect("nobody stops it");
     (memberships, report)
 }
@@ -146,7 +146,7 @@ fn a_lattice_is_what_the_cells_lie_on() {
     let on_lattice = Lattice::new(&cells, width, 2);
     let mut coarse = memberships(&categories, 0.9);
     let options = RelaxationOptions { iterations: 3 };
-    let report = relax_cells(&on_lattice, &mut coarse, &options, &Watch::unwatched()).expect("nobody stops it");
+    let report = relax_cells(&on_lattice, &mut coarse, options, &Watch::unwatched()).expect("nobody stops it");
     assert!(report.entropy_after != report.entropy_before, "two cells apart are neighbours there");
     // One cell off the lattice: every cell was measured.
     assert_eq!(relaxed("1#1\n###\n0#2", 0.9, 1).1.changed_by_iteration, [0]);
@@ -179,7 +179,7 @@ fn a_face_learns_from_the_pattern_around_it() {
     faces[0] = vec![0.9, 0.1];
     faces[5] = vec![0.55, 0.45];
     let options = RelaxationOptions { iterations: 10 };
-    let report = relax_faces(&mut faces, &adjacency, 2, &options, &Watch::unwatched()).expect("nobody stops it");
+    let report = relax_faces(&mut faces, &adjacency, 2, options, &Watch::unwatched()).expect("nobody stops it");
     assert!(faces[5][1] > 0.7, "{:?}", faces[5]);
     assert!(faces[0][0] > 0.9, "{:?}", faces[0]);
     assert_eq!((report.nodes, report.changed), (places + 1, 1));
@@ -191,7 +191,7 @@ fn faces_without_a_distribution_take_no_part() {
     let adjacency = vec![vec![(1, 2.0)], vec![(0, 2.0)]];
     let mut faces = vec![vec![], vec![0.3, 0.7]];
     let options = RelaxationOptions { iterations: 3 };
-    let report = relax_faces(&mut faces, &adjacency, 2, &options, &Watch::unwatched()).expect("nobody stops it");
+    let report = relax_faces(&mut faces, &adjacency, 2, options, &Watch::unwatched()).expect("nobody stops it");
     assert!(faces[0].is_empty());
     assert_eq!((report.nodes, report.changed), (1, 0));
 }
@@ -243,7 +243,7 @@ proptest! {
             }
         }
         let options = RelaxationOptions { iterations: 5 };
-        relax_faces(&mut faces, &adjacency, 3, &options, &Watch::unwatched()).expect("nobody stops it");
+        relax_faces(&mut faces, &adjacency, 3, options, &Watch::unwatched()).expect("nobody stops it");
         for shares in faces {
             prop_assert!((shares.iter().sum::<f32>() - 1.0).abs() < 1e-4);
             prop_assert!(shares.iter().all(|share| (0.0..=1.0).contains(share)));

@@ -39,11 +39,8 @@ impl Fitted {
     /// Bayesian information criterion of the fit to `rows` rows (G. Schwarz 1978): less is better.
     pub(in crate::clustering) fn criterion(&self, rows: usize) -> f64 {
         let parameters = |component: &Component| {
-            let covariance = match &component.whitening {
-                Whitening::Diagonal(factors) => factors.len(),
-                Whitening::Full(factors) => factors.len(),
-            };
-            component.mean.len() + covariance + 1
+            let (Whitening::Diagonal(factors) | Whitening::Full(factors)) = &component.whitening;
+            component.mean.len() + factors.len() + 1
         };
         // One weight follows from the others.
         let free = self.mixture.components.iter().map(parameters).sum::<usize>().saturating_sub(1);
@@ -243,14 +240,12 @@ fn full_whitening(products: &[f64], weight: f64, mean: &[f64], guard: &[f64]) ->
     });
     let inverse = Cholesky::new(covariance)
         .and_then(|factor| factor.l().solve_lower_triangular(&DMatrix::identity(columns, columns)));
-    match inverse {
-        Some(inverse) => Whitening::Full(
-            (0..columns).flat_map(|row| (0..=row).map(move |column| (row, column))).map(|at| inverse[at]).collect(),
-        ),
-        None => {
-            let squares: Vec<f64> = (0..columns).map(|row| products[triangle(row + 1) - 1]).collect();
-            diagonal_whitening(&squares, weight, mean, guard)
-        }
+    if let Some(inverse) = inverse {
+        let places = (0..columns).flat_map(|row| (0..=row).map(move |column| (row, column)));
+        Whitening::Full(places.map(|place| inverse[place]).collect())
+    } else {
+        let squares: Vec<f64> = (0..columns).map(|row| products[triangle(row + 1) - 1]).collect();
+        diagonal_whitening(&squares, weight, mean, guard)
     }
 }
 
