@@ -13,7 +13,7 @@
 //!   median place are slivers, counted apart. *F1* of strict recall and precision is the figure to go by.
 //! - Cogency is compared with what the true labels imply, by length of the edges.
 //!
-//! Areas are those of the polygons, not of cells. [`Evaluator`] compares the geometry once; [`Evaluator::score`] then
+//! Areas are those of the polygons, not of cells. [`evaluate`] tells all; behind it, [`Evaluator`] compares the geometry once; [`Evaluator::score`] then
 //! reads any labels against it in milliseconds, and [`Evaluator::decision`] takes the one decision per category that a
 //! person who knows the truth would take.
 //!
@@ -37,7 +37,7 @@ pub use truth::{GroundTruth, TrueArea, TruePlace, TrueRegion};
 use crate::analysis::Analysis;
 use crate::arrangement::FaceId;
 use crate::geometry::{Point, line_angle_between};
-use crate::semantics::{Assignment, LabelId, RuleSet, SemanticMap};
+use crate::semantics::{self, Assignment, LabelId, RuleSet, SemanticMap};
 use crate::watch::{Stopped, Watch};
 use overlap::FaceAreas;
 
@@ -133,6 +133,71 @@ pub struct GeometryScores {
     pub orientation_error: Option<f64>,
     /// Orientations found that are far from every true direction; `None` where the truth names no region.
     pub false_orientations: Option<usize>,
+}
+
+/// How well an analysis fits the truth of its site, under labels of several origins.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Evaluation {
+    /// The decomposition, whatever the labels.
+    pub geometry: GeometryScores,
+    /// Under the suggested labels: what comes out without a human.
+    pub automatic: LabelScores,
+    /// Under the best decision per category: what a person can make of it.
+    pub decided: LabelScores,
+    /// That decision.
+    pub decision: Assignment,
+    /// Under labels that somebody assigned, where there are any.
+    pub assigned: Option<LabelScores>,
+}
+
+/// Why an analysis cannot be compared with a truth.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum EvaluationError {
+    /// It was asked to stop.
+    #[error(transparent)]
+    Stopped(#[from] Stopped),
+    /// The rule set does not speak of what the truth speaks of.
+    #[error(transparent)]
+    MissingLabel(#[from] MissingLabel),
+}
+
+/// Compares an analysis with the truth of its site: under the suggested labels, under one human decision per category,
+/// and under assigned labels where there are any.
+///
+/// # Errors
+/// [`EvaluationError`] when the watch says so, or when the rule set lacks a label.
+///
+/// # Panics
+/// Never: suggestions and decision name the analysis' own categories and labels of the rule set.
+pub fn evaluate(
+    analysis: &Analysis,
+    rule_set: &RuleSet,
+    assigned: Option<&SemanticMap>,
+    truth: &GroundTruth,
+    watch: &Watch<'_>,
+) -> Result<Evaluation, EvaluationError> {
+    let evaluator = Evaluator::new(analysis, truth, watch)?;
+    let score = |assignment: &Assignment| {
+        let semantic = semantics::apply(analysis, rule_set, assignment)
+            .expect("an assignment of the analysis' own categories to labels of the rule set applies");
+        evaluator.score(&semantic)
+    };
+    let decision = evaluator.decision(rule_set)?;
+    Ok(Evaluation {
+        geometry: *evaluator.geometry(),
+        automatic: score(&Assignment::suggested(&semantics::suggest(analysis, rule_set), rule_set))?,
+        decided: score(&decision)?,
+        decision,
+        assigned: assigned.map(|semantic| evaluator.score(semantic)).transpose()?,
+    })
+}
+
+/// Whether a rule set speaks of all that a truth speaks of.
+///
+/// # Errors
+/// [`MissingLabel`] names what it lacks.
+pub fn check_rule_set(rule_set: &RuleSet) -> Result<(), MissingLabel> {
+    Names::of(rule_set).map(|_| ())
 }
 
 /// One true place and the faces it lies in.

@@ -77,8 +77,8 @@ fn report(map: &DrawnMap, truth: &GroundTruth, semantic: &SemanticMap) -> String
         "precision {:.2} f1 {:.2}, {} false, {} slivers",
         scores.precision, scores.f1, scores.false_cells, scores.slivers
     ));
-    lines.push(format!("co {corridor:.2} ju {junction:.2} pc {pallet_cell:.2} drivable {drivable:.2}"));
-    lines.push(format!("cogency {:.2}", scores.cogency.unwrap_or(f64::NAN)));
+    lines.push(format!("co {corridor:.4} ju {junction:.4} pc {pallet_cell:.4} drivable {drivable:.4}"));
+    lines.push(format!("cogency {:.4}", scores.cogency.unwrap_or(f64::NAN)));
     lines.join("\n")
 }
 
@@ -93,12 +93,12 @@ fn what_is_drawn_after_the_truth_is_right() {
         &map,
         &truth(&map),
         &expect![[r#"
-        4 places: strict 1.00 lax 1.00 area 1.00 geometry 1.00 systematic 0.00
-        A 2 places: strict 1.00 lax 1.00 area 1.00 geometry 1.00 systematic 0.00
-        B 2 places: strict 1.00 lax 1.00 area 1.00 geometry 1.00 systematic 0.00
-        precision 1.00 f1 1.00, 0 false, 0 slivers
-        co 1.00 ju 1.00 pc 1.00 drivable 1.00
-        cogency 1.00"#]],
+            4 places: strict 1.00 lax 1.00 area 1.00 geometry 1.00 systematic 0.00
+            A 2 places: strict 1.00 lax 1.00 area 1.00 geometry 1.00 systematic 0.00
+            B 2 places: strict 1.00 lax 1.00 area 1.00 geometry 1.00 systematic 0.00
+            precision 1.00 f1 1.00, 0 false, 0 slivers
+            co 1.0000 ju 1.0000 pc 1.0000 drivable 1.0000
+            cogency 1.0000"#]],
     );
 }
 
@@ -126,12 +126,12 @@ fn places_cut_in_two_pass_by_area_and_fail_strictly() {
         &map,
         &truth(&map),
         &expect![[r#"
-        4 places: strict 0.50 lax 1.00 area 1.00 geometry 0.50 systematic 0.00
-        A 2 places: strict 0.00 lax 1.00 area 1.00 geometry 0.00 systematic 0.00
-        B 2 places: strict 1.00 lax 1.00 area 1.00 geometry 1.00 systematic 0.00
-        precision 0.33 f1 0.40, 4 false, 0 slivers
-        co 1.00 ju 1.00 pc 1.00 drivable 1.00
-        cogency 1.00"#]],
+            4 places: strict 0.50 lax 1.00 area 1.00 geometry 0.50 systematic 0.00
+            A 2 places: strict 0.00 lax 1.00 area 1.00 geometry 0.00 systematic 0.00
+            B 2 places: strict 1.00 lax 1.00 area 1.00 geometry 1.00 systematic 0.00
+            precision 0.33 f1 0.40, 4 false, 0 slivers
+            co 1.0000 ju 1.0000 pc 1.0000 drivable 1.0000
+            cogency 1.0000"#]],
     );
 }
 
@@ -162,13 +162,61 @@ fn empty_places_taken_for_corridor_are_systematic_and_unseen_ones_do_not_count()
         &map,
         &truth,
         &expect![[r#"
-        3 places: strict 0.67 lax 0.67 area 0.67 geometry 0.67 systematic 0.33
-        A 1 places: strict 1.00 lax 1.00 area 1.00 geometry 1.00 systematic 0.00
-        B 2 places: strict 0.50 lax 0.50 area 0.50 geometry 0.50 systematic 0.50
-        precision 1.00 f1 0.80, 0 false, 0 slivers
-        co 0.67 ju 1.00 pc 0.75 drivable 0.89
-        cogency 1.00"#]],
+            3 places: strict 0.67 lax 0.67 area 0.67 geometry 0.67 systematic 0.33
+            A 1 places: strict 1.00 lax 1.00 area 1.00 geometry 1.00 systematic 0.00
+            B 2 places: strict 0.50 lax 0.50 area 0.50 geometry 0.50 systematic 0.50
+            precision 1.00 f1 0.80, 0 false, 0 slivers
+            co 0.6667 ju 1.0000 pc 0.7500 drivable 0.8889
+            cogency 1.0000"#]],
     );
+}
+
+/// A polygon in metres of the grid frame, its outline first.
+fn polygon(rings: &[&[(f64, f64)]]) -> TrueArea {
+    let ring = |ring: &&[(f64, f64)]| ring.iter().map(|&(x, y)| Point::new(x, y)).collect();
+    TrueArea::new(vec![rings.iter().map(ring).collect()])
+}
+
+/// The figures that the reference implementation (on shapely 2.2) gives for the same faces and truth.
+#[test]
+fn truth_that_lies_askew_gives_the_figures_of_the_reference() {
+    let map = map();
+    let askew = |ring: &[(f64, f64)], region: &str, observed: f64| TruePlace {
+        area: polygon(&[ring]),
+        region: region.to_owned(),
+        occupied: true,
+        observed,
+    };
+    let truth = GroundTruth {
+        places: vec![
+            askew(&[(0.1, 2.05), (1.05, 2.15), (0.95, 3.1), (0.0, 3.0)], "A", 1.0),
+            askew(&[(1.4, 2.0), (2.3, 2.0), (2.3, 3.0), (1.4, 3.0)], "A", 1.0),
+            TruePlace { occupied: false, ..askew(&[(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)], "B", 0.6) },
+            askew(&[(1.2, -0.2), (2.9, -0.2), (2.9, 0.9), (1.2, 0.9)], "B", 0.9),
+        ],
+        corridors: vec![polygon(&[&[(-0.2, 0.9), (2.4, 1.1), (2.4, 2.0), (1.5, 1.5), (-0.2, 2.0)]])],
+        junctions: vec![polygon(&[
+            &[(2.0, 0.0), (4.0, 0.0), (4.0, 3.0), (2.5, 3.0)],
+            &[(3.0, 1.0), (3.5, 1.0), (3.5, 1.5), (3.0, 1.5)],
+        ])],
+        regions: Vec::new(),
+    };
+    // One face is labelled wrong.
+    let storage = [2, 5, 6].map(|category| (category, "pc".to_owned()));
+    let floor = [(0, "co".to_owned()), (1, "ju".to_owned())];
+    let assignment = Assignment {
+        assignment: storage.into_iter().chain(floor).collect(),
+        overrides: [(map.face_at(0, 5).0, "co".to_owned())].into(),
+    };
+    let semantic = apply(&map.analysis, &RuleSet::warehouse(), &assignment).unwrap();
+    expect![[r#"
+        4 places: strict 0.25 lax 0.50 area 0.50 geometry 0.50 systematic 0.25
+        A 2 places: strict 0.50 lax 1.00 area 1.00 geometry 0.50 systematic 0.00
+        B 2 places: strict 0.00 lax 0.00 area 0.00 geometry 0.50 systematic 0.50
+        precision 0.33 f1 0.29, 2 false, 0 slivers
+        co 0.4004 ju 0.8333 pc 0.3973 drivable 0.7313
+        cogency 0.7778"#]]
+    .assert_eq(&report(&map, &truth, &semantic));
 }
 
 #[test]
@@ -249,7 +297,7 @@ fn a_map_without_faces_finds_nothing() {
         A 2 places: strict 0.00 lax 0.00 area 0.00 geometry 0.00 systematic 0.00
         B 2 places: strict 0.00 lax 0.00 area 0.00 geometry 0.00 systematic 0.00
         precision 0.00 f1 0.00, 0 false, 0 slivers
-        co 0.00 ju 0.00 pc 0.00 drivable 0.00
+        co 0.0000 ju 0.0000 pc 0.0000 drivable 0.0000
         cogency NaN"#]]
     .assert_eq(&report);
 }
