@@ -5,6 +5,7 @@ use std::sync::Arc;
 use serde_json::json;
 use stillage_core::AnalysisOptions;
 use stillage_core::semantics::{Assignment, RuleSet};
+use stillage_core::spec::CategoryCount;
 use tempfile::TempDir;
 use uuid::Uuid;
 
@@ -170,7 +171,7 @@ async fn a_map_that_cannot_be_analysed_is_refused_at_once() {
     let broken = NewMap { source: MapSource::Message(b"{}".to_vec()), ..hall(20) };
     assert!(matches!(service.create_map(broken).await, Err(AppError::Ingest(_))));
     let mut options = hall(20);
-    options.options.categorization.k = 0;
+    options.options.categorization.k = CategoryCount::Fixed(0);
     let refused = service.create_map(options).await;
     assert!(
         matches!(&refused, Err(AppError::Invalid { fields, .. }) if fields[0].pointer == "/options/categorization/k"),

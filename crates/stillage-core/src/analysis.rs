@@ -6,16 +6,16 @@ use crate::adjacency::AdjacencyGraph;
 use crate::annotation::{self, CellFaces, EdgeAnnotation, FaceAnnotation};
 use crate::arrangement::{self, Subdivision};
 use crate::categorization::{self, CategoryMap};
-use crate::features;
 use crate::grid::{GridFrame, OccupancyGrid};
 use crate::orientation::{self, Orientations};
 use crate::radiography::{self, Line, Radiogram};
+use crate::relaxation::RelaxationReport;
 use crate::segmentation::{self, RegionMap};
 use crate::spec::{AnalysisOptions, AnalysisSpec};
 use crate::watch::{Stage, Stopped, Watch};
 
 /// Version of the algorithms: part of the address of a stored analysis, raised whenever results change.
-pub const ALGORITHM_VERSION: u32 = 1;
+pub const ALGORITHM_VERSION: u32 = 2;
 
 /// What the geometric level finds in a map. Immutable; addressed by grid, options and [`ALGORITHM_VERSION`].
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -46,6 +46,8 @@ pub struct Analysis {
     pub faces: Vec<FaceAnnotation>,
     /// What is known of each edge, by edge id.
     pub edges: Vec<EdgeAnnotation>,
+    /// What the relaxation of the faces did, where it was asked for.
+    pub face_relaxation: Option<RelaxationReport>,
     /// What the user should know about this result.
     pub diagnostics: Vec<Diagnostic>,
 }
@@ -75,11 +77,7 @@ impl Diagnostic {
 /// [`Stopped`] when the watch says so.
 pub fn analyze(grid: &OccupancyGrid, spec: &AnalysisSpec, watch: &Watch<'_>) -> Result<Analysis, Stopped> {
     let options = spec.options();
-    let features = watch.stage(Stage::Features, || features::extract(grid, &options.categorization, watch))?;
-    let categories = watch.stage(Stage::Categorization, || {
-        categorization::categorize(grid, &features, &options.categorization, options.seed, watch)
-    })?;
-    drop(features);
+    let categorization = categorization::categorize(grid, &options.categorization, options.seed, watch)?;
     let orientations =
         watch.stage(Stage::Orientation, || orientation::dominant_orientations(grid, &options.orientation, watch))?;
     let regions = watch.stage(Stage::Regions, || segmentation::segment(grid, &orientations, options, watch))?;
@@ -90,24 +88,25 @@ pub fn analyze(grid: &OccupancyGrid, spec: &AnalysisSpec, watch: &Watch<'_>) -> 
         arrangement::arrange(&segments, watch)
     })?;
     let graph = AdjacencyGraph::dual(&subdivision);
-    let (faces, edges) = watch.stage(Stage::Annotation, || {
+    let annotations = watch.stage(Stage::Annotation, || {
         let cells = CellFaces::rasterize(&subdivision, grid.width(), grid.height(), grid.resolution());
-        annotation::annotate(grid, &categories, &regions, &subdivision, &cells, &options.annotation, watch)
+        annotation::annotate(grid, &categorization, &regions, &subdivision, &cells, &options.annotation, watch)
     })?;
     let mut analysis = Analysis {
         frame: *grid.frame(),
         width: grid.width(),
         height: grid.height(),
         options: options.clone(),
-        categories,
+        categories: categorization.map,
         orientations,
         regions,
         radiograms,
         lines,
         subdivision,
         graph,
-        faces,
-        edges,
+        faces: annotations.faces,
+        edges: annotations.edges,
+        face_relaxation: annotations.relaxation,
         diagnostics: Vec::new(),
     };
     analysis.diagnostics = diagnose(grid, &analysis);

@@ -30,7 +30,9 @@ pub mod raycast;
 
 pub mod clustering;
 pub mod linalg;
+pub mod relaxation;
 pub mod signal;
+pub mod vectors;
 
 pub mod categorization;
 pub mod orientation;

@@ -5,6 +5,7 @@
 
 mod edges;
 mod faces;
+mod membership;
 mod outside;
 mod raster;
 mod shape;
@@ -17,8 +18,9 @@ use serde::{Deserialize, Serialize};
 pub use raster::CellFaces;
 
 use crate::arrangement::Subdivision;
-use crate::categorization::CategoryMap;
+use crate::categorization::Categorization;
 use crate::grid::OccupancyGrid;
+use crate::relaxation::RelaxationReport;
 use crate::segmentation::RegionMap;
 use crate::spec::{AnnotationMethod, AnnotationOptions};
 use crate::watch::{Stopped, Watch};
@@ -35,10 +37,14 @@ pub enum Evidence {
 /// What the cells say about a face.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct FaceAnnotation {
-    /// Category in force: a cluster, or `occupied`, `unknown` or `outside` of [`CategoryMap`].
+    /// Category in force: a cluster, or `occupied`, `unknown` or `outside` of
+    /// [`CategoryMap`](crate::categorization::CategoryMap).
     pub category: u8,
     /// Share of each cluster among the categorized cells of the face (sums to 1, or all 0 without such cells).
     pub category_shares: Vec<f32>,
+    /// Distribution over the clusters: the mean membership of its measured cells, or what relaxation made of it. Absent
+    /// where it is no other than [`FaceAnnotation::category_shares`]; empty for a face without categorized cells.
+    pub membership: Option<Vec<f32>>,
     /// Cells whose centre lies in the face.
     pub cells: usize,
     /// Share of its cells that are free.
@@ -57,10 +63,18 @@ pub struct FaceAnnotation {
     pub extent: [f64; 2],
     /// Region it lies in.
     pub region: u8,
-    /// Share of the winning category among the votes, 0 to 1.
+    /// Share of the category in force among the votes, or in the relaxed distribution, 0 to 1.
     pub confidence: f64,
     /// Whether cells show it.
     pub evidence: Evidence,
+}
+
+impl FaceAnnotation {
+    /// Distribution over the clusters: the membership where there is one, else the shares of the votes.
+    #[must_use]
+    pub fn distribution(&self) -> &[f32] {
+        self.membership.as_ref().filter(|membership| !membership.is_empty()).unwrap_or(&self.category_shares)
+    }
 }
 
 /// What the cells say about an edge.
@@ -76,22 +90,39 @@ pub struct EdgeAnnotation {
     pub confidence: f64,
 }
 
+/// What the cells say about all faces and edges.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Annotations {
+    /// By face; entry 0, the unbounded face, is empty.
+    pub faces: Vec<FaceAnnotation>,
+    /// By edge.
+    pub edges: Vec<EdgeAnnotation>,
+    /// What the relaxation of the faces did, where it was asked for.
+    pub relaxation: Option<RelaxationReport>,
+}
+
 /// Votes the categories into the faces and measures faces and edges.
 ///
 /// # Errors
 /// [`Stopped`] when the watch says so.
 pub fn annotate(
     grid: &OccupancyGrid,
-    categories: &CategoryMap,
+    categorization: &Categorization,
     regions: &RegionMap,
     subdivision: &Subdivision,
     cells: &CellFaces,
     options: &AnnotationOptions,
     watch: &Watch<'_>,
-) -> Result<(Vec<FaceAnnotation>, Vec<EdgeAnnotation>), Stopped> {
+) -> Result<Annotations, Stopped> {
     let AnnotationMethod::Vote = options.method;
+    let categories = &categorization.map;
     let mut faces = faces::annotate_faces(grid, categories, regions, subdivision, cells, watch)?;
+    if let Some(memberships) = &categorization.memberships {
+        membership::average(&mut faces, cells, memberships, watch)?;
+    }
+    let relax = |relaxation| membership::relax(&mut faces, subdivision, categories.categories.len(), relaxation, watch);
+    let relaxation = options.relaxation.as_ref().map(relax).transpose()?;
     outside::mark_outside(&mut faces, subdivision, categories);
     let edges = edges::annotate_edges(grid, subdivision, options, watch)?;
-    Ok((faces, edges))
+    Ok(Annotations { faces, edges, relaxation })
 }

@@ -4,7 +4,8 @@ use crate::adjacency::AdjacencyGraph;
 use crate::analysis::Analysis;
 use crate::annotation::{self, CellFaces};
 use crate::arrangement::{self, EdgeSource, FaceId, SourceSegment};
-use crate::categorization::{Category, CategoryMap};
+use crate::categorization::{Categorization, Category, CategoryMap};
+use crate::clustering::FitReport;
 use crate::geometry::{OrientedBox, Point};
 use crate::grid::{Occupancy, OccupancyGrid};
 use crate::layout::{self, Location};
@@ -57,11 +58,12 @@ impl DrawnMap {
         let subdivision = arrangement::arrange(&segments, &Watch::unwatched()).unwrap();
         let graph = AdjacencyGraph::dual(&subdivision);
         let cells = CellFaces::rasterize(&subdivision, grid.width(), grid.height(), RESOLUTION);
-        let (categories, regions) = (categories(&grid, &letters), one_region(&grid));
+        let regions = one_region(&grid);
+        let categorization = Categorization { map: categories(&grid, &letters), memberships: None };
         let options = AnalysisOptions::default();
-        let (faces, edges) = annotation::annotate(
+        let annotations = annotation::annotate(
             &grid,
-            &categories,
+            &categorization,
             &regions,
             &subdivision,
             &cells,
@@ -74,15 +76,16 @@ impl DrawnMap {
             width: grid.width(),
             height: grid.height(),
             options,
-            categories,
+            categories: categorization.map,
             orientations: Orientations::default(),
             regions,
             radiograms: Vec::new(),
             lines: Vec::new(),
             subdivision,
             graph,
-            faces,
-            edges,
+            faces: annotations.faces,
+            edges: annotations.edges,
+            face_relaxation: None,
             diagnostics: Vec::new(),
         };
         Self { grid, analysis, cells, letters }
@@ -174,7 +177,7 @@ fn categories(grid: &OccupancyGrid, letters: &[u8]) -> CategoryMap {
     for &cell in cells.iter().filter(|&&cell| cell != CategoryMap::NONE) {
         categories[usize::from(cell)].cells += 1;
     }
-    CategoryMap { cells, categories, feature_names: Vec::new() }
+    CategoryMap { cells, categories, feature_names: Vec::new(), fit: FitReport::default(), relaxation: None }
 }
 
 fn one_region(grid: &OccupancyGrid) -> RegionMap {
