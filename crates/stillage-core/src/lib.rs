@@ -13,6 +13,8 @@
 //!                                                                  layout, routing ──┘    human level: [`semantics::apply`]
 //! ```
 //!
+//! Where the truth of a site is known, [`evaluation`] says how well both levels fit it.
+//!
 //! Nothing here touches a file, a socket, a clock or a thread pool of its own: parallel work runs on the rayon pool
 //! of the caller. The same grid and spec give the same [`Analysis`] on any number of threads.
 //!
@@ -51,6 +53,8 @@ pub mod semantics;
 
 pub mod layout;
 pub mod routing;
+
+pub mod evaluation;
 
 pub mod spec;
 pub mod watch;
