@@ -43,7 +43,11 @@ impl Sample {
         let progress = Progress::new(Stage::Features, drawn.len(), FeatureSource::PREPARATION_SHARE, watch);
         let measured: Result<Vec<CellFeatures>, Stopped> = drawn
             .par_iter()
-            .map_init(Workspace::default, |workspace, &part| progress.after(source.part(part, workspace, watch)?))
+            .map_init(Workspace::default, |workspace, &part| {
+                let features = source.part(part, workspace, watch)?;
+                progress.count_one();
+                Ok(features)
+            })
             .collect();
         let mut sample = Self { parts: (0..source.parts()).map(|_| None).collect(), rows: Vec::new() };
         for (part, features) in drawn.into_iter().zip(measured?) {
@@ -101,13 +105,14 @@ pub(super) fn assign_parts(
         .enumerate()
         .map_init(Workspace::default, |workspace, (part, kept)| {
             watch.check()?;
-            progress.after(match kept {
-                Some((cells, range)) => label(cells, &rows[range], model, is_graded),
-                None => {
-                    let CellFeatures { cells, values, .. } = source.part(part, workspace, watch)?;
-                    label(cells, &values, model, is_graded)
-                }
-            })
+            let labels = if let Some((cells, range)) = kept {
+                label(cells, &rows[range], model, is_graded)
+            } else {
+                let CellFeatures { cells, values, .. } = source.part(part, workspace, watch)?;
+                label(cells, &values, model, is_graded)
+            };
+            progress.count_one();
+            Ok(labels)
         })
         .collect()
 }
@@ -150,13 +155,12 @@ impl<'a> Progress<'a> {
         Self { stage, parts, before, done: AtomicUsize::new(0), watch }
     }
 
-    /// Counts one more part, and hands its result on.
-    fn after<T>(&self, result: T) -> Result<T, Stopped> {
+    /// Counts one more part.
+    fn count_one(&self) {
         let done = self.done.fetch_add(1, Ordering::Relaxed) + 1;
         // The end of a stage is told by the stage.
         let share = (done as f64 / self.parts as f64).min(0.999);
         self.watch.progress(self.stage, self.before + (1.0 - self.before) * share);
-        Ok(result)
     }
 }
 

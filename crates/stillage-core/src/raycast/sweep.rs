@@ -190,7 +190,7 @@ impl GridWalk {
             lines.cross(&inside, mask, row, &crossing);
             if let Some(start) = kept {
                 let start = start + phase * columns;
-                self.borders[start..start + columns].copy_from_slice(&lines.from(inside.start)[..columns]);
+                self.borders[start..start + columns].copy_from_slice(&lines.states_from(inside.start)[..columns]);
             }
         }
     }
@@ -221,13 +221,13 @@ impl Lines {
 
     /// The states of a line and of all after it.
     #[inline(always)]
-    pub(super) fn from(&self, number: isize) -> &[u16] {
+    pub(super) fn states_from(&self, number: isize) -> &[u16] {
         &self.states[(number - self.first) as usize..]
     }
 
     /// The states of a line and of all after it, to be set.
     #[inline(always)]
-    pub(super) fn from_mut(&mut self, number: isize) -> &mut [u16] {
+    pub(super) fn states_from_mut(&mut self, number: isize) -> &mut [u16] {
         &mut self.states[(number - self.first) as usize..]
     }
 
@@ -236,7 +236,7 @@ impl Lines {
     #[inline(always)]
     pub(super) fn cross(&mut self, numbers: &Range<isize>, mask: &Mask, row: usize, crossing: &RowCrossing) {
         let steps = numbers.len().div_ceil(LINES_PER_STEP);
-        let (states, _) = self.from_mut(numbers.start).as_chunks_mut::<LINES_PER_STEP>();
+        let (states, _) = self.states_from_mut(numbers.start).as_chunks_mut::<LINES_PER_STEP>();
         let (entered, _) = mask.from(row, numbers.start + crossing.entry).as_chunks::<LINES_PER_STEP>();
         let (states, entered) = (&mut states[..steps], &entered[..steps]);
         if crossing.entry == crossing.exit {

@@ -129,7 +129,7 @@ impl Window<'_> {
             let inside = numbers.start.max(-column)..numbers.end.min(columns as isize - column);
             let start = start + phase * columns;
             let states = &borders[start + (inside.start + column) as usize..start + (inside.end + column) as usize];
-            lines.from_mut(inside.start)[..states.len()].copy_from_slice(states);
+            lines.states_from_mut(inside.start)[..states.len()].copy_from_slice(states);
         }
     }
 
@@ -141,7 +141,8 @@ impl Window<'_> {
         let (phase, line) = self.direction.nearest_lines(row);
         let crossing = self.direction.crossing(phase, row);
         let number = self.columns.start + line;
-        let states: &[u16; TILE] = lines[phase].from(number).first_chunk().expect("lines are kept for a whole tile");
+        let states: &[u16; TILE] =
+            lines[phase].states_from(number).first_chunk().expect("lines are kept for a whole tile");
         let left: &[u16; TILE] =
             self.mask.from(row, number + crossing.exit).first_chunk().expect("the margin is wider than a tile");
         let border = crossing.border.saturating_sub(HALF_ROW);
