@@ -104,8 +104,8 @@ impl Sweep {
             .collect()
     }
 
-    /// Casts one beam from every measured cell of a tile into `plane` ([`PLANE_LENGTH`] numbers), in units of
-    /// [`Sweep::unit`]. Rows of the plane are [`PLANE_PITCH`] apart; they are the measured rows of the tile or, if
+    /// Casts one beam from every measured cell of a tile into `plane` ([`super::PLANE_LENGTH`] numbers), in units of
+    /// [`Sweep::unit`]. Rows of the plane are [`super::PLANE_PITCH`] apart; they are the measured rows of the tile or, if
     /// [`Sweep::is_transposed`], its measured columns. The numbers of cells that are not free mean nothing.
     #[inline(always)]
     pub fn cast(&self, tile: &Tile, beam: usize, scratch: &mut TileScratch, plane: &mut [u16]) {
