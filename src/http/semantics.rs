@@ -116,7 +116,7 @@ pub async fn categories(
             base.link("self", &format!("/v1/maps/{}/categories", path.map_id), JSON),
             base.link("related", &format!("/v1/maps/{}/semantics", path.map_id), JSON).titled("Labels in force"),
         ];
-        let categories = 0..context.analysis.categories.face_categories() as u8;
+        let categories = 0..context.analysis.face_categories.count() as u8;
         let categories = categories.map(|category| CategoryView::new(&context, category)).collect();
         Json(CategoryList { categories, rule_set: context.semantics.rule_set.clone(), links }).into_response()
     }))

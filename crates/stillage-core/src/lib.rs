@@ -31,9 +31,11 @@ pub mod linalg;
 pub mod signal;
 
 pub mod categorization;
+pub mod declutter;
 pub mod orientation;
 pub mod segmentation;
 
+pub mod decomposition;
 pub mod radiography;
 
 pub mod arrangement;

@@ -46,9 +46,18 @@ fn read(picture: &str) -> (OccupancyGrid, CategoryMap) {
 fn annotated(picture: &str, subdivision: &Subdivision) -> (Vec<FaceAnnotation>, Vec<EdgeAnnotation>) {
     let (grid, categories) = read(picture);
     let cells = CellFaces::rasterize(subdivision, grid.width(), grid.height(), grid.resolution());
-    let options = AnnotationOptions::default();
-    annotate(&grid, &categories, &one_region(&grid), subdivision, &cells, &options, &Watch::unwatched())
-        .expect("nobody stops it")
+    let options = AnnotationOptions { method: AnnotationMethod::Vote, ..AnnotationOptions::default() };
+    let subject = Subject {
+        grid: &grid,
+        categories: &categories,
+        regions: &one_region(&grid),
+        subdivision,
+        graph: &AdjacencyGraph::dual(subdivision),
+        cells: &cells,
+        plots: &[],
+    };
+    let (faces, edges, _) = annotate(&subject, &options, 1, &Watch::unwatched()).expect("nobody stops it");
+    (faces, edges)
 }
 
 fn picture_of(cells: &CellFaces, width: usize) -> String {

@@ -12,7 +12,7 @@ use crate::orientation::Orientations;
 use crate::routing::RoutingMap;
 use crate::segmentation::{Region, RegionMap};
 use crate::semantics::{Assignment, RuleSet, SemanticMap, apply};
-use crate::spec::AnalysisOptions;
+use crate::spec::{AnalysisOptions, AnnotationMethod};
 use crate::watch::Watch;
 
 /// Side of a cell, metres: coarse, so that a pallet place is four characters.
@@ -58,17 +58,19 @@ impl DrawnMap {
         let graph = AdjacencyGraph::dual(&subdivision);
         let cells = CellFaces::rasterize(&subdivision, grid.width(), grid.height(), RESOLUTION);
         let (categories, regions) = (categories(&grid, &letters), one_region(&grid));
-        let options = AnalysisOptions::default();
-        let (faces, edges) = annotation::annotate(
-            &grid,
-            &categories,
-            &regions,
-            &subdivision,
-            &cells,
-            &options.annotation,
-            &Watch::unwatched(),
-        )
-        .unwrap();
+        let mut options = AnalysisOptions::default();
+        options.annotation.method = AnnotationMethod::Vote;
+        let subject = annotation::Subject {
+            grid: &grid,
+            categories: &categories,
+            regions: &regions,
+            subdivision: &subdivision,
+            graph: &graph,
+            cells: &cells,
+            plots: &[],
+        };
+        let (faces, edges, face_categories) =
+            annotation::annotate(&subject, &options.annotation, options.seed, &Watch::unwatched()).unwrap();
         let analysis = Analysis {
             frame: *grid.frame(),
             width: grid.width(),
@@ -82,6 +84,7 @@ impl DrawnMap {
             subdivision,
             graph,
             faces,
+            face_categories,
             edges,
             diagnostics: Vec::new(),
         };
@@ -90,7 +93,7 @@ impl DrawnMap {
 
     /// Reads the letters as the labels they stand for; faces without free cells are pallet cells.
     pub fn semantic(&self, rule_set: &RuleSet) -> SemanticMap {
-        let storage = self.analysis.categories.occupied()..=self.analysis.categories.unknown();
+        let storage = self.analysis.face_categories.occupied()..=self.analysis.face_categories.unknown();
         let names = ["co", "ju", "pc", "of", "un"];
         let by_letter = names.iter().enumerate().map(|(category, id)| (category as u8, *id));
         let assignment = by_letter
