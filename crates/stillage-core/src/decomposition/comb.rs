@@ -4,7 +4,8 @@
 //! starts anew) and clear gaps (a passage through the row). Each border earns what the cells say for it, each place pays
 //! for its deviation from the pitch, slips and gaps pay a fee, and a gap earns by its length. The best sequence is found
 //! exactly: a segmental model in the manner of a comb filter with springs. What is not seen is bridged by the pitch, what
-//! is seen moves the borders.
+//! is seen moves the borders. A place with its goods on one side costs, whatever its borders earn: goods are not cut in
+//! two, and where goods end, a place ends.
 //!
 //! Source: the accuracy study behind this project for evidence and springs; slips and gaps are new. Cost: O(cells x
 //! widths) per row and pitch.
@@ -12,15 +13,18 @@
 use super::evidence::Evidence;
 
 /// How much narrower and wider than the pitch a place may be, metres: drift, and an upright now and then.
-const NARROWER_M: f64 = 0.08;
-const WIDER_M: f64 = 0.16;
+pub(super) const NARROWER_M: f64 = 0.08;
+pub(super) const WIDER_M: f64 = 0.16;
 /// Deviation from the pitch that costs 1, metres (accuracy study).
 const SPRING_M: f64 = 0.10;
+/// Cost of a place whose goods all stand on one side, and the unevenness that places have anyway.
+const UNEVEN_COST: f64 = 1.0;
+const USUAL_UNEVENNESS: f64 = 0.25;
 /// Cost of a place's width of ground beyond the first and last border (accuracy study).
 const LOOSE_END: f64 = 0.15;
 /// Shortest slip, metres, and its cost.
 const SLIP_M: f64 = 0.1;
-const SLIP_COST: f64 = 1.8;
+const SLIP_COST: f64 = 3.0;
 /// Shortest gap, metres, its cost, what a clear metre earns and what one that is not clear costs.
 const GAP_M: f64 = 1.2;
 const GAP_COST: f64 = 3.0;
@@ -60,8 +64,9 @@ struct Widths {
     gap: usize,
 }
 
-/// Cuts a row at a pitch; `cell` and `pitch` in metres.
-pub(super) fn cut(evidence: &Evidence, pitch: f64, cell: f64) -> Comb {
+/// Cuts a row at a pitch, metres.
+pub(super) fn cut(evidence: &Evidence, pitch: f64) -> Comb {
+    let cell = evidence.cell;
     let cells = |metres: f64| (metres / cell).round() as usize;
     let widths = Widths {
         pitch: pitch / cell,
@@ -76,14 +81,15 @@ pub(super) fn cut(evidence: &Evidence, pitch: f64, cell: f64) -> Comb {
             Some(*sum)
         }))
         .collect();
-    let (best, from) = forward(&evidence.border, &gain, &widths, SPRING_M / cell);
+    let (best, from) = forward(evidence, &gain, &widths, SPRING_M / cell);
     backward(&evidence.border, &gain, &widths, &best, &from)
 }
 
 /// Best score with a border at each cell, and the piece that leads there: its kind and start.
 type Step = (Tooth, usize);
 
-fn forward(border: &[f64], gain: &[f64], widths: &Widths, spring: f64) -> (Vec<f64>, Vec<Step>) {
+fn forward(evidence: &Evidence, gain: &[f64], widths: &Widths, spring: f64) -> (Vec<f64>, Vec<Step>) {
+    let border = &evidence.border;
     let mut best = vec![f64::NEG_INFINITY; border.len()];
     let mut from = vec![(Tooth::End, 0); border.len()];
     // The best border to start a gap from, with the gain up to there taken off.
@@ -103,19 +109,20 @@ fn forward(border: &[f64], gain: &[f64], widths: &Widths, spring: f64) -> (Vec<f
         let mut candidates = [(f64::NEG_INFINITY, 0, Tooth::Place); 2];
         for width in widths.narrowest..=widths.widest.min(at) {
             let stretch = (width as f64 - widths.pitch) / spring;
-            let score = best_at(&best, at - width) - stretch * stretch;
+            let uneven = UNEVEN_COST * (evidence.unevenness(at - width, width) - USUAL_UNEVENNESS);
+            let score = best[at - width] - stretch * stretch - uneven;
             if score > candidates[0].0 {
                 candidates[0] = (score, at - width, Tooth::Place);
             }
         }
         for width in widths.slip..widths.narrowest.min(at + 1) {
-            let score = best_at(&best, at - width) - SLIP_COST;
+            let score = best[at - width] - SLIP_COST;
             if score > candidates[1].0 {
                 candidates[1] = (score, at - width, Tooth::Slip);
             }
         }
         if let Some(start) = at.checked_sub(widths.gap) {
-            let score = best_at(&best, start) - gain[start];
+            let score = best[start] - gain[start];
             if score > gap_score {
                 (gap_score, gap_start) = (score, start);
             }
@@ -131,10 +138,6 @@ fn forward(border: &[f64], gain: &[f64], widths: &Widths, spring: f64) -> (Vec<f
         }
     }
     (best, from)
-}
-
-fn best_at(best: &[f64], at: usize) -> f64 {
-    best[at]
 }
 
 fn backward(border: &[f64], gain: &[f64], widths: &Widths, best: &[f64], from: &[Step]) -> Comb {

@@ -30,6 +30,16 @@ const GAP_LIMITS: [f64; 2] = [-2.5, 1.5];
 /// Weights of gaps and posts (accuracy study).
 const GAP_WEIGHT: f64 = 0.5;
 const POST_WEIGHT: f64 = 1.5;
+/// Smoothing of content before its two halves are compared, metres: goods stand askew by that much.
+const MIRROR_SIGMA_M: f64 = 0.06;
+/// Width of a place in which the usual content is counted, metres.
+const USUAL_PLACE_M: f64 = 1.2;
+/// Content below which a place holds nothing, cells.
+const LEAST_CONTENT: f64 = 0.5;
+/// Window of the mean that is taken off before a row is compared with itself, metres: two places.
+const DETREND_WINDOW_M: f64 = 2.45;
+/// Smoothing of content before a row is compared with itself, metres.
+const REPEAT_SIGMA_M: f64 = 0.04;
 /// Free share of a column of cells that is clear.
 const CLEAR_SHARE: f64 = 0.9;
 
@@ -41,14 +51,18 @@ pub(super) struct Evidence {
     /// Nothing stands here, in the whole depth.
     pub is_clear: Vec<bool>,
     /// Share of the depth that is occupied or unknown.
-    pub content: Vec<f64>,
-    /// Share of the depth that is occupied.
-    pub occupied: Vec<f64>,
+    content: Vec<f64>,
+    /// How far the content of a place differs from its mirror image: by first cell, then by width from `least_width`.
+    mirror: Vec<f32>,
+    least_width: usize,
+    widths: usize,
+    /// Side of a cell, metres.
+    pub cell: f64,
 }
 
 impl Evidence {
-    /// Reads a row; `cell` is the side of its cells, metres.
-    pub(super) fn of(row: &Patch, cell: f64) -> Self {
+    /// Reads a row; `cell` is the side of its cells and `widths` the range of places that will be asked about, metres.
+    pub(super) fn of(row: &Patch, cell: f64, widths: [f64; 2]) -> Self {
         let height = row.height;
         let face = ((FACE_M / cell).round() as usize).max(1);
         let rim = ((height as f64 * RIM_SHARE).round() as usize).max(face + 1);
@@ -96,8 +110,58 @@ impl Evidence {
         let all_occupied = share(0..height, super::frame::Cell::is_occupied);
         let is_clear =
             free.iter().zip(&all_occupied).map(|(free, occupied)| *occupied == 0.0 && *free >= CLEAR_SHARE).collect();
-        Self { border, is_clear, content, occupied: all_occupied }
+        let least_width = (widths[0] / cell).floor().max(1.0) as usize;
+        let widths = ((widths[1] / cell).ceil() as usize).saturating_sub(least_width) + 1;
+        let mirror = mirror_differences(&content, least_width, widths, cell);
+        Self { border, is_clear, content, mirror, least_width, widths, cell }
     }
+
+    /// Number of cells along the row.
+    pub(super) fn len(&self) -> usize {
+        self.border.len()
+    }
+
+    /// How far the content of a place differs from its mirror image: 0 for even goods and for none, 1 where all the
+    /// goods of a place stand on one side. Goods that are cut in two are uneven, whatever they are.
+    pub(super) fn unevenness(&self, start: usize, width: usize) -> f64 {
+        let at = width.saturating_sub(self.least_width).min(self.widths.saturating_sub(1));
+        self.mirror.get(start * self.widths + at).copied().map_or(0.0, f64::from)
+    }
+
+    /// Products of the content with itself at every lag up to `most` cells, and what they would be for a perfect repeat.
+    pub(super) fn repeats(&self, most: usize) -> (Vec<f64>, Vec<f64>) {
+        let smooth = gaussian(&self.content, REPEAT_SIGMA_M / self.cell);
+        let mean = mean_filter(&smooth, DETREND_WINDOW_M / self.cell);
+        let values: Vec<f64> = smooth.iter().zip(&mean).map(|(value, mean)| value - mean).collect();
+        (0..=most)
+            .map(|lag| {
+                let (Some(ahead), Some(behind)) = (values.get(lag..), values.get(..values.len().saturating_sub(lag)))
+                else {
+                    return (0.0, 0.0);
+                };
+                let product: f64 = ahead.iter().zip(behind).map(|(a, b)| a * b).sum();
+                let squares: f64 = ahead.iter().zip(behind).map(|(a, b)| f64::midpoint(a * a, b * b)).sum();
+                (product, squares)
+            })
+            .unzip()
+    }
+}
+
+/// See [`Evidence::unevenness`].
+fn mirror_differences(content: &[f64], least_width: usize, widths: usize, cell: f64) -> Vec<f32> {
+    let smooth: Vec<f32> = gaussian(content, MIRROR_SIGMA_M / cell).into_iter().map(|value| value as f32).collect();
+    let mean = content.iter().sum::<f64>() / content.len().max(1) as f64;
+    let usual = (mean * USUAL_PLACE_M / cell).max(LEAST_CONTENT) as f32;
+    let mut differences = vec![0.0; content.len() * widths];
+    for (start, row) in differences.chunks_exact_mut(widths.max(1)).enumerate() {
+        for (width, difference) in (least_width..).zip(row) {
+            let Some(place) = smooth.get(start..start + width) else { break };
+            let (left, right) = place.split_at(width / 2);
+            let sum: f32 = left.iter().zip(right.iter().rev()).map(|(a, b)| (a - b).abs()).sum();
+            *difference = sum / usual;
+        }
+    }
+    differences
 }
 
 /// Gaussian mean, the ends continued; `sigma` in cells.

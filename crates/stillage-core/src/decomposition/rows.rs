@@ -60,6 +60,7 @@ pub(super) fn lay_out(
 ) -> Result<Vec<Parcel>, Stopped> {
     let mut parcels = Vec::new();
     let depth = usual_depth(frame, blocks, hints);
+    let widths = [hints.pitch[0] - comb::NARROWER_M, hints.pitch[1] + comb::WIDER_M];
     let mut rows = Vec::new();
     for block in blocks {
         watch.check()?;
@@ -72,7 +73,7 @@ pub(super) fn lay_out(
                 let (layers, rests) = layers(frame, block, axis, depth);
                 for layer in layers {
                     let rect = block.rect.with(across, layer);
-                    let evidence = Evidence::of(&frame.patch(&rect, axis), frame.cell);
+                    let evidence = Evidence::of(&frame.patch(&rect, axis), frame.cell, widths);
                     rows.push(Row { rect, axis, evidence });
                 }
                 for rest in rests {
@@ -83,11 +84,11 @@ pub(super) fn lay_out(
     }
     watch.check()?;
     let all: Vec<&Evidence> = rows.iter().map(|row| &row.evidence).collect();
-    let pooled = PitchScores::of(&all, hints.pitch, frame.cell);
+    let pooled = PitchScores::of(&all, hints.pitch);
     let Some((pitch, _)) = pooled.best() else { return Ok(parcels) };
     for row in &rows {
         watch.check()?;
-        let own = PitchScores::of(&[&row.evidence], hints.pitch, frame.cell);
+        let own = PitchScores::of(&[&row.evidence], hints.pitch);
         let own_best = own.best().filter(|&(_, score)| score > own.at(pitch) + OWN_PITCH_GAIN);
         let pitch = own_best.map_or(pitch, |(pitch, _)| pitch);
         comb_row(frame, row, pitch, &mut parcels);
@@ -190,7 +191,7 @@ fn one_sided(
 
 /// Cuts a row into parcels.
 fn comb_row(frame: &Frame, row: &Row, pitch: f64, parcels: &mut Vec<Parcel>) {
-    let comb = comb::cut(&row.evidence, pitch, frame.cell);
+    let comb = comb::cut(&row.evidence, pitch);
     let along = row.rect.range(row.axis).clone();
     let mut pieces: Vec<(Range<usize>, PlotKind)> = Vec::new();
     let mut start = 0;
