@@ -128,6 +128,8 @@ pub struct RegionOptions {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub enum RegionMethod {
+    /// By direction: radiogram energy of the dominant directions around each tile.
+    Energy,
     /// The whole map is one region.
     Single,
     /// Gabor texture (5 frequencies, 8 orientations), PCA, k-means.
@@ -233,7 +235,7 @@ impl Default for OrientationOptions {
 impl Default for RegionOptions {
     fn default() -> Self {
         Self {
-            method: RegionMethod::Gabor,
+            method: RegionMethod::Energy,
             count: None,
             max_count: 4,
             wavelengths_m: [1.2, 9.6],

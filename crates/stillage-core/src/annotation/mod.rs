@@ -148,7 +148,7 @@ pub fn annotate(
 ) -> Result<(Vec<FaceAnnotation>, Vec<EdgeAnnotation>, FaceCategories), Stopped> {
     let Subject { grid, categories, regions, subdivision, graph, cells, plots } = *subject;
     let mut faces = faces::annotate_faces(grid, categories, regions, subdivision, cells, watch)?;
-    let roles = roles::roles(subdivision, graph, plots);
+    let roles = roles::roles(subdivision, graph, &faces, plots);
     for (face, role) in faces.iter_mut().zip(&roles) {
         face.kind = role.plot.map(|plot| plot.kind);
         face.fronts = role.fronts;

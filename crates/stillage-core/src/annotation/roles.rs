@@ -5,6 +5,7 @@
 
 use std::collections::BTreeMap;
 
+use super::FaceAnnotation;
 use crate::adjacency::AdjacencyGraph;
 use crate::arrangement::{FaceId, Subdivision};
 use crate::decomposition::{Plot, PlotKind};
@@ -25,12 +26,17 @@ pub(super) struct Role {
 }
 
 /// The role of every face, by face id.
-pub(super) fn roles(subdivision: &Subdivision, graph: &AdjacencyGraph, plots: &[Plot]) -> Vec<Role> {
+pub(super) fn roles(
+    subdivision: &Subdivision,
+    graph: &AdjacencyGraph,
+    faces: &[FaceAnnotation],
+    plots: &[Plot],
+) -> Vec<Role> {
     let index = PlotIndex::new(plots);
     let mut roles: Vec<Role> = (0..subdivision.face_count())
         .map(|face| {
             let is_bounded = face != FaceId::OUTER.index();
-            let plot = is_bounded.then(|| index.at(graph.position(FaceId(face as u32)))).flatten();
+            let plot = is_bounded.then(|| index.at(graph.position(FaceId(face as u32)), faces[face].region)).flatten();
             Role { plot, fronts: 0.0 }
         })
         .collect();
@@ -74,10 +80,10 @@ impl<'a> PlotIndex<'a> {
         Self { plots, buckets }
     }
 
-    /// The first plot that holds a point.
-    fn at(&self, point: Point) -> Option<Plot> {
+    /// The first plot of a region that holds a point.
+    fn at(&self, point: Point, region: u8) -> Option<Plot> {
         let near = self.buckets.get(&bucket(point))?;
-        near.iter().map(|&number| self.plots[number as usize]).find(|plot| holds(plot, point))
+        near.iter().map(|&number| self.plots[number as usize]).find(|plot| plot.region == region && holds(plot, point))
     }
 }
 
