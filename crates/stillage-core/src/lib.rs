@@ -52,6 +52,7 @@ pub mod layout;
 pub mod routing;
 
 pub mod spec;
+mod walls;
 pub mod watch;
 
 #[cfg(test)]

@@ -90,6 +90,8 @@ pub enum Scaling {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields, rename_all = "camelCase")]
 pub struct OrientationOptions {
+    /// How orientations are found.
+    pub method: OrientationMethod,
     /// Standard deviation of the Gaussian derivative, metres (at least one cell).
     pub gradient_scale_m: f64,
     /// Bins of the histogram over half a turn.
@@ -102,6 +104,16 @@ pub struct OrientationOptions {
     pub min_separation_deg: f64,
     /// Whether each orientation is refined to the nearby maximum of radiogram energy.
     pub refine: bool,
+}
+
+/// How dominant orientations are found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub enum OrientationMethod {
+    /// Maxima of the radiogram energy, of all structure and of what is no wall.
+    Energy,
+    /// Gradient histogram, Gaussian mixture, wavelet peaks.
+    Paper,
 }
 
 /// Options of the region segmentation (paper, II-D).
@@ -222,6 +234,7 @@ impl Default for CategorizationOptions {
 impl Default for OrientationOptions {
     fn default() -> Self {
         Self {
+            method: OrientationMethod::Energy,
             gradient_scale_m: 0.1,
             bins: 900,
             max_components: 10,

@@ -250,6 +250,14 @@ impl EnergyScan {
         self.energies[step] - self.background[step]
     }
 
+    /// The contrasts over `[-pi/2, pi/2)`, negative ones as nothing, sum 1; empty without contrast.
+    #[must_use]
+    pub fn normalized_contrasts(&self) -> Vec<f64> {
+        let contrasts: Vec<f64> = (0..self.energies.len() as isize).map(|step| self.contrast(step).max(0.0)).collect();
+        let total: f64 = contrasts.iter().sum();
+        if total > 0.0 { contrasts.iter().map(|contrast| contrast / total).collect() } else { Vec::new() }
+    }
+
     /// Mean energy over all directions.
     #[must_use]
     pub fn mean_energy(&self) -> f64 {

@@ -16,10 +16,11 @@ use rayon::prelude::*;
 
 use super::tiles::{NONE, Tiles};
 use crate::geometry::{fold_half_turn, normal};
-use crate::grid::{Occupancy, OccupancyGrid};
+use crate::grid::OccupancyGrid;
 use crate::orientation::Orientations;
 use crate::orientation::energy::{OccupiedSample, pair_angle_between};
 use crate::spec::RegionOptions;
+use crate::walls;
 use crate::watch::{Stopped, Watch};
 
 /// Occupied cells of the whole map that are sampled.
@@ -33,8 +34,6 @@ const SIGMA_M: f64 = 3.0;
 const BIN_M: f64 = 0.05;
 /// Fewest cells around a tile that show a direction (accuracy study: 60 in a larger window).
 const LEAST_CELLS: usize = 30;
-/// Components longer than this are walls, metres: a row of two pallets is shorter.
-const WALL_M: f64 = 4.0;
 /// A tile without structure nearer than this has none of its own, metres.
 const OWN_REACH_M: f64 = 2.0;
 
@@ -58,7 +57,7 @@ pub(super) fn by_direction(
     if pairs.len() < 2 {
         return Ok(Directions { pairs, labels: tiles.uniform() });
     }
-    let is_wall = walls(grid, watch)?;
+    let is_wall = walls::find(grid, watch)?;
     let part = |column: usize, row: usize| Some(usize::from(is_wall[row * grid.width() + column]));
     let samples = OccupiedSample::of_parts(grid, 2, part, SAMPLE_CELLS, watch)?;
     let of_goods = energies(grid, tiles, &samples[0], &pairs, watch)?;
@@ -101,46 +100,6 @@ fn pairs(global: &Orientations) -> Vec<f64> {
     }
     pairs.truncate(usize::from(NONE) - 1);
     pairs
-}
-
-/// Which occupied cells are part of a long component.
-fn walls(grid: &OccupancyGrid, watch: &Watch<'_>) -> Result<Vec<bool>, Stopped> {
-    let (width, height) = (grid.width(), grid.height());
-    let mut is_seen = vec![false; width * height];
-    let mut is_wall = vec![false; width * height];
-    let long = WALL_M / grid.resolution();
-    let (mut open, mut members) = (Vec::new(), Vec::new());
-    for row in 0..height {
-        watch.check()?;
-        for column in 0..width {
-            if is_seen[row * width + column] || grid.cells()[row * width + column] != Occupancy::Occupied {
-                continue;
-            }
-            is_seen[row * width + column] = true;
-            open.push((column, row));
-            members.clear();
-            let (mut low, mut high) = ([column, row], [column, row]);
-            while let Some((column, row)) = open.pop() {
-                members.push(row * width + column);
-                low = [low[0].min(column), low[1].min(row)];
-                high = [high[0].max(column), high[1].max(row)];
-                for row in row.saturating_sub(1)..height.min(row + 2) {
-                    for column in column.saturating_sub(1)..width.min(column + 2) {
-                        let near = row * width + column;
-                        if !is_seen[near] && grid.cells()[near] == Occupancy::Occupied {
-                            is_seen[near] = true;
-                            open.push((column, row));
-                        }
-                    }
-                }
-            }
-            let size = [high[0] - low[0], high[1] - low[1]].map(|side| side as f64);
-            if size[0].hypot(size[1]) > long {
-                members.iter().for_each(|&cell| is_wall[cell] = true);
-            }
-        }
-    }
-    Ok(is_wall)
 }
 
 /// Energy of each pair around each tile; `None` where there is too little, or nothing near.
