@@ -27,9 +27,13 @@ const SPREAD_WINDOW_M: f64 = 2.5;
 const LEAST_SPREAD: f64 = 0.03;
 /// A gap says at most so much, content at most so much against it, deviations.
 const GAP_LIMITS: [f64; 2] = [-2.5, 1.5];
-/// Weights of gaps and posts (accuracy study).
+/// Weight of gaps (accuracy study).
 const GAP_WEIGHT: f64 = 0.5;
-const POST_WEIGHT: f64 = 1.5;
+/// Weight of posts where one sees through the goods, and where goods hide what is behind them: gaps between boxes are
+/// seen well and boxes have corners like posts, gaps between the blocks of pallets are everywhere.
+const POST_WEIGHTS: [f64; 2] = [2.5, 1.5];
+/// Unknown share of the middle from which on goods hide what is behind them.
+const HIDDEN_SHARE: f64 = 0.2;
 /// Smoothing of content before its two halves are compared, metres: goods stand askew by that much.
 const MIRROR_SIGMA_M: f64 = 0.06;
 /// Width of a place in which the usual content is counted, metres.
@@ -46,7 +50,7 @@ const CLEAR_SHARE: f64 = 0.9;
 /// Evidence along a row, one number per cell.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Evidence {
-    /// How much the cells speak for a border here: about 1 at a gap, below 0 within goods.
+    /// How much the cells speak for a border here: about 1 at a gap with posts, below 0 within goods.
     pub border: Vec<f64>,
     /// Nothing stands here, in the whole depth.
     pub is_clear: Vec<bool>,
@@ -100,12 +104,14 @@ impl Evidence {
         let squares: Vec<f64> = above.iter().map(|above| above * above).collect();
         let spread = mean_filter(&squares, SPREAD_WINDOW_M / cell);
         let mean_posts = mean_filter(&posts, MEAN_WINDOW_M / cell);
-        let border = (0..row.width)
-            .map(|x| {
-                let gap = (-above[x] / (spread[x].max(0.0).sqrt() + LEAST_SPREAD)).clamp(GAP_LIMITS[0], GAP_LIMITS[1]);
-                GAP_WEIGHT * gap + POST_WEIGHT * (posts[x] - mean_posts[x])
-            })
-            .collect();
+        let gap = |x: usize| {
+            let deviations = -above[x] / (spread[x].max(0.0).sqrt() + LEAST_SPREAD);
+            GAP_WEIGHT * deviations.clamp(GAP_LIMITS[0], GAP_LIMITS[1])
+        };
+        let hidden = unknown.iter().sum::<f64>() / row.width.max(1) as f64;
+        let [bare, covered] = POST_WEIGHTS;
+        let post_weight = bare + (covered - bare) * (hidden / HIDDEN_SHARE).min(1.0);
+        let border = (0..row.width).map(|x| gap(x) + post_weight * (posts[x] - mean_posts[x])).collect();
         let free = share(0..height, super::frame::Cell::is_free);
         let all_occupied = share(0..height, super::frame::Cell::is_occupied);
         let is_clear =

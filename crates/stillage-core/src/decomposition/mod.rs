@@ -13,6 +13,7 @@
 
 mod blocks;
 mod comb;
+mod depth;
 mod drivable;
 mod evidence;
 mod frame;
