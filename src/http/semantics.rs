@@ -125,8 +125,10 @@ pub async fn categories(
 impl CategoryView {
     fn new(context: &MapContext, id: u8) -> Self {
         let (analysis, rules) = (&context.analysis, &context.semantic.rule_set);
-        let map = &analysis.categories;
-        let cluster = map.categories.get(usize::from(id));
+        let (map, kinds) = (&analysis.categories, &analysis.face_categories);
+        // Where faces are clustered, a category has no cells of its own.
+        let votes = analysis.options.annotation.method == AnnotationMethod::Vote;
+        let cluster = map.categories.get(usize::from(id)).filter(|_| votes);
         let faces = || analysis.faces.iter().skip(1).filter(|face| face.category == id);
         let cells = cluster.map_or_else(|| faces().map(|face| face.cells).sum(), |cluster| cluster.cells);
         let names = map.feature_names.iter();
@@ -137,10 +139,10 @@ impl CategoryView {
         Self {
             id,
             kind: match cluster {
-                Some(_) => CategoryKind::Cluster,
-                None if id == map.occupied() => CategoryKind::Occupied,
-                None if id == map.unknown() => CategoryKind::Unknown,
-                None => CategoryKind::Outside,
+                _ if usize::from(id) < kinds.clusters => CategoryKind::Cluster,
+                _ if id == kinds.occupied() => CategoryKind::Occupied,
+                _ if id == kinds.unknown() => CategoryKind::Unknown,
+                _ => CategoryKind::Outside,
             },
             cells,
             area_m2: cells as f64 * analysis.frame.resolution * analysis.frame.resolution,

@@ -19,9 +19,12 @@ use crate::watch::{Stopped, Watch};
 pub(super) const DEPTHS_M: [f64; 2] = [0.8, 1.45];
 /// Widths of places that occur, metres.
 pub(super) const PITCHES_M: [f64; 2] = [0.8, 1.6];
-/// Rows that score less at their best pitch are not periodic and stay whole. Office floors reach 0.15 (0.08 but for one),
-/// generated warehouses of every difficulty have 0.17 and more, usually 0.3 to 0.9.
-const PERIODIC_SCORE: f64 = 0.16;
+/// Rows that score less at their best pitch are not periodic and stay whole; the fewer rows, the more chance has a say.
+/// Office floors score up to 0.06, 0.08 with 8 rows and 0.15 with one; warehouses 0.3 to 0.9, the hardest generated ones,
+/// each row with its own pitch and phase, 0.07 over 14 rows and more.
+const PERIODIC_SCORE: f64 = 0.065;
+const PERIODIC_SCORE_OF_MANY: f64 = 0.045;
+const PERIODIC_SCORE_PER_ROW: f64 = 0.35;
 /// A row's own pitch must score so much better than that of the block (accuracy study).
 const OWN_PITCH_GAIN: f64 = 0.1;
 /// Pieces narrower than this are given to their neighbour, metres.
@@ -93,7 +96,8 @@ fn comb_rows(
 ) -> Result<(), Stopped> {
     let all: Vec<&Evidence> = rows.iter().map(|row| &row.evidence).collect();
     let Some((pitch, score)) = PitchScores::of(&all, hints.pitch).best() else { return Ok(()) };
-    if score < PERIODIC_SCORE {
+    let least = PERIODIC_SCORE.max(PERIODIC_SCORE_OF_MANY + PERIODIC_SCORE_PER_ROW / rows.len().max(1) as f64);
+    if score < least {
         let whole = |row: &&Row| Parcel::new(row.rect.clone(), PlotKind::Rest, Some(row.axis));
         parcels.extend(rows.iter().map(whole));
         return Ok(());
