@@ -11,6 +11,7 @@ use jiff::Timestamp;
 use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
 use stillage_core::semantics::Assignment;
+use stillage_core::spec::AnnotationMethod;
 use utoipa::ToSchema;
 use uuid::Uuid;
 

@@ -22,8 +22,8 @@ const FIRM_CELLS: usize = 3;
 const FIRM_AREA: f64 = 0.006;
 /// Half the window in which company is counted, metres: the blocks of a pallet are 0.35 to 0.6 m apart.
 const COMPANY_REACH_M: f64 = 0.5;
-/// Occupied area that is company, square metres: two blocks of a pallet, or three posts.
-const COMPANY_AREA: f64 = 0.02;
+/// Occupied area that is company, square metres: two posts, or three blocks of a pallet of which little is seen.
+const COMPANY_AREA: f64 = 0.015;
 /// Deviations of a Poisson count that company must be above the speckle that is expected.
 const DEVIATIONS: f64 = 4.0;
 /// Side of the tiles in which the rate of speckle is measured, metres.
@@ -221,5 +221,52 @@ impl Company {
         let at = |column: usize, row: usize| self.sums[row * (self.width + 1) + column] as usize;
         let count = at(right, high) + at(left, low) - at(left, high) - at(right, low);
         (count.saturating_sub(component.len()), (right - left) * (high - low))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn removed(picture: &str, resolution: f64) -> (usize, usize) {
+        let grid = OccupancyGrid::from_ascii(picture, resolution);
+        let found = declutter(&grid, &Watch::unwatched()).expect("nobody stops it");
+        (found.removed.occupied.len(), found.removed.unknown.len())
+    }
+
+    #[test]
+    fn a_lone_hit_goes_and_a_wall_stays() {
+        let wall = "#".repeat(60);
+        let floor = format!("#{}#", ".".repeat(58));
+        let hit = format!("#{}#{}#", ".".repeat(29), ".".repeat(28));
+        let rows: Vec<&str> = (0..40)
+            .map(|row| match row {
+                0 | 39 => wall.as_str(),
+                20 => &hit,
+                _ => &floor,
+            })
+            .collect();
+        assert_eq!(removed(&rows.join("\n"), 0.05), (1, 0));
+    }
+
+    #[test]
+    fn the_blocks_of_a_pallet_keep_each_other_company() {
+        let row = "................##.....##.....##................\n";
+        let gap = "................................................\n";
+        let picture: String = (0..30).map(|line| if line % 7 == 3 && line < 20 { row } else { gap }).collect();
+        assert_eq!(removed(&picture, 0.05), (0, 0));
+    }
+
+    #[test]
+    fn a_small_hole_in_free_space_is_free() {
+        assert_eq!(removed("......\n..?...\n......", 0.05), (0, 1));
+        assert_eq!(removed("......\n.#?...\n......", 0.05), (1, 0));
+    }
+
+    #[test]
+    fn degenerate_grids_keep_their_cells() {
+        for picture in ["", "?", "..", "??\n??"] {
+            assert_eq!(removed(picture, 0.05), (0, 0), "{picture}");
+        }
     }
 }

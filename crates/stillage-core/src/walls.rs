@@ -65,7 +65,7 @@ mod tests {
             .......##
             .........
             ",
-            0.8,
+            1.0,
         );
         let walls = find(&grid, &Watch::unwatched()).expect("nobody stops it");
         assert_eq!(walls.iter().filter(|&&is_wall| is_wall).count(), 6);

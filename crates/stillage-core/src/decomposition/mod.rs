@@ -22,6 +22,9 @@ mod pitch;
 mod rows;
 mod site;
 
+#[cfg(test)]
+mod tests;
+
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 

@@ -25,6 +25,8 @@ pub(super) const PITCHES_M: [f64; 2] = [0.8, 1.6];
 const PERIODIC_SCORE: f64 = 0.065;
 const PERIODIC_SCORE_OF_MANY: f64 = 0.045;
 const PERIODIC_SCORE_PER_ROW: f64 = 0.35;
+/// Cells above this are too coarse for gaps and posts, metres.
+const COARSEST_CELL_M: f64 = 0.1;
 /// A row's own pitch must score so much better than that of the block (accuracy study).
 const OWN_PITCH_GAIN: f64 = 0.1;
 /// Pieces narrower than this are given to their neighbour, metres.
@@ -97,7 +99,7 @@ fn comb_rows(
     let all: Vec<&Evidence> = rows.iter().map(|row| &row.evidence).collect();
     let Some((pitch, score)) = PitchScores::of(&all, hints.pitch).best() else { return Ok(()) };
     let least = PERIODIC_SCORE.max(PERIODIC_SCORE_OF_MANY + PERIODIC_SCORE_PER_ROW / rows.len().max(1) as f64);
-    if score < least {
+    if score < least || frame.cell > COARSEST_CELL_M {
         let whole = |row: &&Row| Parcel::new(row.rect.clone(), PlotKind::Rest, Some(row.axis));
         parcels.extend(rows.iter().map(whole));
         return Ok(());

@@ -60,6 +60,9 @@ const ACROSS_DEG: f64 = 2.0;
 /// 5.7, a drawn floor plan of 60 cells 15, real maps 50 and more.
 const MIN_DEVIATIONS: f64 = 5.0;
 
+/// Fewest occupied cells that are no wall and have a say of their own: a dozen pallets.
+const LEAST_GOODS: usize = 500;
+
 /// The dominant orientations and the signals they were read from (for plots).
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Orientations {
@@ -92,19 +95,20 @@ pub fn dominant_orientations(
 /// them, so what is no wall is asked by itself as well.
 fn by_energy(grid: &OccupancyGrid, options: &OrientationOptions, watch: &Watch<'_>) -> Result<Orientations, Stopped> {
     let is_wall = walls::find(grid, watch)?;
-    let part = |column: usize, row: usize| Some(usize::from(is_wall[row * grid.width() + column]));
-    let [goods, walls]: [OccupiedSample; 2] = OccupiedSample::of_parts(grid, 2, part, energy::SAMPLE_CELLS, watch)?
-        .try_into()
-        .expect("there are as many samples as parts");
-    let mut all = goods.clone();
-    all.append(&walls);
+    let all = OccupiedSample::of_parts(grid, 1, |_, _| Some(0), energy::SAMPLE_CELLS, watch)?.swap_remove(0);
+    let no_wall = |column: usize, row: usize| (!is_wall[row * grid.width() + column]).then_some(0);
+    let goods = OccupiedSample::of_parts(grid, 1, no_wall, energy::SAMPLE_CELLS, watch)?.swap_remove(0);
     let histogram = EnergyScan::new(&all, watch)?.normalized_contrasts();
     let separation = options.min_separation_deg.to_radians();
     let mut angles = refine(&all, &[], options, watch)?;
-    for angle in refine(&goods, &[], options, watch)? {
+    let enough = goods.len() >= LEAST_GOODS;
+    for angle in if enough { refine(&goods, &[], options, watch)? } else { Vec::new() } {
         if angles.iter().all(|&other| line_angle_between(angle, other) >= separation) {
             angles.push(angle);
         }
+    }
+    if angles.is_empty() {
+        return Ok(Orientations::default());
     }
     angles.sort_by(f64::total_cmp);
     Ok(Orientations { angles, histogram, mixture: Vec::new() })

@@ -58,11 +58,10 @@ pub(super) fn by_direction(
         return Ok(Directions { pairs, labels: tiles.uniform() });
     }
     let is_wall = walls::find(grid, watch)?;
-    let part = |column: usize, row: usize| Some(usize::from(is_wall[row * grid.width() + column]));
-    let samples = OccupiedSample::of_parts(grid, 2, part, SAMPLE_CELLS, watch)?;
-    let of_goods = energies(grid, tiles, &samples[0], &pairs, watch)?;
-    let mut all = samples[0].clone();
-    all.append(&samples[1]);
+    let no_wall = |column: usize, row: usize| (!is_wall[row * grid.width() + column]).then_some(0);
+    let goods = OccupiedSample::of_parts(grid, 1, no_wall, SAMPLE_CELLS, watch)?.swap_remove(0);
+    let of_goods = energies(grid, tiles, &goods, &pairs, watch)?;
+    let all = OccupiedSample::of_parts(grid, 1, |_, _| Some(0), SAMPLE_CELLS, watch)?.swap_remove(0);
     let of_all = energies(grid, tiles, &all, &pairs, watch)?;
     let mut labels = vec![NONE; tiles.known.len()];
     for tile in tiles.known_tiles() {
