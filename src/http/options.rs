@@ -150,6 +150,8 @@ enum Scaling {
 #[schema(as = OrientationOptions)]
 #[serde(default, deny_unknown_fields, rename_all = "camelCase")]
 pub struct OrientationOptionsView {
+    /// `energy`: maxima of the radiogram energy. `paper`: gradient histogram, mixture, wavelet peaks.
+    method: OrientationMethod,
     /// Standard deviation of the Gaussian derivative, metres.
     #[schema(minimum = 0.001, maximum = 10)]
     gradient_scale_m: f64,
@@ -169,12 +171,21 @@ pub struct OrientationOptionsView {
     refine: bool,
 }
 
-/// Texture regions (paper, II-D).
+/// How dominant orientations are found.
+#[derive(Debug, Default, Serialize, ToSchema)]
+#[serde(rename_all = "camelCase")]
+enum OrientationMethod {
+    #[default]
+    Energy,
+    Paper,
+}
+
+/// Regions (paper, II-D).
 #[derive(Debug, Default, Serialize, ToSchema)]
 #[schema(as = RegionOptions)]
 #[serde(default, deny_unknown_fields, rename_all = "camelCase")]
 pub struct RegionOptionsView {
-    /// `single`: the whole map is one region. `gabor`: by texture.
+    /// `energy`: by the direction of structure. `gabor`: by texture. `single`: the whole map is one region.
     method: RegionMethod,
     /// Number of texture clusters; chosen automatically when absent.
     #[schema(minimum = 1, maximum = 16)]
@@ -201,6 +212,7 @@ pub struct RegionOptionsView {
 #[serde(rename_all = "camelCase")]
 enum RegionMethod {
     #[default]
+    Energy,
     Single,
     Gabor,
 }
@@ -210,6 +222,17 @@ enum RegionMethod {
 #[schema(as = DecompositionOptions)]
 #[serde(default, deny_unknown_fields, rename_all = "camelCase")]
 pub struct DecompositionOptionsView {
+    /// `adaptive`: aisles, rows, then cells by the evidence for their borders. `paper`: infinite lines.
+    method: DecompositionMethod,
+    /// Width of the narrowest vehicle that drives in the aisles, metres.
+    #[schema(minimum = 0.2, maximum = 20)]
+    vehicle_width_m: f64,
+    /// Hint: narrowest and widest place along its aisle, metres.
+    #[schema(min_items = 2, max_items = 2)]
+    pitch_m: Option<Vec<f64>>,
+    /// Hint: shallowest and deepest place, metres.
+    #[schema(min_items = 2, max_items = 2)]
+    depth_m: Option<Vec<f64>>,
     /// Width of the Hann window over a radiogram, metres.
     #[schema(minimum = 0, maximum = 10)]
     smoothing_m: f64,
@@ -221,13 +244,25 @@ pub struct DecompositionOptionsView {
     min_peak: f64,
 }
 
+/// How a region is cut into faces.
+#[derive(Debug, Default, Serialize, ToSchema)]
+#[serde(rename_all = "camelCase")]
+enum DecompositionMethod {
+    #[default]
+    Adaptive,
+    Paper,
+}
+
 /// Categories of faces (paper, II-B).
 #[derive(Debug, Default, Serialize, ToSchema)]
 #[schema(as = AnnotationOptions)]
 #[serde(default, deny_unknown_fields, rename_all = "camelCase")]
 pub struct AnnotationOptionsView {
-    /// `vote`: the category of most of its free cells.
+    /// `faces`: clusters of faces. `vote`: the category of most of its free cells.
     method: AnnotationMethod,
+    /// Number of categories of faces (with `faces`).
+    #[schema(minimum = 2, maximum = 64)]
+    categories: u32,
     /// Half width of the strip along an edge in which occupied cells support it, metres.
     #[schema(minimum = 0, maximum = 10)]
     support_width_m: f64,
@@ -240,6 +275,7 @@ pub struct AnnotationOptionsView {
 #[serde(rename_all = "camelCase")]
 enum AnnotationMethod {
     #[default]
+    Faces,
     Vote,
 }
 
@@ -275,8 +311,10 @@ mod tests {
             ("/categorization/k", vec!["auto"]),
             ("/categorization/clustering", vec!["kMeans", "gaussianMixture"]),
             ("/categorization/covariance", vec!["diagonal", "full"]),
-            ("/regions/method", vec!["single", "gabor"]),
-            ("/annotation/method", vec!["vote"]),
+            ("/orientation/method", vec!["energy", "paper"]),
+            ("/regions/method", vec!["energy", "single", "gabor"]),
+            ("/decomposition/method", vec!["adaptive", "paper"]),
+            ("/annotation/method", vec!["faces", "vote"]),
         ] {
             for choice in choices {
                 let mut options = serde_json::to_value(AnalysisOptions::default()).expect("can be written");

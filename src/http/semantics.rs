@@ -11,6 +11,7 @@ use jiff::Timestamp;
 use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
 use stillage_core::semantics::Assignment;
+use stillage_core::spec::AnnotationMethod;
 use utoipa::ToSchema;
 use uuid::Uuid;
 
@@ -116,7 +117,7 @@ pub async fn categories(
             base.link("self", &format!("/v1/maps/{}/categories", path.map_id), JSON),
             base.link("related", &format!("/v1/maps/{}/semantics", path.map_id), JSON).titled("Labels in force"),
         ];
-        let categories = 0..context.analysis.categories.face_categories() as u8;
+        let categories = 0..context.analysis.face_categories.count() as u8;
         let categories = categories.map(|category| CategoryView::new(&context, category)).collect();
         Json(CategoryList { categories, rule_set: context.semantics.rule_set.clone(), links }).into_response()
     }))
@@ -125,8 +126,10 @@ pub async fn categories(
 impl CategoryView {
     fn new(context: &MapContext, id: u8) -> Self {
         let (analysis, rules) = (&context.analysis, &context.semantic.rule_set);
-        let map = &analysis.categories;
-        let cluster = map.categories.get(usize::from(id));
+        let (map, kinds) = (&analysis.categories, &analysis.face_categories);
+        // Where faces are clustered, a category has no cells of its own.
+        let votes = analysis.options.annotation.method == AnnotationMethod::Vote;
+        let cluster = map.categories.get(usize::from(id)).filter(|_| votes);
         let faces = || analysis.faces.iter().skip(1).filter(|face| face.category == id);
         let cells = cluster.map_or_else(|| faces().map(|face| face.cells).sum(), |cluster| cluster.cells);
         let names = map.feature_names.iter();
@@ -137,10 +140,10 @@ impl CategoryView {
         Self {
             id,
             kind: match cluster {
-                Some(_) => CategoryKind::Cluster,
-                None if id == map.occupied() => CategoryKind::Occupied,
-                None if id == map.unknown() => CategoryKind::Unknown,
-                None => CategoryKind::Outside,
+                _ if usize::from(id) < kinds.clusters => CategoryKind::Cluster,
+                _ if id == kinds.occupied() => CategoryKind::Occupied,
+                _ if id == kinds.unknown() => CategoryKind::Unknown,
+                _ => CategoryKind::Outside,
             },
             cells,
             area_m2: cells as f64 * analysis.frame.resolution * analysis.frame.resolution,

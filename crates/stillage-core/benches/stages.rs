@@ -10,7 +10,7 @@ use std::sync::LazyLock;
 
 use divan::Bencher;
 use divan::counter::ItemsCount;
-use stillage_core::annotation::{self, CellFaces};
+use stillage_core::annotation::{self, CellFaces, Subject};
 use stillage_core::arrangement;
 use stillage_core::categorization::Categorization;
 use stillage_core::clustering::{self, FitOptions, Method, PlaceModel};
@@ -106,7 +106,16 @@ fn votes(bencher: Bencher<'_, '_>) {
     bencher.counter(cells()).bench(|| {
         let faces = CellFaces::rasterize(&analysis.subdivision, GRID.width(), GRID.height(), GRID.resolution());
         let watch = Watch::unwatched();
-        annotation::annotate(&GRID, &categorization, &analysis.regions, &analysis.subdivision, &faces, options, &watch)
+        let subject = Subject {
+            grid: &GRID,
+            categorization: &categorization,
+            regions: &analysis.regions,
+            subdivision: &analysis.subdivision,
+            graph: &analysis.graph,
+            cells: &faces,
+            plots: &[],
+        };
+        annotation::annotate(&subject, options, 1, &watch)
     });
 }
 

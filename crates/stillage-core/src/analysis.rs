@@ -3,15 +3,17 @@
 use serde::{Deserialize, Serialize};
 
 use crate::adjacency::AdjacencyGraph;
-use crate::annotation::{self, CellFaces, EdgeAnnotation, FaceAnnotation};
+use crate::annotation::{self, CellFaces, EdgeAnnotation, FaceAnnotation, FaceCategories};
 use crate::arrangement::{self, Subdivision};
 use crate::categorization::{self, CategoryMap};
+use crate::declutter;
+use crate::decomposition;
 use crate::grid::{GridFrame, OccupancyGrid};
 use crate::orientation::{self, Orientations};
 use crate::radiography::{self, Line, Radiogram};
 use crate::relaxation::RelaxationReport;
 use crate::segmentation::{self, RegionMap};
-use crate::spec::{AnalysisOptions, AnalysisSpec};
+use crate::spec::{AnalysisOptions, AnalysisSpec, DecompositionMethod};
 use crate::watch::{Stage, Stopped, Watch};
 
 /// Version of the algorithms: part of the address of a stored analysis, raised whenever results change.
@@ -44,6 +46,8 @@ pub struct Analysis {
     pub graph: AdjacencyGraph,
     /// What is known of each face, by face id (entry 0, the unbounded face, is empty).
     pub faces: Vec<FaceAnnotation>,
+    /// The categories that faces may have.
+    pub face_categories: FaceCategories,
     /// What is known of each edge, by edge id.
     pub edges: Vec<EdgeAnnotation>,
     /// What the relaxation of the faces did, where it was asked for.
@@ -77,12 +81,20 @@ impl Diagnostic {
 /// [`Stopped`] when the watch says so.
 pub fn analyze(grid: &OccupancyGrid, spec: &AnalysisSpec, watch: &Watch<'_>) -> Result<Analysis, Stopped> {
     let options = spec.options();
+    let declutter::Decluttered { grid: clean, .. } = declutter::declutter(grid, watch)?;
+    let grid = &clean;
     let categorization = categorization::categorize(grid, &options.categorization, options.seed, watch)?;
     let orientations =
         watch.stage(Stage::Orientation, || orientation::dominant_orientations(grid, &options.orientation, watch))?;
     let regions = watch.stage(Stage::Regions, || segmentation::segment(grid, &orientations, options, watch))?;
-    let (radiograms, lines) =
-        watch.stage(Stage::Radiography, || radiography::lines(grid, &regions, &options.decomposition, watch))?;
+    let (radiograms, lines, plots) = watch.stage(Stage::Radiography, || {
+        let (radiograms, lines) = radiography::lines(grid, &regions, &options.decomposition, watch)?;
+        if options.decomposition.method == DecompositionMethod::Paper {
+            return Ok((radiograms, lines, Vec::new()));
+        }
+        let found = decomposition::decompose(grid, &regions, &options.decomposition, watch)?;
+        Ok((radiograms, found.lines, found.plots))
+    })?;
     let subdivision = watch.stage(Stage::Arrangement, || {
         let segments = arrangement::source_segments(grid, &regions, &lines);
         arrangement::arrange(&segments, watch)
@@ -90,7 +102,16 @@ pub fn analyze(grid: &OccupancyGrid, spec: &AnalysisSpec, watch: &Watch<'_>) -> 
     let graph = AdjacencyGraph::dual(&subdivision);
     let annotations = watch.stage(Stage::Annotation, || {
         let cells = CellFaces::rasterize(&subdivision, grid.width(), grid.height(), grid.resolution());
-        annotation::annotate(grid, &categorization, &regions, &subdivision, &cells, &options.annotation, watch)
+        let subject = annotation::Subject {
+            grid,
+            categorization: &categorization,
+            regions: &regions,
+            subdivision: &subdivision,
+            graph: &graph,
+            cells: &cells,
+            plots: &plots,
+        };
+        annotation::annotate(&subject, &options.annotation, options.seed, watch)
     })?;
     let mut analysis = Analysis {
         frame: *grid.frame(),
@@ -105,6 +126,7 @@ pub fn analyze(grid: &OccupancyGrid, spec: &AnalysisSpec, watch: &Watch<'_>) -> 
         subdivision,
         graph,
         faces: annotations.faces,
+        face_categories: annotations.categories,
         edges: annotations.edges,
         face_relaxation: annotations.relaxation,
         diagnostics: Vec::new(),

@@ -35,9 +35,11 @@ pub mod signal;
 pub mod vectors;
 
 pub mod categorization;
+pub mod declutter;
 pub mod orientation;
 pub mod segmentation;
 
+pub mod decomposition;
 pub mod radiography;
 
 pub mod arrangement;
@@ -57,6 +59,7 @@ pub mod routing;
 pub mod evaluation;
 
 pub mod spec;
+mod walls;
 pub mod watch;
 
 #[cfg(test)]

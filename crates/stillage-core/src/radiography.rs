@@ -273,7 +273,8 @@ mod tests {
     }
 
     fn find(grid: &OccupancyGrid, regions: &RegionMap, smoothing_m: f64) -> (Vec<Radiogram>, Vec<Line>) {
-        let options = DecompositionOptions { smoothing_m, min_distance_m: 0.9, min_peak: 0.3 };
+        let options =
+            DecompositionOptions { smoothing_m, min_distance_m: 0.9, min_peak: 0.3, ..DecompositionOptions::default() };
         lines(grid, regions, &options, &Watch::unwatched()).unwrap()
     }
 

@@ -136,6 +136,8 @@ pub enum Scaling {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields, rename_all = "camelCase")]
 pub struct OrientationOptions {
+    /// How orientations are found.
+    pub method: OrientationMethod,
     /// Standard deviation of the Gaussian derivative, metres (at least one cell).
     pub gradient_scale_m: f64,
     /// Bins of the histogram over half a turn.
@@ -148,6 +150,16 @@ pub struct OrientationOptions {
     pub min_separation_deg: f64,
     /// Whether each orientation is refined to the nearby maximum of radiogram energy.
     pub refine: bool,
+}
+
+/// How dominant orientations are found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub enum OrientationMethod {
+    /// Maxima of the radiogram energy, of all structure and of what is no wall.
+    Energy,
+    /// Gradient histogram, Gaussian mixture, wavelet peaks.
+    Paper,
 }
 
 /// Options of the region segmentation (paper, II-D).
@@ -174,6 +186,8 @@ pub struct RegionOptions {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub enum RegionMethod {
+    /// By direction: radiogram energy of the dominant directions around each tile.
+    Energy,
     /// The whole map is one region.
     Single,
     /// Gabor texture (5 frequencies, 8 orientations), PCA, k-means.
@@ -184,6 +198,14 @@ pub enum RegionMethod {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields, rename_all = "camelCase")]
 pub struct DecompositionOptions {
+    /// How a region is cut into faces.
+    pub method: DecompositionMethod,
+    /// Width of the narrowest vehicle that drives in the aisles, metres. Decides what is drivable.
+    pub vehicle_width_m: f64,
+    /// Narrowest and widest place along its aisle, metres; a wide range when absent.
+    pub pitch_m: Option<[f64; 2]>,
+    /// Shallowest and deepest place, metres; a wide range when absent.
+    pub depth_m: Option<[f64; 2]>,
     /// Width of the Hann window over a radiogram, metres.
     pub smoothing_m: f64,
     /// Smallest distance between two parallel lines, metres.
@@ -192,12 +214,24 @@ pub struct DecompositionOptions {
     pub min_peak: f64,
 }
 
+/// How a region is cut into faces.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub enum DecompositionMethod {
+    /// Aisles first, then rows, then the cells of each row by the evidence for their borders.
+    Adaptive,
+    /// Infinite lines through the peaks of the radiograms.
+    Paper,
+}
+
 /// Options of the annotation of faces (paper, II-B).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields, rename_all = "camelCase")]
 pub struct AnnotationOptions {
     /// How a face gets its category.
     pub method: AnnotationMethod,
+    /// Number of categories of faces (with `faces`).
+    pub categories: usize,
     /// Half width of the strip along an edge in which occupied cells support it, metres.
     pub support_width_m: f64,
     /// Probabilistic relaxation of the faces over the adjacency graph; none when absent.
@@ -208,6 +242,8 @@ pub struct AnnotationOptions {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub enum AnnotationMethod {
+    /// Clusters of faces by occupancy, shape and position among their neighbours.
+    Faces,
     /// The category of most of its free cells; a face without free cells is `occupied` or `unknown`.
     Vote,
 }
@@ -307,6 +343,7 @@ impl Visitor<'_> for NumberOrAuto {
 impl Default for OrientationOptions {
     fn default() -> Self {
         Self {
+            method: OrientationMethod::Energy,
             gradient_scale_m: 0.1,
             bins: 900,
             max_components: 10,
@@ -320,7 +357,7 @@ impl Default for OrientationOptions {
 impl Default for RegionOptions {
     fn default() -> Self {
         Self {
-            method: RegionMethod::Gabor,
+            method: RegionMethod::Energy,
             count: None,
             max_count: 4,
             wavelengths_m: [1.2, 9.6],
@@ -333,13 +370,21 @@ impl Default for RegionOptions {
 
 impl Default for DecompositionOptions {
     fn default() -> Self {
-        Self { smoothing_m: 0.25, min_distance_m: 0.5, min_peak: 0.15 }
+        Self {
+            method: DecompositionMethod::Adaptive,
+            vehicle_width_m: 1.7,
+            pitch_m: None,
+            depth_m: None,
+            smoothing_m: 0.25,
+            min_distance_m: 0.5,
+            min_peak: 0.15,
+        }
     }
 }
 
 impl Default for AnnotationOptions {
     fn default() -> Self {
-        Self { method: AnnotationMethod::Vote, support_width_m: 0.1, relaxation: None }
+        Self { method: AnnotationMethod::Faces, categories: 16, support_width_m: 0.1, relaxation: None }
     }
 }
 
@@ -419,10 +464,14 @@ impl AnalysisOptions {
         check.number("/regions/minShare", regions.min_share, 0.0, 1.0);
 
         let decomposition = &self.decomposition;
+        check.number("/decomposition/vehicleWidthM", decomposition.vehicle_width_m, 0.2, 20.0);
+        check.range_if("/decomposition/pitchM", decomposition.pitch_m, 0.3, 10.0);
+        check.range_if("/decomposition/depthM", decomposition.depth_m, 0.3, 10.0);
         check.number("/decomposition/smoothingM", decomposition.smoothing_m, 0.0, 10.0);
         check.number("/decomposition/minDistanceM", decomposition.min_distance_m, 0.01, 100.0);
         check.number("/decomposition/minPeak", decomposition.min_peak, 0.0, 1.0);
 
+        check.whole("/annotation/categories", self.annotation.categories, 2, 64);
         check.number("/annotation/supportWidthM", self.annotation.support_width_m, 0.0, 10.0);
         if let Some(relaxation) = self.annotation.relaxation {
             check.whole("/annotation/relaxation/iterations", relaxation.iterations, 1, 100);
@@ -454,6 +503,14 @@ impl Check {
     fn share_if(&mut self, pointer: &'static str, value: Option<f64>) {
         if let Some(value) = value {
             self.number(pointer, value, 0.0, 1.0);
+        }
+    }
+
+    fn range_if(&mut self, pointer: &'static str, range: Option<[f64; 2]>, low: f64, high: f64) {
+        if let Some([least, most]) = range {
+            self.number(pointer, least, low, high);
+            self.number(pointer, most, low, high);
+            self.that(pointer, least <= most, "must be the least, then the greatest");
         }
     }
 

@@ -57,9 +57,10 @@ pub(super) fn average(
     Ok(())
 }
 
-/// The shares of the votes; empty where nobody voted.
+/// The shares of the categories; empty where there are none to share.
 fn voted(face: &FaceAnnotation) -> &[f32] {
-    if usize::from(face.category) < face.category_shares.len() && face.cells > 0 { &face.category_shares } else { &[] }
+    let has_shares = face.category_shares.iter().any(|&share| share > 0.0);
+    if usize::from(face.category) < face.category_shares.len() && has_shares { &face.category_shares } else { &[] }
 }
 
 /// Relaxes the faces that have categorized cells: each gets its distribution, category and confidence anew.

@@ -1,13 +1,15 @@
 //! Annotation: what the cells say about faces and edges (paper, II-B).
 //!
-//! [`CellFaces`] tells the face of each cell; [`annotate`] lets the cells of a face vote on its category and measures
-//! how far the map supports each edge.
+//! [`CellFaces`] tells the face of each cell; [`annotate`] measures faces and edges and gives each face its category: by
+//! clustering faces, or by the vote of their cells as in the paper.
 
 mod edges;
 mod faces;
+mod kinds;
 mod membership;
 mod outside;
 mod raster;
+mod roles;
 mod shape;
 
 #[cfg(test)]
@@ -17,8 +19,10 @@ use serde::{Deserialize, Serialize};
 
 pub use raster::CellFaces;
 
+use crate::adjacency::AdjacencyGraph;
 use crate::arrangement::Subdivision;
 use crate::categorization::Categorization;
+use crate::decomposition::{Plot, PlotKind};
 use crate::grid::OccupancyGrid;
 use crate::relaxation::RelaxationReport;
 use crate::segmentation::RegionMap;
@@ -63,7 +67,11 @@ pub struct FaceAnnotation {
     pub extent: [f64; 2],
     /// Region it lies in.
     pub region: u8,
-    /// Share of the category in force among the votes, or in the relaxed distribution, 0 to 1.
+    /// What it was cut out for; `None` where no plot of the decomposition lies.
+    pub kind: Option<PlotKind>,
+    /// Length of its border along the fronts and backs of places, metres.
+    pub fronts: f64,
+    /// Share of the category in force among the votes, or in the distribution of the face, 0 to 1.
     pub confidence: f64,
     /// Whether cells show it.
     pub evidence: Evidence,
@@ -95,34 +103,101 @@ pub struct EdgeAnnotation {
 pub struct Annotations {
     /// By face; entry 0, the unbounded face, is empty.
     pub faces: Vec<FaceAnnotation>,
+    /// The categories that faces may have.
+    pub categories: FaceCategories,
     /// By edge.
     pub edges: Vec<EdgeAnnotation>,
     /// What the relaxation of the faces did, where it was asked for.
     pub relaxation: Option<RelaxationReport>,
 }
 
-/// Votes the categories into the faces and measures faces and edges.
+/// The categories that faces may have: clusters, and three for faces that no cluster speaks for.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct FaceCategories {
+    /// Number of clusters, of cells where cells vote and of faces where faces are clustered.
+    pub clusters: usize,
+}
+
+impl FaceCategories {
+    /// Faces that hold no free cell but occupied ones.
+    #[must_use]
+    pub fn occupied(&self) -> u8 {
+        self.clusters as u8
+    }
+
+    /// Faces among known places that hold no known cell at all.
+    #[must_use]
+    pub fn unknown(&self) -> u8 {
+        self.clusters as u8 + 1
+    }
+
+    /// Unexplored faces that are joined with the ground outside the map.
+    #[must_use]
+    pub fn outside(&self) -> u8 {
+        self.clusters as u8 + 2
+    }
+
+    /// Number of categories a face may have.
+    #[must_use]
+    pub fn count(&self) -> usize {
+        self.clusters + 3
+    }
+}
+
+/// What is annotated.
+#[derive(Debug, Clone, Copy)]
+pub struct Subject<'a> {
+    /// The map.
+    pub grid: &'a OccupancyGrid,
+    /// Categories of its cells.
+    pub categorization: &'a Categorization,
+    /// Its regions.
+    pub regions: &'a RegionMap,
+    /// Its faces and edges.
+    pub subdivision: &'a Subdivision,
+    /// Their dual.
+    pub graph: &'a AdjacencyGraph,
+    /// The face of each cell.
+    pub cells: &'a CellFaces,
+    /// What the faces were cut out for.
+    pub plots: &'a [Plot],
+}
+
+/// Gives faces their categories and measures faces and edges.
 ///
 /// # Errors
 /// [`Stopped`] when the watch says so.
 pub fn annotate(
-    grid: &OccupancyGrid,
-    categorization: &Categorization,
-    regions: &RegionMap,
-    subdivision: &Subdivision,
-    cells: &CellFaces,
+    subject: &Subject<'_>,
     options: &AnnotationOptions,
+    seed: u64,
     watch: &Watch<'_>,
 ) -> Result<Annotations, Stopped> {
-    let AnnotationMethod::Vote = options.method;
+    let Subject { grid, categorization, regions, subdivision, graph, cells, plots } = *subject;
     let categories = &categorization.map;
     let mut faces = faces::annotate_faces(grid, categories, regions, subdivision, cells, watch)?;
-    if let Some(memberships) = &categorization.memberships {
-        membership::average(&mut faces, cells, memberships, watch)?;
+    let roles = roles::roles(subdivision, graph, &faces, plots);
+    for (face, role) in faces.iter_mut().zip(&roles) {
+        face.kind = role.plot.map(|plot| plot.kind);
+        face.fronts = role.fronts;
     }
-    let relax = |relaxation| membership::relax(&mut faces, subdivision, categories.categories.len(), relaxation, watch);
+    outside::mark_outside(&mut faces, subdivision, categories);
+    let kinds = match options.method {
+        AnnotationMethod::Vote => {
+            if let Some(memberships) = &categorization.memberships {
+                membership::average(&mut faces, cells, memberships, watch)?;
+            }
+            FaceCategories { clusters: categories.categories.len() }
+        }
+        AnnotationMethod::Faces => kinds::categorize(&mut faces, &roles, categories, options, seed, watch)?,
+    };
+    let relax = |relaxation| membership::relax(&mut faces, subdivision, kinds.clusters, relaxation, watch);
     let relaxation = options.relaxation.map(relax).transpose()?;
     outside::mark_outside(&mut faces, subdivision, categories);
+    let kinds = match options.method {
+        AnnotationMethod::Vote => FaceCategories { clusters: categories.categories.len() },
+        AnnotationMethod::Faces => kinds::categorize(&mut faces, &roles, categories, options, seed, watch)?,
+    };
     let edges = edges::annotate_edges(grid, subdivision, options, watch)?;
-    Ok(Annotations { faces, edges, relaxation })
+    Ok(Annotations { faces, categories: kinds, edges, relaxation })
 }

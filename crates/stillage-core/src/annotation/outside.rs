@@ -8,6 +8,7 @@
 use super::FaceAnnotation;
 use crate::arrangement::{FaceId, Subdivision};
 use crate::categorization::CategoryMap;
+use crate::decomposition::PlotKind;
 use crate::segmentation::RegionMap;
 
 /// A face is unexplored when most of its cells are unknown.
@@ -18,7 +19,8 @@ pub(super) fn mark_outside(faces: &mut [FaceAnnotation], subdivision: &Subdivisi
     let is_candidate = |face: &FaceAnnotation| {
         // A face too thin for a cell says nothing of the ground.
         let is_unexplored = face.cells > 0 && face.unknown_fraction > UNEXPLORED;
-        usize::from(face.category) >= categories.categories.len() && is_unexplored
+        let is_place = face.kind == Some(PlotKind::Place);
+        usize::from(face.category) >= categories.categories.len() && is_unexplored && !is_place
     };
     let mut waiting = vec![FaceId::OUTER];
     for face in subdivision.faces() {

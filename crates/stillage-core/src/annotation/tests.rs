@@ -47,11 +47,17 @@ fn read(picture: &str) -> (OccupancyGrid, CategoryMap) {
 fn annotated(picture: &str, subdivision: &Subdivision) -> (Vec<FaceAnnotation>, Vec<EdgeAnnotation>) {
     let (grid, categories) = read(picture);
     let cells = CellFaces::rasterize(subdivision, grid.width(), grid.height(), grid.resolution());
-    let options = AnnotationOptions::default();
-    let categorization = Categorization { map: categories, memberships: None };
-    let found =
-        annotate(&grid, &categorization, &one_region(&grid), subdivision, &cells, &options, &Watch::unwatched())
-            .expect("nobody stops it");
+    let options = AnnotationOptions { method: AnnotationMethod::Vote, ..AnnotationOptions::default() };
+    let subject = Subject {
+        grid: &grid,
+        categorization: &Categorization { map: categories, memberships: None },
+        regions: &one_region(&grid),
+        subdivision,
+        graph: &AdjacencyGraph::dual(subdivision),
+        cells: &cells,
+        plots: &[],
+    };
+    let found = annotate(&subject, &options, 1, &Watch::unwatched()).expect("nobody stops it");
     (found.faces, found.edges)
 }
 

@@ -35,6 +35,8 @@ const MEDIAN_REACH: usize = 30;
 const PEAK_DISTANCE: f64 = 12.0;
 /// How far an orientation may move when it is refined, scan steps: 1.5 degrees.
 const REFINE_REACH: isize = 6;
+/// Steps and their number to either side of the search for a pair, degrees: from 1.5 down to 0.0125.
+const PAIR_STEPS_DEG: [(f64, i32); 3] = [(0.25, 6), (0.05, 5), (0.0125, 4)];
 /// Steps of the search near the best angle of the scan, degrees.
 const FINE_STEPS_DEG: [f64; 2] = [0.05, 0.0125];
 
@@ -99,6 +101,29 @@ impl OccupiedSample {
     /// Adds the cells of another part.
     pub fn append(&mut self, other: &Self) {
         self.points.extend_from_slice(&other.points);
+    }
+
+    /// The points, by column and row, with fractions.
+    #[must_use]
+    pub fn points(&self) -> &[[f32; 2]] {
+        &self.points
+    }
+
+    /// The direction near `angle` along which, and across which, the sample is aligned best together.
+    ///
+    /// # Errors
+    /// [`Stopped`] when the watch says so.
+    pub fn refine_pair(&self, angle: f64, watch: &Watch<'_>) -> Result<f64, Stopped> {
+        let mut center = angle;
+        for (step, count) in PAIR_STEPS_DEG {
+            let angles: Vec<f64> = (-count..=count).map(|at| center + (f64::from(at) * step).to_radians()).collect();
+            let across: Vec<f64> = angles.iter().map(|angle| angle + std::f64::consts::FRAC_PI_2).collect();
+            let energies = self.energies(&angles, watch)?;
+            let sums: Vec<f64> =
+                energies.iter().zip(self.energies(&across, watch)?).map(|(one, other)| one + other).collect();
+            center = angles[highest(&sums)];
+        }
+        Ok(center)
     }
 
     /// Number of cells in the sample.
@@ -223,6 +248,14 @@ impl EnergyScan {
     fn contrast(&self, step: isize) -> f64 {
         let step = step.rem_euclid(SCAN_ANGLES as isize) as usize;
         self.energies[step] - self.background[step]
+    }
+
+    /// The contrasts over `[-pi/2, pi/2)`, negative ones as nothing, sum 1; empty without contrast.
+    #[must_use]
+    pub fn normalized_contrasts(&self) -> Vec<f64> {
+        let contrasts: Vec<f64> = (0..self.energies.len() as isize).map(|step| self.contrast(step).max(0.0)).collect();
+        let total: f64 = contrasts.iter().sum();
+        if total > 0.0 { contrasts.iter().map(|contrast| contrast / total).collect() } else { Vec::new() }
     }
 
     /// Mean energy over all directions.

@@ -1,6 +1,7 @@
-//! Dominant orientations: weighted gradient histogram -> circular Gaussian mixture -> wavelet peaks -> lines.
+//! Dominant orientations: maxima of the radiogram energy ([`energy`], the default), or the paper's way: weighted gradient
+//! histogram -> circular Gaussian mixture -> wavelet peaks -> lines.
 //!
-//! Source: the paper, II-B "Dominant Orientations" and Fig. 4. The histogram of gradient orientations is weighted by
+//! Source of the latter: the paper, II-B "Dominant Orientations" and Fig. 4. The histogram of gradient orientations is weighted by
 //! gradient magnitude; a Gaussian mixture acts as an aggressive low-pass; peaks of its density are found by a
 //! continuous wavelet transform of narrow scales.
 //!
@@ -24,7 +25,8 @@ use serde::{Deserialize, Serialize};
 use crate::geometry::{fold_half_turn, line_angle_between};
 use crate::grid::OccupancyGrid;
 use crate::signal::{self, Boundary, Peak, RidgeSpec};
-use crate::spec::OrientationOptions;
+use crate::spec::{OrientationMethod, OrientationOptions};
+use crate::walls;
 use crate::watch::{Stopped, Watch};
 
 pub mod energy;
@@ -58,14 +60,18 @@ const ACROSS_DEG: f64 = 2.0;
 /// 5.7, a drawn floor plan of 60 cells 15, real maps 50 and more.
 const MIN_DEVIATIONS: f64 = 5.0;
 
+/// Fewest occupied cells that are no wall and have a say of their own: a dozen pallets.
+const LEAST_GOODS: usize = 500;
+
 /// The dominant orientations and the signals they were read from (for plots).
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Orientations {
     /// Directions of lines, radians in `[-pi/2, pi/2)`, ascending.
     pub angles: Vec<f64>,
-    /// Weighted histogram over line directions in `[-pi/2, pi/2)`, evenly spaced bins, sum 1 (empty without gradients).
+    /// Weights over line directions in `[-pi/2, pi/2)`, evenly spaced bins, sum 1: of gradients, or the contrast of the
+    /// radiogram energy. Empty where there is nothing to weigh.
     pub histogram: Vec<f64>,
-    /// The mixture's density at the same bins: the histogram after the aggressive low-pass.
+    /// The mixture's density at the same bins: the histogram after the aggressive low-pass. Empty without gradients.
     pub mixture: Vec<f64>,
 }
 
@@ -78,8 +84,34 @@ pub fn dominant_orientations(
     options: &OrientationOptions,
     watch: &Watch<'_>,
 ) -> Result<Orientations, Stopped> {
+    if options.method == OrientationMethod::Energy {
+        return by_energy(grid, options, watch);
+    }
     let mut parts = orientations_of_parts(grid, 1, |_, _| Some(0), options, watch)?;
     Ok(parts.pop().unwrap_or_default())
+}
+
+/// The directions along which the structure is aligned best; racks may stand askew in their hall, and its walls outshine
+/// them, so what is no wall is asked by itself as well.
+fn by_energy(grid: &OccupancyGrid, options: &OrientationOptions, watch: &Watch<'_>) -> Result<Orientations, Stopped> {
+    let is_wall = walls::find(grid, watch)?;
+    let all = OccupiedSample::of_parts(grid, 1, |_, _| Some(0), energy::SAMPLE_CELLS, watch)?.swap_remove(0);
+    let no_wall = |column: usize, row: usize| (!is_wall[row * grid.width() + column]).then_some(0);
+    let goods = OccupiedSample::of_parts(grid, 1, no_wall, energy::SAMPLE_CELLS, watch)?.swap_remove(0);
+    let histogram = EnergyScan::new(&all, watch)?.normalized_contrasts();
+    let separation = options.min_separation_deg.to_radians();
+    let mut angles = refine(&all, &[], options, watch)?;
+    let enough = goods.len() >= LEAST_GOODS;
+    for angle in if enough { refine(&goods, &[], options, watch)? } else { Vec::new() } {
+        if angles.iter().all(|&other| line_angle_between(angle, other) >= separation) {
+            angles.push(angle);
+        }
+    }
+    if angles.is_empty() {
+        return Ok(Orientations::default());
+    }
+    angles.sort_by(f64::total_cmp);
+    Ok(Orientations { angles, histogram, mixture: Vec::new() })
 }
 
 /// Finds the dominant orientations of each of `count` parts of a grid, in one pass over its cells.

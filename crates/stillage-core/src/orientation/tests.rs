@@ -7,9 +7,35 @@ use crate::{Point, StopFlag};
 use expect_test::expect;
 use proptest::prelude::*;
 
+/// In the paper's way, with or without the refinement.
 fn find(grid: &OccupancyGrid, refine: bool) -> Orientations {
-    let options = OrientationOptions { refine, ..OrientationOptions::default() };
+    let options = OrientationOptions { method: OrientationMethod::Paper, refine, ..OrientationOptions::default() };
     dominant_orientations(grid, &options, &Watch::unwatched()).unwrap()
+}
+
+fn find_by_energy(grid: &OccupancyGrid) -> Orientations {
+    dominant_orientations(grid, &OrientationOptions::default(), &Watch::unwatched()).unwrap()
+}
+
+#[test]
+fn energy_finds_turned_racks_and_nothing_else() {
+    for angle_deg in [-38.6, -4.2, 0.0, 17.3, 44.9] {
+        let found = find_by_energy(&hall(angle_deg));
+        let across = if angle_deg > 0.0 { angle_deg - 90.0 } else { angle_deg + 90.0 };
+        assert_eq!(found.angles.len(), 2, "{angle_deg}: {:?}", found.angles);
+        assert!(error_deg(&found.angles, &[angle_deg, across]) < 0.1, "{angle_deg}: {:?}", found.angles);
+        assert!((found.histogram.iter().sum::<f64>() - 1.0).abs() < 1e-9);
+    }
+}
+
+#[test]
+fn energy_finds_no_direction_in_grids_without_structure() {
+    for cell in [Occupancy::Free, Occupancy::Occupied, Occupancy::Unknown] {
+        for (width, height) in [(0, 0), (0, 5), (5, 0), (1, 1), (70, 130)] {
+            let found = find_by_energy(&grid_of(width, height, |_, _| cell));
+            assert_eq!(found, Orientations::default(), "{width} x {height}, {cell:?}");
+        }
+    }
 }
 
 fn hall(angle_deg: f64) -> OccupancyGrid {

@@ -290,7 +290,7 @@ fn a_face_thinner_than_a_cell_is_crossed_if_it_is_drivable() {
     // Two lines between the centres of the first and the second column.
     let lines = [0.3, 0.4].map(|x| [Point::new(x, 0.0), Point::new(x, 0.5)]);
     let map = DrawnMap::with_lines("...", "ccc", &lines);
-    let (rules, sliver) = (RuleSet::warehouse(), map.analysis.categories.unknown());
+    let (rules, sliver) = (RuleSet::warehouse(), map.analysis.face_categories.unknown());
     let ends = [0, 2].map(|column| point(&map, column, 0));
     let through = |label: &str| {
         let assignment = [(0, "co".to_owned()), (sliver, label.to_owned())].into();

@@ -176,6 +176,16 @@ impl Tiles {
         (piece_of, pieces)
     }
 
+    /// Every known tile with the label of the nearest tile that has one; all 0 where none has.
+    pub(super) fn filled(&self, labels: &[u8]) -> Vec<u8> {
+        if labels.iter().all(|&label| label == NONE) {
+            return self.uniform();
+        }
+        let mut filled = labels.to_vec();
+        self.grow(&mut filled);
+        filled
+    }
+
     /// Gives every known tile without a label that of the nearest tile with one, counted in steps over any tiles.
     fn grow(&self, labels: &mut [u8]) {
         let mut reached = labels.to_vec();

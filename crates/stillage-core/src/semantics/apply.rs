@@ -81,7 +81,7 @@ struct Decision {
 
 impl Decision {
     fn read(analysis: &Analysis, rule_set: &RuleSet, assignment: &Assignment) -> Result<Self, Vec<AssignmentProblem>> {
-        let categories = analysis.categories.face_categories();
+        let categories = analysis.face_categories.count();
         let faces = analysis.faces.len();
         let mut problems = Vec::new();
         let mut by_category = vec![rule_set.unidentified(); categories];

@@ -13,7 +13,7 @@ use crate::orientation::Orientations;
 use crate::routing::RoutingMap;
 use crate::segmentation::{Region, RegionMap};
 use crate::semantics::{Assignment, RuleSet, SemanticMap, apply};
-use crate::spec::AnalysisOptions;
+use crate::spec::{AnalysisOptions, AnnotationMethod};
 use crate::watch::Watch;
 
 /// Side of a cell, metres: coarse, so that a pallet place is four characters.
@@ -60,17 +60,19 @@ impl DrawnMap {
         let cells = CellFaces::rasterize(&subdivision, grid.width(), grid.height(), RESOLUTION);
         let regions = one_region(&grid);
         let categorization = Categorization { map: categories(&grid, &letters), memberships: None };
-        let options = AnalysisOptions::default();
-        let annotations = annotation::annotate(
-            &grid,
-            &categorization,
-            &regions,
-            &subdivision,
-            &cells,
-            &options.annotation,
-            &Watch::unwatched(),
-        )
-        .unwrap();
+        let mut options = AnalysisOptions::default();
+        options.annotation.method = AnnotationMethod::Vote;
+        let subject = annotation::Subject {
+            grid: &grid,
+            categorization: &categorization,
+            regions: &regions,
+            subdivision: &subdivision,
+            graph: &graph,
+            cells: &cells,
+            plots: &[],
+        };
+        let annotations =
+            annotation::annotate(&subject, &options.annotation, options.seed, &Watch::unwatched()).unwrap();
         let analysis = Analysis {
             frame: *grid.frame(),
             width: grid.width(),
@@ -84,6 +86,7 @@ impl DrawnMap {
             subdivision,
             graph,
             faces: annotations.faces,
+            face_categories: annotations.categories,
             edges: annotations.edges,
             face_relaxation: None,
             diagnostics: Vec::new(),
@@ -93,7 +96,7 @@ impl DrawnMap {
 
     /// Reads the letters as the labels they stand for; faces without free cells are pallet cells.
     pub fn semantic(&self, rule_set: &RuleSet) -> SemanticMap {
-        let storage = self.analysis.categories.occupied()..=self.analysis.categories.unknown();
+        let storage = self.analysis.face_categories.occupied()..=self.analysis.face_categories.unknown();
         let names = ["co", "ju", "pc", "of", "un"];
         let by_letter = names.iter().enumerate().map(|(category, id)| (category as u8, *id));
         let assignment = by_letter

@@ -11,6 +11,7 @@ use super::{CategoryEvidence, Functionality, Label, LabelId, RuleSet, Suggestion
 use crate::analysis::Analysis;
 use crate::arrangement::FaceId;
 use crate::categorization::CategoryMap;
+use crate::decomposition::PlotKind;
 
 /// Below this likelihood a category is better left unidentified: the wrong label closes or opens ways.
 const LEAST_LIKELIHOOD: f64 = 0.35;
@@ -27,7 +28,7 @@ pub fn suggest(analysis: &Analysis, rule_set: &RuleSet) -> Vec<Suggestion> {
     let propose = |(category, evidence): (usize, CategoryEvidence)| {
         let sight = Sight::of(&analysis.categories, category, mean_beam);
         let category = category as u8;
-        if category == analysis.categories.outside() {
+        if category == analysis.face_categories.outside() {
             return propose_outside(category, evidence, rule_set);
         }
         propose(category, evidence, sight, rule_set)
@@ -143,6 +144,38 @@ struct Reading {
     lined: f64,
     /// People could work there.
     roomy: f64,
+    /// What its faces were cut out for, where the decomposition says it.
+    cut: Option<Cut>,
+}
+
+/// What the faces of a category were cut out for: stronger than what they look like.
+#[derive(Debug, Clone, Copy)]
+struct Cut {
+    place: f64,
+    band: f64,
+    /// Places have their fronts along it.
+    along_fronts: f64,
+}
+
+impl Cut {
+    /// `None` for faces that were cut out for nothing, as all are in the paper's decomposition.
+    fn of(evidence: &CategoryEvidence) -> Option<Self> {
+        let cut = evidence.place_fraction + evidence.band_fraction + evidence.rest_fraction;
+        // A corridor has storage along 0.3 of its length at least (accuracy study).
+        let along_fronts = ramp(evidence.front_fraction, 0.2, 0.4);
+        let found = Self { place: evidence.place_fraction, band: evidence.band_fraction, along_fronts };
+        (cut > MAJORITY).then_some(found)
+    }
+
+    fn suits(self, functionality: Functionality) -> f64 {
+        match functionality {
+            Functionality::Drivable => self.band,
+            Functionality::StorageAccess | Functionality::Access => self.band.min(self.along_fronts),
+            Functionality::Connection => self.band.min(1.0 - self.along_fronts),
+            Functionality::Storage => self.place,
+            Functionality::WorkPlace => 0.0,
+        }
+    }
 }
 
 /// 0 up to `low`, 1 from `high` on, straight between.
@@ -170,7 +203,15 @@ impl Reading {
             None => ramp(evidence.elongation, 1.5, 4.0),
         };
         let far = sight.relative_beam.map_or(1.0 - lined, |beam| ramp(beam, 0.7, 1.2));
-        Self { free, goods, long, wide: far.min(1.0 - long), lined, roomy: ramp(evidence.median_area, 2.0, 8.0) }
+        Self {
+            free,
+            goods,
+            long,
+            wide: far.min(1.0 - long),
+            lined,
+            roomy: ramp(evidence.median_area, 2.0, 8.0),
+            cut: Cut::of(evidence),
+        }
     }
 
     /// A label is as likely as the least likely of its functionalities.
@@ -184,6 +225,9 @@ impl Reading {
     }
 
     fn suits(&self, functionality: Functionality) -> f64 {
+        if let Some(cut) = self.cut {
+            return cut.suits(functionality);
+        }
         let passable = self.free.min(1.0 - self.goods);
         match functionality {
             Functionality::Drivable => passable,
@@ -198,7 +242,7 @@ impl Reading {
 
 /// Aggregates the faces and edges of each category.
 pub(super) fn category_evidence(analysis: &Analysis) -> Vec<CategoryEvidence> {
-    let count = analysis.categories.face_categories();
+    let count = analysis.face_categories.count();
     let borders = Borders::measure(analysis);
     let mut sums = vec![CategoryEvidence::default(); count];
     let mut areas: Vec<Vec<f64>> = vec![Vec::new(); count];
@@ -213,6 +257,13 @@ pub(super) fn category_evidence(analysis: &Analysis) -> Vec<CategoryEvidence> {
         sum.occupied_fraction += weight * annotation.occupied_fraction;
         sum.unknown_fraction += weight * annotation.unknown_fraction;
         sum.elongation += weight * annotation.elongation;
+        match annotation.kind {
+            Some(PlotKind::Place) => sum.place_fraction += weight,
+            Some(PlotKind::Aisle | PlotKind::Lane | PlotKind::Gap) => sum.band_fraction += weight,
+            Some(PlotKind::Rest) => sum.rest_fraction += weight,
+            None => {}
+        }
+        sum.front_fraction += weight * (annotation.fronts / annotation.extent[0].max(f64::MIN_POSITIVE)).min(2.0);
         sum.open_fraction += borders.open[face];
         sum.lined_fraction += borders.lined[face];
         lengths[category] += borders.length[face];
@@ -221,8 +272,16 @@ pub(super) fn category_evidence(analysis: &Analysis) -> Vec<CategoryEvidence> {
     for ((sum, areas), length) in sums.iter_mut().zip(&mut areas).zip(lengths) {
         let share = |value: f64, whole: f64| if whole > 0.0 { value / whole } else { 0.0 };
         let area = sum.area;
-        for mean in [&mut sum.free_fraction, &mut sum.occupied_fraction, &mut sum.unknown_fraction, &mut sum.elongation]
-        {
+        for mean in [
+            &mut sum.free_fraction,
+            &mut sum.occupied_fraction,
+            &mut sum.unknown_fraction,
+            &mut sum.elongation,
+            &mut sum.place_fraction,
+            &mut sum.band_fraction,
+            &mut sum.rest_fraction,
+            &mut sum.front_fraction,
+        ] {
             *mean = share(*mean, area);
         }
         sum.open_fraction = share(sum.open_fraction, length);
@@ -273,7 +332,7 @@ mod tests {
 
     fn check(map: &DrawnMap, rule_set: &RuleSet, expected: &Expect) {
         let suggestions = suggest(&map.analysis, rule_set);
-        assert_eq!(suggestions.len(), map.analysis.categories.face_categories());
+        assert_eq!(suggestions.len(), map.analysis.face_categories.count());
         let line = |suggestion: &Suggestion| {
             let Suggestion { category, label, confidence, reason, .. } = suggestion;
             format!("{category} {} {confidence:.2} {reason}\n", rule_set.label(*label).id)

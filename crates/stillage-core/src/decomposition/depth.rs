@@ -1,0 +1,217 @@
+//! How deep the places of a body are, and which of its sides goods are taken from.
+//!
+//! A side is a front where vehicles find room along most of it. A body between two fronts is one row, or two back to back
+//! with a flue, for every place of a rack must be reached; thicker bodies are double-deep racks or block storage, whose
+//! borders show in the projection along the rows as those of places do along the aisle. The depth of the places is the
+//! one that explains the thinner bodies of a region best.
+//!
+//! Cost: O(cells of the bodies). Limits: where goods hide what is behind them, the usual depth of a pallet decides.
+
+use std::ops::Range;
+
+use super::blocks::Block;
+use super::comb;
+use super::evidence::Evidence;
+use super::frame::{Axis, Frame, Rect};
+
+/// The depth that a place has when nothing else is known, metres (a 1.2 m pallet), and what a metre of deviation costs.
+const USUAL_DEPTH_M: f64 = 1.15;
+const DEPTH_PRIOR: f64 = 0.03;
+const DEPTH_STEP_M: f64 = 0.025;
+/// Flues that need no excuse, metres; what a metre more costs, and a metre less than none.
+const FLUE_M: [f64; 2] = [0.0, 0.25];
+const WIDE_FLUE_COST: f64 = 0.3;
+const MISSING_DEPTH_COST: f64 = 1.0;
+/// Widest flue, metres: building columns stand in it.
+const WIDEST_FLUE_M: f64 = 0.7;
+/// A body thinner than this share of the depth holds no row.
+const THIN_SHARE: f64 = 0.6;
+/// A body must be so long to have a say about the depth, metres.
+const LEAST_LENGTH_M: f64 = 2.0;
+/// Most layers of block storage.
+const MOST_LAYERS: usize = 16;
+/// Where vehicles must find room before a front, from the border on, metres: borders may lie inside the goods.
+const FRONT_STRIP_M: [f64; 2] = [0.25, 0.7];
+/// Share of a side along which they must.
+const FRONT_SHARE: f64 = 0.5;
+/// The direction of the aisles holds unless the other one has so many times more front.
+const TURN_FACTOR: f64 = 1.5;
+/// Occupied share of a line of cells that makes it a wall.
+const WALL_SHARE: f64 = 0.5;
+/// Room for more than this many rows before a wall is more than one row.
+const DEEP_ROOM: f64 = 1.5;
+/// What a metre off the usual depth costs beside the unevenness of layers.
+const DEEP_PRIOR: f64 = 0.5;
+
+/// A body with the direction of its rows and the sides they are reached from.
+#[derive(Debug, Clone)]
+pub(super) struct Body {
+    pub rect: Rect,
+    pub axis: Axis,
+    /// Low and high side across the rows.
+    pub fronts: [bool; 2],
+}
+
+impl Body {
+    /// Looks at what is drivable around a block.
+    pub(super) fn of(frame: &Frame, block: &Block) -> Self {
+        let front = |axis: Axis| {
+            let length = block.rect.range(axis).len() as f64;
+            let shares = front_shares(frame, &block.rect, axis);
+            (shares.map(|share| share >= FRONT_SHARE), (shares[0] + shares[1]) * length)
+        };
+        let long = if block.rect.u.len() >= block.rect.v.len() { Axis::U } else { Axis::V };
+        let usual = block.axis.unwrap_or(long);
+        let ((usual_fronts, usual_length), (other_fronts, other_length)) = (front(usual), front(usual.other()));
+        if other_length > TURN_FACTOR * usual_length {
+            Self { rect: block.rect.clone(), axis: usual.other(), fronts: other_fronts }
+        } else {
+            Self { rect: block.rect.clone(), axis: usual, fronts: usual_fronts }
+        }
+    }
+
+    fn across(&self) -> Range<usize> {
+        self.rect.range(self.axis.other()).clone()
+    }
+
+    fn thickness(&self, frame: &Frame) -> f64 {
+        self.across().len() as f64 * frame.cell
+    }
+
+    fn length(&self, frame: &Frame) -> f64 {
+        self.rect.range(self.axis).len() as f64 * frame.cell
+    }
+}
+
+/// Share of the two sides along `axis` with room for a vehicle before them.
+fn front_shares(frame: &Frame, rect: &Rect, axis: Axis) -> [f64; 2] {
+    let across = rect.range(axis.other());
+    let [near, far] = FRONT_STRIP_M.map(|metres| frame.cells_of(metres));
+    let end = if axis == Axis::U { frame.rows } else { frame.columns };
+    let low = across.start.saturating_sub(far)..across.start.saturating_sub(near);
+    let high = (across.end + near).min(end)..(across.end + far).min(end);
+    [low, high].map(|strip| {
+        let patch = frame.patch(&rect.with(axis.other(), strip), axis);
+        let has_room = |column: &usize| (0..patch.height).any(|row| patch.row(row)[*column].is_drivable());
+        (0..patch.width).filter(has_room).count() as f64 / patch.width.max(1) as f64
+    })
+}
+
+/// The depth of a place that explains the bodies between two fronts best.
+pub(super) fn usual(frame: &Frame, bodies: &[Body], range: [f64; 2]) -> f64 {
+    let bodies: Vec<[f64; 2]> = bodies
+        .iter()
+        .filter(|body| body.fronts == [true; 2])
+        .map(|body| [body.thickness(frame), body.length(frame)])
+        .filter(|&[thickness, length]| {
+            thickness >= THIN_SHARE * range[0] && thickness < thickest_pair(range[1]) && length > LEAST_LENGTH_M
+        })
+        .collect();
+    let total: f64 = bodies.iter().map(|body| body[1]).sum();
+    let cost = |depth: f64| {
+        let misfits = bodies.iter().map(|&[thickness, length]| {
+            let single = (thickness - depth).abs();
+            length * single.min(misfit_of_pair(thickness, depth))
+        });
+        misfits.sum::<f64>() / total.max(1.0) + DEPTH_PRIOR * (depth - USUAL_DEPTH_M).abs()
+    };
+    let steps = ((range[1] - range[0]) / DEPTH_STEP_M).round() as usize;
+    let depths = (0..=steps).map(|step| range[0] + step as f64 * DEPTH_STEP_M);
+    depths.min_by(|&one, &other| cost(one).total_cmp(&cost(other))).unwrap_or(USUAL_DEPTH_M)
+}
+
+/// Two rows back to back cannot be thicker, metres.
+fn thickest_pair(deepest: f64) -> f64 {
+    2.0 * deepest + WIDEST_FLUE_M
+}
+
+fn misfit_of_pair(thickness: f64, depth: f64) -> f64 {
+    let flue = thickness - 2.0 * depth;
+    if flue < FLUE_M[0] {
+        MISSING_DEPTH_COST * (FLUE_M[0] - flue)
+    } else {
+        WIDE_FLUE_COST * (flue - FLUE_M[1]).max(0.0)
+    }
+}
+
+/// The rows of a body and what is left beside them, as ranges across its rows.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(super) struct Layers {
+    pub rows: Vec<Range<usize>>,
+    pub rests: Vec<Range<usize>>,
+}
+
+/// Cuts a body into rows of about a depth.
+pub(super) fn layers(frame: &Frame, body: &Body, depth: f64, range: [f64; 2]) -> Layers {
+    let across = body.across();
+    let thickness = body.thickness(frame);
+    if body.fronts == [true, false] || body.fronts == [false, true] {
+        return before_wall(frame, body, depth, range);
+    }
+    if thickness < THIN_SHARE * depth {
+        return Layers { rows: Vec::new(), rests: vec![across] };
+    }
+    if thickness < DEEP_ROOM * depth {
+        return Layers { rows: vec![across], rests: Vec::new() };
+    }
+    if thickness < thickest_pair(range[1].min(1.15 * depth)) {
+        return Layers { rows: equal_parts(&across, 2), rests: Vec::new() };
+    }
+    Layers { rows: deep_layers(frame, body, depth, range), rests: Vec::new() }
+}
+
+fn equal_parts(range: &Range<usize>, count: usize) -> Vec<Range<usize>> {
+    let at = |part: usize| range.start + (range.len() * part + count / 2) / count;
+    (0..count).map(|part| at(part)..at(part + 1)).collect()
+}
+
+/// The layers of a deep body. Both sides of it are sides of places, so the layers are equally deep; how many there are is
+/// said by goods that are not cut in two, and by the usual depth.
+fn deep_layers(frame: &Frame, body: &Body, depth: f64, range: [f64; 2]) -> Vec<Range<usize>> {
+    let across = body.across();
+    let thickness = body.thickness(frame);
+    let widths = [range[0] - comb::NARROWER_M, range[1] + comb::WIDER_M];
+    let evidence = Evidence::of(&frame.patch(&body.rect, body.axis.other()), frame.cell, widths);
+    let cost = |count: usize| {
+        let parts = equal_parts(&(0..across.len()), count);
+        let uneven: f64 = parts.iter().map(|part| evidence.unevenness(part.start, part.len())).sum();
+        uneven / count as f64 + DEEP_PRIOR * (thickness / count as f64 - depth).abs()
+    };
+    let most = ((thickness / range[0]) as usize).clamp(1, MOST_LAYERS);
+    let least = ((thickness / range[1]).ceil() as usize).clamp(1, most);
+    let count = (least..=most).min_by(|&one, &other| cost(one).total_cmp(&cost(other))).unwrap_or(1);
+    equal_parts(&across, count)
+}
+
+/// The row along the aisle on the one side of a body, before the wall on the other.
+fn before_wall(frame: &Frame, body: &Body, depth: f64, range: [f64; 2]) -> Layers {
+    let across = body.across();
+    let low_front = body.fronts[0];
+    let patch = frame.patch(&body.rect, body.axis);
+    let share =
+        |y: usize| patch.row(y).iter().filter(|cell| cell.is_occupied()).count() as f64 / patch.width.max(1) as f64;
+    let is_wall = |&y: &usize| share(y) >= WALL_SHARE;
+    let wall = if low_front { (0..patch.height).rev().find(is_wall) } else { (0..patch.height).find(is_wall) };
+    let room = match wall {
+        Some(wall) if low_front => 0..wall,
+        Some(wall) => wall + 1..patch.height,
+        None => 0..patch.height,
+    };
+    let row_depth = frame.cells_of(depth).max(1);
+    let rows = room.len() as f64 / row_depth as f64;
+    if rows < THIN_SHARE {
+        return Layers { rows: Vec::new(), rests: vec![across] };
+    }
+    let shift = |part: Range<usize>| across.start + part.start..across.start + part.end;
+    if room.len() as f64 * frame.cell >= thickest_pair(range[1]) {
+        // Deep storage against a wall.
+        let rect = body.rect.with(body.axis.other(), shift(room.clone()));
+        let rows = deep_layers(frame, &Body { rect, ..body.clone() }, depth, range);
+        let rest = if low_front { room.end..patch.height } else { 0..room.start };
+        return Layers { rows, rests: vec![shift(rest)].into_iter().filter(|rest| !rest.is_empty()).collect() };
+    }
+    let row_depth = if rows > DEEP_ROOM { row_depth } else { room.len() };
+    let row = if low_front { room.start..room.start + row_depth } else { room.end - row_depth..room.end };
+    let rest = if low_front { row.end..patch.height } else { 0..row.start };
+    Layers { rows: vec![shift(row)], rests: vec![shift(rest)].into_iter().filter(|rest| !rest.is_empty()).collect() }
+}

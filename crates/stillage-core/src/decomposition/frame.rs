@@ -1,0 +1,223 @@
+//! A region in its own frame: u along its first direction, v to the left of it, in square cells of a few centimetres.
+//!
+//! Free and unknown cells are the nearest ones of the grid; occupied cells are carried over one by one as well, since
+//! dots of a cell or two would get lost between the samples. Cost: O(cells of the frame).
+
+use crate::geometry::{Point, direction, normal};
+use crate::grid::{Occupancy, OccupancyGrid};
+use crate::segmentation::RegionMap;
+use crate::watch::{Stopped, Watch};
+
+use super::site::Site;
+
+/// Side of a cell of the frame, metres: posts of 0.09 m are two cells wide, and combs need that (accuracy study).
+pub(super) const CELL_M: f64 = 0.05;
+/// Coarse grids are not refined beyond half their cell.
+const FINEST_SHARE: f64 = 0.5;
+/// Room around the region, metres: wider than a vehicle, so that its border does not close a passage.
+const MARGIN_M: f64 = 2.0;
+
+const OCCUPANCY: u8 = 0b11;
+const INSIDE: u8 = 0b100;
+const DRIVABLE: u8 = 0b1000;
+
+/// A cell of the frame: what is there, whether it belongs to the region, whether a vehicle finds room.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Cell(u8);
+
+impl Cell {
+    pub const fn is_free(self) -> bool {
+        self.0 & OCCUPANCY == Occupancy::Free as u8
+    }
+
+    pub const fn is_occupied(self) -> bool {
+        self.0 & OCCUPANCY == Occupancy::Occupied as u8
+    }
+
+    pub const fn is_unknown(self) -> bool {
+        self.0 & OCCUPANCY == Occupancy::Unknown as u8
+    }
+
+    /// Whether it belongs to the region and to the site.
+    pub const fn is_inside(self) -> bool {
+        self.0 & INSIDE != 0
+    }
+
+    pub const fn is_drivable(self) -> bool {
+        self.0 & DRIVABLE != 0
+    }
+
+    pub(super) fn mark_drivable(&mut self) {
+        self.0 |= DRIVABLE;
+    }
+}
+
+/// A rectangle of cells of a frame: columns along u, rows along v.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct Rect {
+    pub u: std::ops::Range<usize>,
+    pub v: std::ops::Range<usize>,
+}
+
+impl Rect {
+    pub fn range(&self, axis: Axis) -> &std::ops::Range<usize> {
+        match axis {
+            Axis::U => &self.u,
+            Axis::V => &self.v,
+        }
+    }
+
+    pub fn with(&self, axis: Axis, range: std::ops::Range<usize>) -> Self {
+        match axis {
+            Axis::U => Self { u: range, v: self.v.clone() },
+            Axis::V => Self { u: self.u.clone(), v: range },
+        }
+    }
+}
+
+/// One of the two directions of a frame.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Axis {
+    U,
+    V,
+}
+
+impl Axis {
+    pub const BOTH: [Self; 2] = [Self::U, Self::V];
+
+    pub const fn other(self) -> Self {
+        match self {
+            Self::U => Self::V,
+            Self::V => Self::U,
+        }
+    }
+}
+
+/// A region in its own frame.
+pub(super) struct Frame {
+    /// Direction of u, radians.
+    pub angle: f64,
+    /// Side of a cell, metres.
+    pub cell: f64,
+    /// Position of the lower left corner along u and v, metres.
+    pub start: [f64; 2],
+    pub columns: usize,
+    pub rows: usize,
+    pub cells: Vec<Cell>,
+}
+
+impl Frame {
+    pub(super) fn new(
+        grid: &OccupancyGrid,
+        regions: &RegionMap,
+        region: u8,
+        angle: f64,
+        site: &Site,
+        watch: &Watch<'_>,
+    ) -> Result<Self, Stopped> {
+        let mut frame = Self::empty(grid, regions, region, angle);
+        let resolution = grid.resolution();
+        let (along, across) = (direction(angle), normal(angle));
+        for row in 0..frame.rows {
+            watch.check()?;
+            let v = frame.start[1] + (row as f64 + 0.5) * frame.cell;
+            for column in 0..frame.columns {
+                let u = frame.start[0] + (column as f64 + 0.5) * frame.cell;
+                let point = (along * u + across * v) / resolution;
+                let (x, y) = (point.x.floor() as i64, point.y.floor() as i64);
+                let mut bits = grid.at(x, y) as u8;
+                if let (Ok(x), Ok(y)) = (usize::try_from(x), usize::try_from(y))
+                    && x < grid.width()
+                    && y < grid.height()
+                    && regions.region_of_cell(x, y) == Some(region)
+                    && site.holds(x, y)
+                {
+                    bits |= INSIDE;
+                }
+                frame.cells[row * frame.columns + column] = Cell(bits);
+            }
+        }
+        frame.splat(grid, watch)?;
+        Ok(frame)
+    }
+
+    /// A frame around the tiles of a region.
+    fn empty(grid: &OccupancyGrid, regions: &RegionMap, region: u8, angle: f64) -> Self {
+        let side = regions.tile_cells as f64 * grid.resolution();
+        let (along, across) = (direction(angle), normal(angle));
+        let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+        for (tile, _) in regions.tiles.iter().enumerate().filter(|&(_, &of)| of == region) {
+            let (column, row) = (tile % regions.columns, tile / regions.columns);
+            for (x, y) in [(0, 0), (1, 0), (0, 1), (1, 1)] {
+                let corner = Point::new((column + x) as f64 * side, (row + y) as f64 * side);
+                for (axis, unit) in [along, across].iter().enumerate() {
+                    low[axis] = low[axis].min(unit.dot(&corner.coords));
+                    high[axis] = high[axis].max(unit.dot(&corner.coords));
+                }
+            }
+        }
+        let cell = CELL_M.max(FINEST_SHARE * grid.resolution());
+        let size = [0, 1].map(|axis| {
+            let extent = high[axis] - low[axis] + 2.0 * MARGIN_M;
+            if extent.is_finite() { (extent / cell).ceil().max(0.0) as usize } else { 0 }
+        });
+        let cells = vec![Cell(Occupancy::Unknown as u8); size[0] * size[1]];
+        Self { angle, cell, start: low.map(|low| low - MARGIN_M), columns: size[0], rows: size[1], cells }
+    }
+
+    /// Carries the occupied cells of the grid over.
+    fn splat(&mut self, grid: &OccupancyGrid, watch: &Watch<'_>) -> Result<(), Stopped> {
+        let (along, across) = (direction(self.angle), normal(self.angle));
+        for row in 0..grid.height() {
+            watch.check()?;
+            for (column, _) in grid.row(row).iter().enumerate().filter(|&(_, &cell)| cell == Occupancy::Occupied) {
+                let center = grid.center(column, row).coords;
+                let u = (along.dot(&center) - self.start[0]) / self.cell;
+                let v = (across.dot(&center) - self.start[1]) / self.cell;
+                if u >= 0.0 && v >= 0.0 && u < self.columns as f64 && v < self.rows as f64 {
+                    let cell = &mut self.cells[v as usize * self.columns + u as usize];
+                    cell.0 = cell.0 & !OCCUPANCY | Occupancy::Occupied as u8;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    pub fn row(&self, row: usize) -> &[Cell] {
+        &self.cells[row * self.columns..(row + 1) * self.columns]
+    }
+
+    /// Metres in cells, rounded.
+    pub fn cells_of(&self, metres: f64) -> usize {
+        (metres / self.cell).round() as usize
+    }
+
+    /// The whole frame.
+    pub fn whole(&self) -> Rect {
+        Rect { u: 0..self.columns, v: 0..self.rows }
+    }
+
+    /// A part of the frame with its rows along `axis`.
+    pub fn patch(&self, rect: &Rect, axis: Axis) -> Patch {
+        let (along, across) = (rect.range(axis), rect.range(axis.other()));
+        let at = |x: usize, y: usize| match axis {
+            Axis::U => self.cells[y * self.columns + x],
+            Axis::V => self.cells[x * self.columns + y],
+        };
+        let cells = across.clone().flat_map(|y| along.clone().map(move |x| (x, y))).map(|(x, y)| at(x, y)).collect();
+        Patch { width: along.len(), height: across.len(), cells }
+    }
+}
+
+/// A copy of a rectangle of a frame, rows along the direction of its shelves.
+pub(super) struct Patch {
+    pub width: usize,
+    pub height: usize,
+    pub cells: Vec<Cell>,
+}
+
+impl Patch {
+    pub fn row(&self, row: usize) -> &[Cell] {
+        &self.cells[row * self.width..(row + 1) * self.width]
+    }
+}

@@ -1,0 +1,149 @@
+//! Halls of racks drawn by their measures, and what the decomposition makes of them.
+
+use expect_test::{Expect, expect};
+use proptest::prelude::*;
+
+use super::*;
+use crate::geometry::OrientedBox;
+use crate::grid::{GridFrame, Occupancy};
+use crate::segmentation::Region;
+
+/// Pallets of nine blocks on places of 1.2 x 1.2 m, in double rows along x, aisles of 3 m and lanes of 3 m around them.
+struct PalletHall {
+    places: usize,
+    double_rows: usize,
+    is_empty: fn(usize) -> bool,
+}
+
+const PITCH: f64 = 1.2;
+const LANE: f64 = 3.0;
+
+impl PalletHall {
+    fn size(&self) -> [f64; 2] {
+        let thickness = 2.0 * PITCH + LANE;
+        [self.places as f64 * PITCH + 2.0 * LANE, self.double_rows as f64 * thickness + LANE]
+    }
+
+    fn at(&self, x: f64, y: f64) -> Occupancy {
+        let [width, height] = self.size();
+        if x < 0.1 || y < 0.1 || x > width - 0.1 || y > height - 0.1 {
+            return Occupancy::Occupied;
+        }
+        let (along, across) = (x - LANE, (y - LANE).rem_euclid(2.0 * PITCH + LANE));
+        if along < 0.0 || along >= self.places as f64 * PITCH || across >= 2.0 * PITCH || y < LANE {
+            return Occupancy::Free;
+        }
+        let place = (along / PITCH) as usize + (y / PITCH) as usize * self.places;
+        // Blocks of 0.1 m at the sides and in the middle of 1 m.
+        let is_block = |offset: f64| [0.1, 0.55, 1.0].iter().any(|&start| (start..start + 0.1).contains(&offset));
+        let on_block = is_block(along % PITCH) && is_block(across % PITCH);
+        if on_block && !(self.is_empty)(place) { Occupancy::Occupied } else { Occupancy::Free }
+    }
+
+    fn grid(&self) -> OccupancyGrid {
+        const CELL: f64 = 0.05;
+        let [columns, rows] = self.size().map(|side| (side / CELL).round() as usize);
+        let cell = |index: usize| {
+            let (column, row) = (index % columns, index / columns);
+            self.at((column as f64 + 0.5) * CELL, (row as f64 + 0.5) * CELL)
+        };
+        let frame = GridFrame { resolution: CELL, origin: Point::origin(), yaw: 0.0 };
+        OccupancyGrid::new(columns, rows, frame, (0..columns * rows).map(cell).collect())
+    }
+}
+
+fn one_region(grid: &OccupancyGrid) -> RegionMap {
+    let tile_cells = 40;
+    let (columns, rows) = (grid.width().div_ceil(tile_cells), grid.height().div_ceil(tile_cells));
+    let bounds = OrientedBox { center: Point::origin(), half_extents: [0.0; 2], angle: 0.0 };
+    let region = Region { orientations: vec![0.0], bounds, share: 1.0 };
+    RegionMap { tile_cells, columns, rows, tiles: vec![0; columns * rows], regions: vec![region] }
+}
+
+fn decomposed(grid: &OccupancyGrid) -> Decomposition {
+    decompose(grid, &one_region(grid), &DecompositionOptions::default(), &Watch::unwatched()).expect("nobody stops it")
+}
+
+/// How many plots of each kind there are, and the size of the places.
+fn check(grid: &OccupancyGrid, wanted: &Expect) {
+    let found = decomposed(grid);
+    let of = |kind: PlotKind| found.plots.iter().filter(move |plot| plot.kind == kind);
+    let kinds = [PlotKind::Place, PlotKind::Aisle, PlotKind::Lane, PlotKind::Gap, PlotKind::Rest];
+    let counts: Vec<String> = kinds.iter().map(|&kind| format!("{} {kind:?}", of(kind).count())).collect();
+    let mut sizes: Vec<[f64; 2]> =
+        of(PlotKind::Place).map(|plot| plot.bounds.half_extents.map(|half| 2.0 * half)).collect();
+    sizes.sort_by(|one, other| one[0].total_cmp(&other[0]));
+    let size = sizes.get(sizes.len() / 2).map(|[width, depth]| format!(" of {width:.2} x {depth:.2} m"));
+    wanted.assert_eq(&format!("{}{}", counts.join(", "), size.unwrap_or_default()));
+}
+
+#[test]
+fn a_hall_of_pallets_has_a_place_for_each() {
+    let hall = PalletHall { places: 10, double_rows: 2, is_empty: |_| false };
+    check(&hall.grid(), &expect!["40 Place, 3 Aisle, 2 Lane, 0 Gap, 4 Rest of 1.20 x 1.10 m"]);
+}
+
+#[test]
+fn empty_places_are_places_too() {
+    let hall = PalletHall { places: 12, double_rows: 2, is_empty: |place| place % 7 == 3 };
+    check(&hall.grid(), &expect!["48 Place, 3 Aisle, 2 Lane, 0 Gap, 4 Rest of 1.20 x 1.10 m"]);
+}
+
+#[test]
+fn rooms_are_not_combed() {
+    let room = "
+        ##############################
+        #.........#.........#........#
+        #.........#.........#........#
+        #.........#.........#........#
+        #..................#.........#
+        ####.######.######...#########
+        #............................#
+        #............................#
+        ##############################
+        ";
+    // Five cells of 0.1 m for each character.
+    let wide = |line: &str| line.trim().chars().flat_map(|symbol| [symbol; 5]).collect::<String>() + "\n";
+    let fine: String = room.lines().filter(|line| !line.trim().is_empty()).map(|line| wide(line).repeat(5)).collect();
+    check(&OccupancyGrid::from_ascii(&fine, 0.1), &expect!["0 Place, 1 Aisle, 0 Lane, 0 Gap, 3 Rest"]);
+    // And too coarse to tell.
+    check(&OccupancyGrid::from_ascii(room, 0.5), &expect!["0 Place, 1 Aisle, 0 Lane, 0 Gap, 3 Rest"]);
+}
+
+#[test]
+fn grids_without_anything_have_no_lines() {
+    for picture in ["", "?", "?????\n?????"] {
+        assert_eq!(decomposed(&OccupancyGrid::from_ascii(picture, 0.1)), Decomposition::default(), "{picture}");
+    }
+}
+
+#[test]
+fn the_number_of_threads_changes_nothing() {
+    let grid = PalletHall { places: 8, double_rows: 1, is_empty: |place| place == 3 }.grid();
+    let on = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
+        pool.install(|| decomposed(&grid))
+    };
+    assert_eq!(on(1), on(3));
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(48))]
+
+    /// Plots of a region do not overlap, whatever the grid.
+    #[test]
+    fn plots_do_not_overlap(rows in proptest::collection::vec("[.# ]{1,60}", 1..60), resolution in 0.03..0.6) {
+        let found = decomposed(&OccupancyGrid::from_ascii(&rows.join("\n"), resolution));
+        let size = |plot: &Plot, axis: usize| {
+            let turned = plot.bounds.angle.abs() > 1.0;
+            plot.bounds.half_extents[if turned { 1 - axis } else { axis }]
+        };
+        for (index, plot) in found.plots.iter().enumerate() {
+            for other in &found.plots[..index] {
+                let offset = plot.bounds.center - other.bounds.center;
+                let apart = |axis: usize| offset[axis].abs() >= size(plot, axis) + size(other, axis) - 1e-6;
+                prop_assert!(apart(0) || apart(1), "{plot:?} and {other:?}");
+            }
+        }
+    }
+}

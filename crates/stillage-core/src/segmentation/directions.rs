@@ -1,0 +1,186 @@
+//! Regions by direction: each tile belongs to the pair of perpendicular directions that its structure is aligned with.
+//!
+//! Around every tile the occupied cells are projected along every dominant pair of the map, near ones counting more; the
+//! pair with the largest radiogram energy has the tile. Source: the accuracy study behind this project (0.995 to 1.0 of
+//! the places right, no number of regions to be given).
+//!
+//! Departure: walls are left out where there is anything else. A straight wall has more energy than all the racks beside
+//! it, and racks may stand askew in their hall; what is connected over many metres is wall. Tiles with nothing in them
+//! follow the nearest one with something, so borders run through the middle of aisles.
+//!
+//! Cost: O(tiles x cells around x pairs). Limits: blocks of the same direction are one region.
+
+use std::f64::consts::FRAC_PI_2;
+
+use rayon::prelude::*;
+
+use super::tiles::{NONE, Tiles};
+use crate::geometry::{fold_half_turn, normal};
+use crate::grid::OccupancyGrid;
+use crate::orientation::Orientations;
+use crate::orientation::energy::{OccupiedSample, pair_angle_between};
+use crate::spec::RegionOptions;
+use crate::walls;
+use crate::watch::{Stopped, Watch};
+
+/// Occupied cells of the whole map that are sampled.
+const SAMPLE_CELLS: usize = 400_000;
+/// Pairs closer than this are one, degrees (the least separation of orientations is 6).
+const SAME_PAIR_DEG: f64 = 3.0;
+/// Radius of the ground around a tile that is looked at, and the weight's standard deviation, metres.
+const WINDOW_M: f64 = 6.0;
+const SIGMA_M: f64 = 3.0;
+/// Bin of the projections, metres (accuracy study: 0.05 and no less than a cell).
+const BIN_M: f64 = 0.05;
+/// Fewest cells around a tile that show a direction (accuracy study: 60 in a larger window).
+const LEAST_CELLS: usize = 30;
+/// A tile without structure nearer than this has none of its own, metres.
+const OWN_REACH_M: f64 = 2.0;
+
+/// The pairs of directions and the pair of every tile.
+pub(super) struct Directions {
+    /// One direction of each pair, radians in `[0, pi/2)`.
+    pub pairs: Vec<f64>,
+    /// Index of the pair of each tile, [`NONE`] outside the known part of the map.
+    pub labels: Vec<u8>,
+}
+
+/// Finds the pair of every tile.
+pub(super) fn by_direction(
+    grid: &OccupancyGrid,
+    tiles: &Tiles,
+    global: &Orientations,
+    options: &RegionOptions,
+    watch: &Watch<'_>,
+) -> Result<Directions, Stopped> {
+    let pairs = pairs(global);
+    if pairs.len() < 2 {
+        return Ok(Directions { pairs, labels: tiles.uniform() });
+    }
+    let is_wall = walls::find(grid, watch)?;
+    let no_wall = |column: usize, row: usize| (!is_wall[row * grid.width() + column]).then_some(0);
+    let goods = OccupiedSample::of_parts(grid, 1, no_wall, SAMPLE_CELLS, watch)?.swap_remove(0);
+    let of_goods = energies(grid, tiles, &goods, &pairs, watch)?;
+    let all = OccupiedSample::of_parts(grid, 1, |_, _| Some(0), SAMPLE_CELLS, watch)?.swap_remove(0);
+    let of_all = energies(grid, tiles, &all, &pairs, watch)?;
+    let mut labels = vec![NONE; tiles.known.len()];
+    for tile in tiles.known_tiles() {
+        let best = of_goods[tile].as_ref().or(of_all[tile].as_ref()).map(|energies| {
+            (0..energies.len()).fold(0, |best, at| if energies[at] > energies[best] { at } else { best })
+        });
+        labels[tile] = best.map_or(NONE, |best| best as u8);
+    }
+    let labels = tiles.filled(&labels);
+    let labels = tiles.majority(&tiles.majority(&labels));
+    Ok(Directions { pairs, labels: tiles.settle(&labels, options.min_share / 4.0, false) }.renumbered(tiles, &labels))
+}
+
+impl Directions {
+    /// Brings the pairs into the order of the settled labels, which are numbered by their first tiles.
+    fn renumbered(self, tiles: &Tiles, before: &[u8]) -> Self {
+        let count = self.labels.iter().filter(|&&label| label != NONE).max().map_or(0, |&last| usize::from(last) + 1);
+        let mut votes = vec![vec![0_usize; self.pairs.len()]; count];
+        for tile in tiles.known_tiles() {
+            votes[usize::from(self.labels[tile])][usize::from(before[tile])] += 1;
+        }
+        let winner = |votes: &Vec<usize>| (0..votes.len()).fold(0, |a, b| if votes[b] > votes[a] { b } else { a });
+        Self { pairs: votes.iter().map(|votes| self.pairs[winner(votes)]).collect(), labels: self.labels }
+    }
+}
+
+/// Directions that are not perpendicular to one another, folded to a quarter turn, in the order of the angles.
+fn pairs(global: &Orientations) -> Vec<f64> {
+    let mut pairs: Vec<f64> = Vec::new();
+    for angle in &global.angles {
+        let folded = angle.rem_euclid(FRAC_PI_2);
+        if pairs.iter().all(|&other| pair_angle_between(folded, other) > SAME_PAIR_DEG.to_radians()) {
+            pairs.push(folded);
+        }
+    }
+    pairs.truncate(usize::from(NONE) - 1);
+    pairs
+}
+
+/// Energy of each pair around each tile; `None` where there is too little, or nothing near.
+fn energies(
+    grid: &OccupancyGrid,
+    tiles: &Tiles,
+    sample: &OccupiedSample,
+    pairs: &[f64],
+    watch: &Watch<'_>,
+) -> Result<Vec<Option<Vec<f64>>>, Stopped> {
+    let side = tiles.tile_cells as f64;
+    let mut by_tile: Vec<Vec<[f32; 2]>> = vec![Vec::new(); tiles.known.len()];
+    for &[x, y] in sample.points() {
+        by_tile[tiles.of_cell(x as usize, y as usize)].push([x, y]);
+    }
+    let reach = (WINDOW_M / grid.resolution() / side).ceil() as usize;
+    (0..tiles.known.len())
+        .into_par_iter()
+        .map(|tile| {
+            if tile % 64 == 0 {
+                watch.check()?;
+            }
+            let (column, row) = (tile % tiles.columns, tile / tiles.columns);
+            let center = [(column as f64 + 0.5) * side, (row as f64 + 0.5) * side];
+            let rows = row.saturating_sub(reach)..(row + reach + 1).min(tiles.rows);
+            let points = rows.flat_map(|row| {
+                (column.saturating_sub(reach)..(column + reach + 1).min(tiles.columns))
+                    .flat_map(move |column| [row * tiles.columns + column])
+            });
+            let mut window = Window::new(grid.resolution());
+            for &point in points.flat_map(|tile| &by_tile[tile]) {
+                window.add([f64::from(point[0]) - center[0], f64::from(point[1]) - center[1]]);
+            }
+            Ok(window.energies(pairs))
+        })
+        .collect()
+}
+
+/// Weighted points around a tile, metres.
+struct Window {
+    cell: f64,
+    points: Vec<[f64; 3]>,
+    is_near: bool,
+}
+
+impl Window {
+    fn new(cell: f64) -> Self {
+        Self { cell, points: Vec::new(), is_near: false }
+    }
+
+    /// Adds a point by its offset from the tile, cells.
+    fn add(&mut self, offset: [f64; 2]) {
+        let [x, y] = offset.map(|value| value * self.cell);
+        let distance = x.hypot(y);
+        if distance <= WINDOW_M {
+            self.is_near |= distance <= OWN_REACH_M;
+            self.points.push([x, y, (-0.5 * (distance / SIGMA_M).powi(2)).exp()]);
+        }
+    }
+
+    fn energies(&self, pairs: &[f64]) -> Option<Vec<f64>> {
+        if !self.is_near || self.points.len() < LEAST_CELLS {
+            return None;
+        }
+        let bin = BIN_M.max(self.cell);
+        let bins = (2.0 * WINDOW_M / bin) as usize + 3;
+        let mut counts = vec![0.0; bins];
+        let mut energy = |angle: f64| -> f64 {
+            counts.fill(0.0);
+            let across = normal(angle);
+            for &[x, y, weight] in &self.points {
+                counts[((across.x * x + across.y * y + WINDOW_M) / bin) as usize + 1] += weight;
+            }
+            counts.iter().map(|count| count * count).sum()
+        };
+        Some(pairs.iter().map(|&angle| energy(angle) + energy(angle + FRAC_PI_2)).collect())
+    }
+}
+
+/// The direction and its perpendicular, as line directions, ascending.
+pub(super) fn both(angle: f64) -> Vec<f64> {
+    let mut both = [angle, angle + FRAC_PI_2].map(fold_half_turn).to_vec();
+    both.sort_by(f64::total_cmp);
+    both
+}
