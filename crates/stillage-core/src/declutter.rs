@@ -162,10 +162,9 @@ impl Components {
                         cells.push(cell as u32);
                     }
                     let (column, row) = (cell % width, cell / width);
-                    for near_row in row.saturating_sub(1)..height.min(row + 2) {
-                        for near in
-                            near_row * width + column.saturating_sub(1)..near_row * width + width.min(column + 2)
-                        {
+                    for row in row.saturating_sub(1)..height.min(row + 2) {
+                        for column in column.saturating_sub(1)..width.min(column + 2) {
+                            let near = row * width + column;
                             if !is_seen[near] && grid.cells()[near] == occupancy {
                                 is_seen[near] = true;
                                 open.push(near);

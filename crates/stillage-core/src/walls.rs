@@ -46,7 +46,9 @@ pub(crate) fn find(grid: &OccupancyGrid, watch: &Watch<'_>) -> Result<Vec<bool>,
             }
             let size = [high[0] - low[0], high[1] - low[1]].map(|side| side as f64);
             if size[0].hypot(size[1]) > long {
-                members.iter().for_each(|&cell| is_wall[cell] = true);
+                for &cell in &members {
+                    is_wall[cell] = true;
+                }
             }
         }
     }

@@ -64,7 +64,7 @@ pub(super) struct Block {
 pub(super) fn cut(frame: &Frame, watch: &Watch<'_>) -> Result<Vec<Block>, Stopped> {
     let mut cutter = Cutter { frame, watch, blocks: Vec::new() };
     let whole = Block { rect: frame.whole(), kind: BlockKind::Body, axis: None, fronts: [false; 2] };
-    cutter.cut(whole, 0)?;
+    cutter.cut(&whole, 0)?;
     Ok(cutter.blocks)
 }
 
@@ -82,10 +82,10 @@ struct Band {
 }
 
 impl Cutter<'_> {
-    fn cut(&mut self, block: Block, depth: usize) -> Result<(), Stopped> {
+    fn cut(&mut self, block: &Block, depth: usize) -> Result<(), Stopped> {
         self.watch.check()?;
-        let Some(rect) = self.trimmed(&block) else { return Ok(()) };
-        let block = Block { rect, ..block };
+        let Some(rect) = self.trimmed(block) else { return Ok(()) };
+        let block = Block { rect, ..block.clone() };
         if depth >= MOST_CUTS {
             self.blocks.push(block);
             return Ok(());
@@ -144,7 +144,7 @@ impl Cutter<'_> {
             let outer = if block.axis == Some(axis) { block.fronts } else { [false; 2] };
             let fronts = [body.start > whole.start || outer[0], body.end < whole.end || outer[1]];
             let rect = block.rect.with(across, body.clone());
-            self.cut(Block { rect, kind: BlockKind::Body, axis: Some(axis), fronts }, depth + 1)?;
+            self.cut(&Block { rect, kind: BlockKind::Body, axis: Some(axis), fronts }, depth + 1)?;
         }
         Ok(())
     }
@@ -164,7 +164,7 @@ impl Cutter<'_> {
         }
         for part in between(block.rect.range(axis), &bands) {
             let rect = block.rect.with(axis, part);
-            self.cut(Block { rect, ..block.clone() }, depth + 1)?;
+            self.cut(&Block { rect, ..block.clone() }, depth + 1)?;
         }
         Ok(())
     }
