@@ -4,7 +4,8 @@
 //! Size alone does not tell them from structure: a rack post of 0.09 m is one to four cells. What tells is company.
 //! A small component of occupied cells stays where more occupied area lies around it than speckle of the rate that
 //! this very map shows would bring there; the rate is read from the cleanest tiles, where there is nothing else.
-//! Small unknown holes in free space are free.
+//! What goes takes the state of the ground around it. Small unknown holes in free space are free, and small free specks
+//! in unknown ground unknown: ground that nobody saw stays outside the site.
 //!
 //! Source: the connected-component filters of document analysis (kFill and its kin, L. O'Gorman 1992), with the local
 //! density in place of a fixed size. Cost: O(cells). Limits: lone posts below three cells are taken for speckle.
@@ -38,13 +39,13 @@ const HOLE_AREA: f64 = 0.03;
 /// A grid without clutter, and what was taken away.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Decluttered {
-    /// The grid with the clutter turned free.
+    /// The grid with the clutter turned into the ground around it, free or unknown.
     pub grid: OccupancyGrid,
     /// What was removed.
     pub removed: Removed,
 }
 
-/// Cells that were read as free though the map says otherwise.
+/// Cells that were read otherwise than the map says.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Removed {
     /// Occupied cells (row-major index) taken for speckle, ascending.
@@ -55,7 +56,7 @@ pub struct Removed {
     pub rate: f64,
 }
 
-/// Turns lone hits and small unknown holes in free space free.
+/// Turns lone hits, small holes and specks into the ground around them.
 ///
 /// # Errors
 /// [`Stopped`] when the watch says so.
@@ -86,11 +87,44 @@ pub fn declutter(grid: &OccupancyGrid, watch: &Watch<'_>) -> Result<Decluttered,
         .collect();
     unknown.sort_unstable();
     let mut cells = grid.cells().to_vec();
-    for &cell in occupied.iter().chain(&unknown) {
+    for &cell in &unknown {
         cells[cell as usize] = Occupancy::Free;
+    }
+    for component in components.iter().filter(|component| is_lone(component)) {
+        let ground = ground_around(grid, component);
+        for &cell in component {
+            cells[cell as usize] = ground;
+        }
+    }
+    let specks = OccupancyGrid::new(grid.width(), grid.height(), *grid.frame(), cells.clone());
+    for speck in Components::of(&specks, Occupancy::Free, watch)?.iter() {
+        let is_small = speck.len() as f64 * cell_area <= HOLE_AREA;
+        if is_small && is_in_the_free(&specks, speck) && ground_around(&specks, speck) == Occupancy::Unknown {
+            for &cell in speck {
+                cells[cell as usize] = Occupancy::Unknown;
+            }
+        }
     }
     let clean = OccupancyGrid::new(grid.width(), grid.height(), *grid.frame(), cells);
     Ok(Decluttered { grid: clean, removed: Removed { occupied, unknown, rate } })
+}
+
+/// What surrounds a small component: unknown where most of its neighbours are.
+fn ground_around(grid: &OccupancyGrid, component: &[u32]) -> Occupancy {
+    let (mut free, mut unknown) = (0, 0);
+    for &cell in component {
+        let (column, row) = ((cell as usize % grid.width()) as i64, (cell as usize / grid.width()) as i64);
+        for (right, up) in [(1, 0), (-1, 0), (0, 1), (0, -1)] {
+            let (column, row) = (column + right, row + up);
+            let in_grid = (0..grid.width() as i64).contains(&column) && (0..grid.height() as i64).contains(&row);
+            match grid.at(column, row) {
+                Occupancy::Free => free += 1,
+                Occupancy::Unknown if in_grid => unknown += 1,
+                _ => {}
+            }
+        }
+    }
+    if unknown > free { Occupancy::Unknown } else { Occupancy::Free }
 }
 
 /// Whether no occupied cell touches a hole.
@@ -260,6 +294,13 @@ mod tests {
     fn a_small_hole_in_free_space_is_free() {
         assert_eq!(removed("......\n..?...\n......", 0.05), (0, 1));
         assert_eq!(removed("......\n.#?...\n......", 0.05), (1, 0));
+    }
+
+    #[test]
+    fn specks_in_unknown_ground_are_unknown() {
+        let grid = OccupancyGrid::from_ascii("?????\n?#?.?\n?????", 0.05);
+        let found = declutter(&grid, &Watch::unwatched()).expect("nobody stops it");
+        assert_eq!(found.grid.count(Occupancy::Unknown), 15);
     }
 
     #[test]

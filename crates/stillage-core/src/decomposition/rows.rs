@@ -22,9 +22,9 @@ pub(super) const PITCHES_M: [f64; 2] = [0.8, 1.6];
 /// Rows that score less at their best pitch are not periodic and stay whole; the fewer rows, the more chance has a say.
 /// Office floors score up to 0.06, 0.08 with 8 rows and 0.15 with one; warehouses 0.3 to 0.9, the hardest generated ones,
 /// each row with its own pitch and phase, 0.07 over 14 rows and more.
-const PERIODIC_SCORE: f64 = 0.065;
+const PERIODIC_SCORE: f64 = 0.062;
 const PERIODIC_SCORE_OF_MANY: f64 = 0.045;
-const PERIODIC_SCORE_PER_ROW: f64 = 0.35;
+const PERIODIC_SCORE_PER_ROW: f64 = 0.3;
 /// Cells above this are too coarse for gaps and posts, metres.
 const COARSEST_CELL_M: f64 = 0.1;
 /// A row's own pitch must score so much better than that of the block (accuracy study).
