@@ -289,8 +289,9 @@ impl TileWork<'_> {
             if block == 0 {
                 ends.plane_mut(2 * index).copy_from_slice(planes.plane(0));
             }
-            ends.plane_mut(2 * index + 1).copy_from_slice(planes.plane(beams.len() - 1));
         }
+        let last = (run.beams.len() - 1) % BEAMS_PER_BLOCK;
+        ends.plane_mut(2 * index + 1).copy_from_slice(planes.plane(last));
         Ok(())
     }
 

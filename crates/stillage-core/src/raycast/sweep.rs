@@ -206,16 +206,13 @@ pub(super) struct Lines {
 impl Lines {
     /// Lines that are stopped where they are.
     pub(super) fn between(numbers: Range<isize>) -> Self {
-        let mut lines = Self { first: 0, states: Vec::new() };
-        lines.restart(numbers);
-        lines
+        Self { first: numbers.start, states: vec![0; numbers.len() + LINES_PER_STEP] }
     }
 
-    /// Forgets all lines and starts with others.
+    /// Goes over to other lines, whose states are yet to be set.
     #[inline(always)]
     pub(super) fn restart(&mut self, numbers: Range<isize>) {
         self.first = numbers.start;
-        self.states.clear();
         self.states.resize(numbers.len() + LINES_PER_STEP, 0);
     }
 

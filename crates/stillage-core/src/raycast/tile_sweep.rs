@@ -125,8 +125,11 @@ impl Window<'_> {
             let column = self.direction.column(phase, far);
             let numbers = self.lines_from(phase, column);
             lines.restart(numbers.start..numbers.end + (TILE + LINES_PER_STEP) as isize);
-            let Some(start) = kept else { continue };
             let inside = numbers.start.max(-column)..numbers.end.min(columns as isize - column);
+            if kept.is_none() || inside != numbers {
+                lines.states_from_mut(numbers.start).fill(0);
+            }
+            let Some(start) = kept else { continue };
             let start = start + phase * columns;
             let states = &borders[start + (inside.start + column) as usize..start + (inside.end + column) as usize];
             lines.states_from_mut(inside.start)[..states.len()].copy_from_slice(states);
