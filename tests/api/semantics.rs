@@ -94,10 +94,11 @@ async fn categories_come_with_a_suggestion() {
     assert_eq!(list["ruleSet"], "warehouse");
     let categories = list["categories"].as_array().expect("categories");
     let kinds: Vec<&str> = categories.iter().filter_map(|category| category["kind"].as_str()).collect();
-    assert_eq!(kinds, [["cluster"; 5].as_slice(), &["occupied", "unknown", "outside"]].concat());
-    for category in &categories[..5] {
-        assert!(category["cells"].as_u64() > Some(0), "{category}");
-        assert_eq!(category["meanFeatures"].as_object().map(serde_json::Map::len), Some(13), "{category}");
+    let (clusters, others) = kinds.split_at(kinds.len() - 3);
+    assert!(clusters.len() >= 2 && clusters.iter().all(|&kind| kind == "cluster"), "{kinds:?}");
+    assert_eq!(others, ["occupied", "unknown", "outside"]);
+    for category in &categories[..clusters.len()] {
+        assert!(category["faces"].as_u64() > Some(0), "{category}");
         assert_eq!(category["label"], category["suggestion"]["label"], "the suggestion is in force");
         let confidence = category["suggestion"]["confidence"].as_f64().expect("a number");
         assert!((0.0..=1.0).contains(&confidence));
