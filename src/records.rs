@@ -232,7 +232,7 @@ pub struct NewSemantics {
 #[derive(Debug, Clone, PartialEq)]
 pub enum AnalysisTicket {
     /// The same options were analysed before.
-    Existing(AnalysisRecord),
+    Existing(Box<AnalysisRecord>),
     /// A job will do it.
     Job(JobRecord),
 }

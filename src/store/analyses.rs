@@ -52,7 +52,7 @@ pub struct NewAnalysis {
 #[derive(Debug, Clone, PartialEq)]
 pub enum Request {
     /// It was there, and is in force now.
-    Existing(AnalysisRecord),
+    Existing(Box<AnalysisRecord>),
     /// A new job will make it.
     New(JobRecord),
     /// A job that waits or runs already will make it.
@@ -93,7 +93,7 @@ impl Store {
         if let Some(existing) = find_analysis(&mut transaction, map, &address).await? {
             put_in_force(&mut transaction, map, existing.id, Uuid::now_v7(), now).await?;
             transaction.commit().await?;
-            return Ok(Some(Request::Existing(existing)));
+            return Ok(Some(Request::Existing(Box::new(existing))));
         }
         let pending = sqlx::query(
             "SELECT * FROM jobs WHERE map = $1 AND address = $2 AND state IN ('accepted', 'running') \
