@@ -10,7 +10,7 @@ use std::sync::atomic::{AtomicU32, Ordering};
 use rayon::prelude::*;
 
 use super::shape::SmallestBox;
-use super::{CellFaces, Evidence, FaceAnnotation};
+use super::{CellFaces, Evidence, FaceAnnotation, FaceCategories};
 use crate::adjacency::pole;
 use crate::arrangement::{FaceId, Subdivision};
 use crate::categorization::CategoryMap;
@@ -180,10 +180,11 @@ fn share(count: u32, of: u32) -> f64 {
 fn face_annotation(tally: &Tally, rings: &[Vec<Point>], categories: &CategoryMap) -> FaceAnnotation {
     let votes: u32 = tally.categories.iter().sum();
     let [free, occupied, unknown] = tally.occupancy;
+    let kinds = FaceCategories::from(categories);
     let (category, confidence) = match mode(&tally.categories) {
         Some(winner) => (winner as u8, share(tally.categories[winner], votes)),
-        None if occupied > free => (categories.occupied(), share(occupied, tally.known())),
-        None => (categories.unknown(), 0.0),
+        None if occupied > free => (kinds.occupied(), share(occupied, tally.known())),
+        None => (kinds.unknown(), 0.0),
     };
     let smallest_box = SmallestBox::around(rings.first().map_or(&[], Vec::as_slice));
     let total = tally.total();

@@ -8,7 +8,6 @@
 
 use super::roles::Role;
 use super::{FaceAnnotation, FaceCategories};
-use crate::categorization::CategoryMap;
 use crate::clustering::{KMeansOptions, k_means};
 use crate::decomposition::PlotKind;
 use crate::spec::AnnotationOptions;
@@ -39,13 +38,13 @@ const TOLERANCE: f64 = 1e-6;
 pub(super) fn categorize(
     faces: &mut [FaceAnnotation],
     roles: &[Role],
-    categories: &CategoryMap,
+    votes: FaceCategories,
     options: &AnnotationOptions,
     seed: u64,
     watch: &Watch<'_>,
 ) -> Result<FaceCategories, Stopped> {
     let (members, outside): (Vec<usize>, Vec<usize>) =
-        (1..faces.len()).partition(|&face| faces[face].category != categories.outside());
+        (1..faces.len()).partition(|&face| faces[face].category != votes.outside());
     let rows: Vec<f32> = members.iter().flat_map(|&face| describe(&faces[face], &roles[face])).collect();
     let search = KMeansOptions {
         k: options.categories,

@@ -21,7 +21,7 @@ pub use raster::CellFaces;
 
 use crate::adjacency::AdjacencyGraph;
 use crate::arrangement::Subdivision;
-use crate::categorization::Categorization;
+use crate::categorization::{Categorization, CategoryMap};
 use crate::decomposition::{Plot, PlotKind};
 use crate::grid::OccupancyGrid;
 use crate::relaxation::RelaxationReport;
@@ -118,6 +118,13 @@ pub struct FaceCategories {
     pub clusters: usize,
 }
 
+impl From<&CategoryMap> for FaceCategories {
+    /// Where cells vote, the categories of cells are the clusters.
+    fn from(categories: &CategoryMap) -> Self {
+        Self { clusters: categories.categories.len() }
+    }
+}
+
 impl FaceCategories {
     /// Faces that hold no free cell but occupied ones.
     #[must_use]
@@ -181,23 +188,19 @@ pub fn annotate(
         face.kind = role.plot.map(|plot| plot.kind);
         face.fronts = role.fronts;
     }
-    outside::mark_outside(&mut faces, subdivision, categories);
+    let votes = FaceCategories::from(categories);
+    outside::mark_outside(&mut faces, subdivision, votes);
     let kinds = match options.method {
         AnnotationMethod::Vote => {
             if let Some(memberships) = &categorization.memberships {
                 membership::average(&mut faces, cells, memberships, watch)?;
             }
-            FaceCategories { clusters: categories.categories.len() }
+            votes
         }
-        AnnotationMethod::Faces => kinds::categorize(&mut faces, &roles, categories, options, seed, watch)?,
+        AnnotationMethod::Faces => kinds::categorize(&mut faces, &roles, votes, options, seed, watch)?,
     };
     let relax = |relaxation| membership::relax(&mut faces, subdivision, kinds.clusters, relaxation, watch);
     let relaxation = options.relaxation.map(relax).transpose()?;
-    outside::mark_outside(&mut faces, subdivision, categories);
-    let kinds = match options.method {
-        AnnotationMethod::Vote => FaceCategories { clusters: categories.categories.len() },
-        AnnotationMethod::Faces => kinds::categorize(&mut faces, &roles, categories, options, seed, watch)?,
-    };
     let edges = edges::annotate_edges(grid, subdivision, options, watch)?;
     Ok(Annotations { faces, categories: kinds, edges, relaxation })
 }

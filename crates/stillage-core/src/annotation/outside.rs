@@ -5,9 +5,8 @@
 //! among known places hold something, those around the site hold nothing anyone knows of, so the two are told apart
 //! here and not left to one label. Cost: O(faces + edges).
 
-use super::FaceAnnotation;
+use super::{FaceAnnotation, FaceCategories};
 use crate::arrangement::{FaceId, Subdivision};
-use crate::categorization::CategoryMap;
 use crate::decomposition::PlotKind;
 use crate::segmentation::RegionMap;
 
@@ -15,12 +14,12 @@ use crate::segmentation::RegionMap;
 const UNEXPLORED: f64 = 0.5;
 
 /// Gives the faces outside their category.
-pub(super) fn mark_outside(faces: &mut [FaceAnnotation], subdivision: &Subdivision, categories: &CategoryMap) {
+pub(super) fn mark_outside(faces: &mut [FaceAnnotation], subdivision: &Subdivision, categories: FaceCategories) {
     let is_candidate = |face: &FaceAnnotation| {
         // A face too thin for a cell says nothing of the ground.
         let is_unexplored = face.cells > 0 && face.unknown_fraction > UNEXPLORED;
         let is_place = face.kind == Some(PlotKind::Place);
-        usize::from(face.category) >= categories.categories.len() && is_unexplored && !is_place
+        usize::from(face.category) >= categories.clusters && is_unexplored && !is_place
     };
     let mut waiting = vec![FaceId::OUTER];
     for face in subdivision.faces() {
@@ -43,7 +42,7 @@ pub(super) fn mark_outside(faces: &mut [FaceAnnotation], subdivision: &Subdivisi
     }
 }
 
-fn mark(face: &mut FaceAnnotation, categories: &CategoryMap) {
+fn mark(face: &mut FaceAnnotation, categories: FaceCategories) {
     face.category = categories.outside();
     face.confidence = face.unknown_fraction;
 }

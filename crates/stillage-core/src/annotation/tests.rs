@@ -45,9 +45,14 @@ fn read(picture: &str) -> (OccupancyGrid, CategoryMap) {
 }
 
 fn annotated(picture: &str, subdivision: &Subdivision) -> (Vec<FaceAnnotation>, Vec<EdgeAnnotation>) {
+    let options = AnnotationOptions { method: AnnotationMethod::Vote, ..AnnotationOptions::default() };
+    let found = annotated_with(picture, subdivision, &options);
+    (found.faces, found.edges)
+}
+
+fn annotated_with(picture: &str, subdivision: &Subdivision, options: &AnnotationOptions) -> Annotations {
     let (grid, categories) = read(picture);
     let cells = CellFaces::rasterize(subdivision, grid.width(), grid.height(), grid.resolution());
-    let options = AnnotationOptions { method: AnnotationMethod::Vote, ..AnnotationOptions::default() };
     let subject = Subject {
         grid: &grid,
         categorization: &Categorization { map: categories, memberships: None },
@@ -57,13 +62,41 @@ fn annotated(picture: &str, subdivision: &Subdivision) -> (Vec<FaceAnnotation>, 
         cells: &cells,
         plots: &[],
     };
-    let found = annotate(&subject, &options, 1, &Watch::unwatched()).expect("nobody stops it");
-    (found.faces, found.edges)
+    annotate(&subject, options, 1, &Watch::unwatched()).expect("nobody stops it")
 }
 
 fn picture_of(cells: &CellFaces, width: usize) -> String {
     let rows = cells.as_slice().chunks(width).rev();
     rows.map(|row| row.iter().map(ToString::to_string).collect::<String>() + "\n").collect()
+}
+
+#[test]
+fn faces_that_differ_have_categories_of_their_own_and_none_is_outside() {
+    // Strips of growing width: more kinds of faces than categories of cells.
+    let cuts = [0.0, 1.0, 3.0, 6.0, 10.0, 15.0, 21.0, 28.0];
+    let subdivision = boxed([0.0, 0.0, 36.0, 2.0], &cuts[1..].iter().map(|&x| [x, 0.0, x, 2.0]).collect::<Vec<_>>());
+    let picture = ["0".repeat(36), "0".repeat(36)].join("\n");
+    let options = AnnotationOptions { method: AnnotationMethod::Faces, categories: 8, ..AnnotationOptions::default() };
+    let mut found = annotated_with(&picture, &subdivision, &options);
+    let mut categories: Vec<u8> = found.faces.drain(1..).map(|face| face.category).collect();
+    categories.sort_unstable();
+    assert_eq!((found.categories.clusters, categories), (8, (0..8).collect()));
+}
+
+#[test]
+fn relaxation_has_the_last_word_on_the_categories_of_faces() {
+    let subdivision = boxed([0.0, 0.0, 12.0, 2.0], &[[4.0, 0.0, 4.0, 2.0], [8.0, 0.0, 8.0, 2.0]]);
+    for method in [AnnotationMethod::Vote, AnnotationMethod::Faces] {
+        let relaxation = Some(crate::spec::RelaxationOptions::default());
+        let options = AnnotationOptions { method, categories: 2, relaxation, ..AnnotationOptions::default() };
+        let found = annotated_with("000011110000\n000000110000", &subdivision, &options);
+        assert!(found.relaxation.is_some());
+        for face in &found.faces[1..] {
+            let distribution = face.membership.as_ref().expect("a relaxed face has a distribution");
+            assert!(distribution.iter().all(|&share| share <= distribution[usize::from(face.category)]), "{face:?}");
+            assert_eq!(face.confidence, f64::from(distribution[usize::from(face.category)]));
+        }
+    }
 }
 
 #[test]

@@ -62,30 +62,6 @@ pub struct Category {
 impl CategoryMap {
     /// No category: the cell is not free.
     pub const NONE: u8 = u8::MAX;
-
-    /// The face-level category of faces that hold no free cell but occupied ones.
-    #[must_use]
-    pub fn occupied(&self) -> u8 {
-        self.categories.len() as u8
-    }
-
-    /// The face-level category of faces among known places that hold no known cell at all.
-    #[must_use]
-    pub fn unknown(&self) -> u8 {
-        self.categories.len() as u8 + 1
-    }
-
-    /// The face-level category of unexplored faces that are joined with the ground outside the map.
-    #[must_use]
-    pub fn outside(&self) -> u8 {
-        self.categories.len() as u8 + 2
-    }
-
-    /// Number of categories a face may have: the clusters, `occupied`, `unknown` and `outside`.
-    #[must_use]
-    pub fn face_categories(&self) -> usize {
-        self.categories.len() + 3
-    }
 }
 
 /// The categories of a map, and how sure they are.
