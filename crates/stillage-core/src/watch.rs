@@ -16,7 +16,7 @@ pub enum Stage {
     Orientation,
     /// Texture regions and their own orientations.
     Regions,
-    /// Projections along the orientations, and lines.
+    /// Projections along the orientations, and the lines that cut each region.
     Radiography,
     /// Subdivision into faces and its dual graph.
     Arrangement,
