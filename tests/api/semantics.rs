@@ -107,6 +107,28 @@ async fn categories_come_with_a_suggestion() {
 }
 
 #[tokio::test]
+async fn in_the_papers_way_categories_are_those_of_cells() {
+    let api = Api::new().await;
+    let map = api.hall().await;
+    let options = json!({"orientation": {"method": "paper"}, "annotation": {"method": "vote"}});
+    let asked = api.send_json(Method::POST, &format!("{map}/analyses"), &[], &options).await;
+    assert_eq!(asked.status, 202, "{}", asked.text());
+    api.app.run_until_empty().await.expect("the queue can be worked on");
+    let list = api.get(&format!("{map}/categories")).await.json();
+    let categories = list["categories"].as_array().expect("categories");
+    let kinds: Vec<&str> = categories.iter().filter_map(|category| category["kind"].as_str()).collect();
+    assert_eq!(kinds, [["cluster"; 5].as_slice(), &["occupied", "unknown", "outside"]].concat());
+    for category in &categories[..5] {
+        assert!(category["cells"].as_u64() > Some(0), "{category}");
+        assert_eq!(category["meanFeatures"].as_object().map(serde_json::Map::len), Some(13), "{category}");
+    }
+    let orientations = api.get(&format!("{map}/diagnostics")).await.json()["orientations"].take();
+    let bins = |signal: &str| orientations[signal].as_array().map(Vec::len);
+    assert_eq!(bins("histogram"), bins("mixture"));
+    assert!(bins("mixture") > Some(0), "{orientations}");
+}
+
+#[tokio::test]
 async fn labels_are_assigned_in_versions_without_a_job() {
     let api = Api::new().await;
     let map = api.hall().await;

@@ -21,8 +21,8 @@ fn the_example_is_compared_with_its_truth() {
     for scores in [&report["automatic"], &report["decided"]] {
         // Seven places have less than half of their surroundings seen.
         assert_eq!((&scores["places"]["places"], &scores["regions"]["A"]["places"]), (&191.into(), &191.into()));
-        assert!(scores["places"]["area"].as_f64() > Some(0.8), "{scores}");
-        assert!(scores["f1"].as_f64() > Some(0.7), "{scores}");
+        assert!(scores["places"]["area"].as_f64() > Some(0.9), "{scores}");
+        assert!(scores["f1"].as_f64() > Some(0.9), "{scores}");
         assert!(scores["iou"]["drivable"].as_f64() > Some(0.9), "{scores}");
     }
     assert!(report["geometry"]["orientationErrorDeg"].as_f64() < Some(0.1), "{report}");
