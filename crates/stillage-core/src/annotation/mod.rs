@@ -41,8 +41,7 @@ pub enum Evidence {
 /// What the cells say about a face.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct FaceAnnotation {
-    /// Category in force: a cluster, or `occupied`, `unknown` or `outside` of
-    /// [`CategoryMap`].
+    /// Category in force: a cluster, or `occupied`, `unknown` or `outside` of [`FaceCategories`].
     pub category: u8,
     /// Share of each cluster among the categorized cells of the face (sums to 1, or all 0 without such cells).
     pub category_shares: Vec<f32>,
