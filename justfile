@@ -17,6 +17,11 @@ lint:
     RUSTDOCFLAGS="-D warnings" cargo doc --workspace --no-deps --document-private-items
     cargo deny check bans licenses sources
 
+# Every stage on a part of a site, then the paper's size beside the exact march.
+bench:
+    cargo bench
+    cargo run --release --example paper_scale
+
 # Re-bless golden data: expected texts, golden files and the OpenAPI document.
 bless:
     UPDATE_EXPECT=1 cargo test --workspace

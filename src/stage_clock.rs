@@ -12,9 +12,10 @@ use crate::records::StageReport;
 
 /// Share of each stage in the time of a whole analysis, percent, for one progress bar over all of them; measured on
 /// floors of two million cells. The features (beams from every free cell) are most of the work.
-const SHARES: [(Stage, f64); 7] = [
+const SHARES: [(Stage, f64); 8] = [
     (Stage::Features, 80.0),
-    (Stage::Categorization, 8.0),
+    (Stage::Clustering, 6.0),
+    (Stage::Categorization, 2.0),
     (Stage::Orientation, 2.0),
     (Stage::Regions, 7.0),
     (Stage::Radiography, 1.0),

@@ -97,7 +97,7 @@ impl Geometry {
         let semantics = decision.unwrap_or_else(|| SemanticsRecord {
             rule_set: DEFAULT_RULE_SET.to_owned(),
             draft: rule_set.draft().clone(),
-            assignment: suggested(&suggestions, &rule_set),
+            assignment: Assignment::suggested(&suggestions, &rule_set),
             version: 0,
             origin: SemanticsOrigin::Suggested,
             created: analysis.created,
@@ -123,12 +123,6 @@ impl Geometry {
 /// The rule set behind a draft.
 pub(super) fn read_rule_set(draft: &RuleSetDraft) -> Result<RuleSet, AppError> {
     Ok(draft.clone().check()?)
-}
-
-/// The assignment that follows every suggestion.
-fn suggested(suggestions: &[Suggestion], rule_set: &RuleSet) -> Assignment {
-    let label = |suggestion: &Suggestion| (suggestion.category, rule_set.label(suggestion.label).id.clone());
-    Assignment { assignment: suggestions.iter().map(label).collect(), ..Assignment::default() }
 }
 
 /// The contexts in memory, those used last first.

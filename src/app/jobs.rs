@@ -24,7 +24,7 @@ impl App {
     pub async fn create_analysis(&self, map: Uuid, options: AnalysisOptions) -> Result<AnalysisTicket, AppError> {
         options.clone().check()?;
         let record = self.map(map).await?;
-        self.check_memory(u64::from(record.width), u64::from(record.height))?;
+        self.check_memory(u64::from(record.width), u64::from(record.height), &options)?;
         let request = self.store.request_analysis(map, &options, self.config.max_queued_jobs, now()).await?;
         match request {
             None => Err(AppError::not_found("map", map)),

@@ -5,9 +5,9 @@ use uuid::Uuid;
 use super::{App, AppError, JobRecord, MapPatch, MapRecord, NewMap, RETRY_AFTER_S};
 use crate::geojson::Georeference;
 use crate::ingest::{self, DecodedMap, MapSource};
-use crate::jobs::job_bytes;
 use crate::store::{Blob, IdempotencyKey, NewMapRow, Upload, now, off_the_runtime};
 use stillage_core::AnalysisOptions;
+use stillage_core::memory::analysis_bytes;
 
 /// Longest name of a map, characters: fits one line of a list.
 const MAX_NAME: usize = 200;
@@ -36,7 +36,7 @@ impl App {
         let (name, options, georeference) = (map.name.trim().to_owned(), map.options, map.georeference);
         let (decoded, blob) = self.decode_upload(map.source, &options).await?;
         let (width, height) = (decoded.grid.width(), decoded.grid.height());
-        self.check_memory(width as u64, height as u64)?;
+        self.check_memory(width as u64, height as u64, &options)?;
         let row = NewMapRow {
             id: Uuid::now_v7(),
             name,
@@ -96,14 +96,15 @@ impl App {
         Ok(())
     }
 
-    /// Refuses a job that would need more memory than one may.
-    pub(super) fn check_memory(&self, width: u64, height: u64) -> Result<(), AppError> {
-        let (needed, allowed) = (job_bytes(width, height), self.config.max_job_bytes);
+    /// Refuses a job that would need more memory than one may: better than to be killed half way.
+    pub(super) fn check_memory(&self, width: u64, height: u64, options: &AnalysisOptions) -> Result<(), AppError> {
+        let (needed, allowed) = (analysis_bytes(width.saturating_mul(height), options), self.config.max_job_bytes);
         if needed <= allowed {
             return Ok(());
         }
         Err(AppError::TooLarge(format!(
-            "the analysis of {width} x {height} cells needs about {} MiB of memory, and {} MiB are allowed for a job",
+            "the analysis of {width} x {height} cells needs about {} MiB of memory, and {} MiB are allowed for a job: \
+             upload a coarser map, ask for fewer beams, or raise --max-job-mib",
             needed >> 20,
             allowed >> 20
         )))

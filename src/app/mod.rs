@@ -8,11 +8,13 @@
 //! | `semantics` | the human decision on a map |
 //! | `context` | the analysed map in memory, for every question about it |
 //! | `features` | its collections |
+//! | `evaluations` | how well it fits the truth of its site |
 //!
 //! Nothing here knows HTTP; nothing here holds SQL.
 
 mod context;
 mod error;
+mod evaluations;
 mod features;
 mod jobs;
 mod maps;

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use serde_json::json;
 use stillage_core::AnalysisOptions;
 use stillage_core::semantics::{Assignment, RuleSet};
+use stillage_core::spec::CategoryCount;
 use tempfile::TempDir;
 use uuid::Uuid;
 
@@ -164,13 +165,13 @@ async fn an_idempotency_key_answers_the_same_job() {
 
 #[tokio::test]
 async fn a_map_that_cannot_be_analysed_is_refused_at_once() {
-    let service = service_with(|config| config.max_job_bytes = 30_000).await;
-    let refused = service.create_map(hall(40)).await.expect_err("240 cells fit, 480 do not").to_string();
-    assert!(refused.starts_with("the analysis of 40 x 12 cells needs about "), "{refused}");
+    let service = service_with(|config| config.max_job_bytes = 17_000_000).await;
+    let refused = service.create_map(hall(400)).await.expect_err("240 cells fit, 4,800 do not").to_string();
+    assert!(refused.starts_with("the analysis of 400 x 12 cells needs about "), "{refused}");
     let broken = NewMap { source: MapSource::Message(b"{}".to_vec()), ..hall(20) };
     assert!(matches!(service.create_map(broken).await, Err(AppError::Ingest(_))));
     let mut options = hall(20);
-    options.options.categorization.k = 0;
+    options.options.categorization.k = CategoryCount::Fixed(0);
     let refused = service.create_map(options).await;
     assert!(
         matches!(&refused, Err(AppError::Invalid { fields, .. }) if fields[0].pointer == "/options/categorization/k"),

@@ -1,4 +1,4 @@
-//! The command line: one file per command.
+//! The command line: one file per command, and what several of them need.
 //!
 //! A command prints what it made on stdout and anything else on stderr. It ends with code 0, with 2 for a fault of
 //! the input (one sentence says which, and how to mend it), or with 1 for a fault of the program or the system.
@@ -6,9 +6,14 @@
 
 mod analyze;
 mod demo;
+mod evaluate;
 mod migrate;
 mod openapi;
 mod serve;
+
+mod computation;
+mod input;
+mod progress;
 
 use std::process::ExitCode;
 
@@ -28,6 +33,8 @@ enum Command {
     Serve(serve::ServeArgs),
     /// Analyses one map file and writes GeoJSON layers, pictures and a report.
     Analyze(analyze::Arguments),
+    /// Analyses one map file and says how well the result fits its known truth.
+    Evaluate(evaluate::Arguments),
     /// Serves on loopback with a temporary store, uploads an example map and shows where to look.
     Demo(demo::DemoArgs),
     /// Prints the OpenAPI 3.1 document of the service.
@@ -63,6 +70,7 @@ pub fn run() -> ExitCode {
     let result = match Cli::parse().command {
         Command::Serve(arguments) => serve::run(&arguments).map_err(Failure::setup),
         Command::Analyze(arguments) => analyze::run(&arguments),
+        Command::Evaluate(arguments) => evaluate::run(&arguments),
         Command::Demo(arguments) => demo::run(&arguments),
         Command::Openapi(arguments) => openapi::run(&arguments).map_err(Failure::setup),
         Command::Migrate(arguments) => migrate::run(&arguments).map_err(Failure::setup),

@@ -66,11 +66,13 @@ pub(super) fn faces(view: &MapView<'_>) -> Vec<Feature> {
         .map(|face| {
             let annotation = &view.analysis.faces[face.index()];
             let [label, label_name, functionality] = label_values(view, view.semantic.labels[face.index()]);
-            let shares: Vec<f64> = annotation.category_shares.iter().map(|&share| rounded(f64::from(share))).collect();
+            let numbers = |shares: &[f32]| shares.iter().map(|&share| rounded(f64::from(share))).collect::<Vec<f64>>();
+            let membership = annotation.membership.as_deref().map(numbers);
             let properties = properties([
                 ("id", json!(face.0)),
                 ("category", json!(annotation.category)),
-                ("categoryShares", json!(shares)),
+                ("categoryShares", json!(numbers(&annotation.category_shares))),
+                ("membership", json!(membership)),
                 ("label", label),
                 ("labelName", label_name),
                 ("functionality", functionality),

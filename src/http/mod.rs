@@ -12,6 +12,7 @@ mod collections;
 mod conditional;
 mod crs;
 mod docs;
+mod evaluations;
 mod extractors;
 mod guards;
 mod health;
@@ -48,6 +49,8 @@ use utoipa_axum::routes;
 
 use crate::app::App;
 
+pub use evaluations::EvaluationView;
+
 /// Bytes that a body may have where nothing else is said: overrides for a hundred thousand faces.
 const BODY_BYTES: usize = 8 << 20;
 
@@ -67,6 +70,7 @@ fn routes(upload_bytes: usize) -> OpenApiRouter<Arc<App>> {
         .routes(routes!(maps::get, maps::update, maps::delete))
         .routes(routes!(analyses::list, analyses::create))
         .routes(routes!(analyses::diagnostics))
+        .routes(routes!(evaluations::create))
         .routes(routes!(pictures::image))
         .routes(routes!(pictures::categories))
         .routes(routes!(pictures::regions))

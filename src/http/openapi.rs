@@ -142,10 +142,11 @@ fn complete_operation(operation: &mut Operation, path: &str, is_read: bool) {
 }
 
 /// The schemas of the options, with the member of [`AnalysisOptions`] that each describes.
-const OPTIONS: [(&str, &str); 7] = [
+const OPTIONS: [(&str, &str); 8] = [
     ("AnalysisOptions", ""),
     ("GridOptions", "/grid"),
     ("CategorizationOptions", "/categorization"),
+    ("RelaxationOptions", "/categorization/relaxation"),
     ("OrientationOptions", "/orientation"),
     ("RegionOptions", "/regions"),
     ("DecompositionOptions", "/decomposition"),

@@ -55,17 +55,74 @@ pub struct CategorizationOptionsView {
     /// Smallest difference of consecutive beams that counts as a gap, metres.
     #[schema(minimum = 0, maximum = 1000)]
     gap_m: f64,
-    /// Number of categories.
+    /// Number of categories, or `auto`: as many as the features tell apart reliably.
+    k: CategoryCount,
+    /// Most categories when their number is found.
     #[schema(minimum = 2, maximum = 32)]
-    k: u32,
+    max_k: u32,
     /// How features are made comparable.
     scaling: Scaling,
+    /// `kMeans`: the nearest of k centroids. `gaussianMixture`: the likeliest of k normal distributions.
+    clustering: ClusteringMethod,
+    /// Covariances of the components of a Gaussian mixture.
+    covariance: Covariance,
     /// Restarts of k-means.
     #[schema(minimum = 1, maximum = 100)]
     restarts: u32,
-    /// Most iterations of one k-means run.
+    /// Most iterations of one run of k-means or of expectation-maximization.
     #[schema(minimum = 1, maximum = 10_000)]
     max_iterations: u32,
+    /// Probabilistic relaxation of the cells; none when absent.
+    relaxation: Option<RelaxationOptionsView>,
+}
+
+/// A number, 2 to 32, or `auto`.
+#[derive(Debug, Serialize, ToSchema)]
+#[serde(untagged)]
+enum CategoryCount {
+    Auto(#[schema(inline)] Auto),
+    Fixed(u32),
+}
+
+impl Default for CategoryCount {
+    fn default() -> Self {
+        Self::Auto(Auto::Auto)
+    }
+}
+
+/// The number is found.
+#[derive(Debug, Serialize, ToSchema)]
+#[serde(rename_all = "camelCase")]
+enum Auto {
+    Auto,
+}
+
+/// What kind of clusters categories are.
+#[derive(Debug, Default, Serialize, ToSchema)]
+#[serde(rename_all = "camelCase")]
+enum ClusteringMethod {
+    #[default]
+    KMeans,
+    GaussianMixture,
+}
+
+/// Shape of the components of a Gaussian mixture.
+#[derive(Debug, Default, Serialize, ToSchema)]
+#[serde(rename_all = "camelCase")]
+enum Covariance {
+    #[default]
+    Diagonal,
+    Full,
+}
+
+/// Probabilistic relaxation: neighbours settle on categories that go together.
+#[derive(Debug, Default, Serialize, ToSchema)]
+#[schema(as = RelaxationOptions)]
+#[serde(default, deny_unknown_fields, rename_all = "camelCase")]
+pub struct RelaxationOptionsView {
+    /// Most iterations, 10 when absent; it ends earlier when nothing moves.
+    #[schema(minimum = 1, maximum = 100)]
+    iterations: u32,
 }
 
 /// Set of features.
@@ -209,6 +266,8 @@ pub struct AnnotationOptionsView {
     /// Half width of the strip along an edge in which occupied cells support it, metres.
     #[schema(minimum = 0, maximum = 10)]
     support_width_m: f64,
+    /// Probabilistic relaxation of the faces over the adjacency graph; none when absent.
+    relaxation: Option<RelaxationOptionsView>,
 }
 
 /// How a face gets its category.
@@ -253,6 +312,9 @@ mod tests {
             ("/regions/method", vec!["energy", "single", "gabor"]),
             ("/decomposition/method", vec!["adaptive", "paper"]),
             ("/annotation/method", vec!["faces", "vote"]),
+            ("/categorization/k", vec!["auto"]),
+            ("/categorization/clustering", vec!["kMeans", "gaussianMixture"]),
+            ("/categorization/covariance", vec!["diagonal", "full"]),
         ] {
             for choice in choices {
                 let mut options = serde_json::to_value(AnalysisOptions::default()).expect("can be written");

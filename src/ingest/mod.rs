@@ -1,4 +1,4 @@
-//! Bytes -> occupancy grid.
+//! Bytes -> occupancy grid, and the truth of a site.
 //!
 //! A map arrives as an image with `map_server` metadata, or as a `nav_msgs/OccupancyGrid` message in JSON. Cells are
 //! read exactly as `nav2_map_server` reads them (`map_io.cpp`; see [`verdict`]); the files of the wild that loaders
@@ -12,6 +12,7 @@ mod document;
 mod message;
 mod metadata;
 mod picture;
+mod truth;
 mod verdict;
 
 use serde::{Deserialize, Serialize};
@@ -20,6 +21,7 @@ use stillage_core::analysis::Diagnostic;
 use stillage_core::spec::GridOptions;
 
 pub use metadata::image_entry;
+pub use truth::ground_truth;
 
 /// Limits on uploaded maps, applied before anything is decoded.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

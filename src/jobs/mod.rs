@@ -10,7 +10,6 @@
 //! - A request to stop lets running jobs go on for the grace period, then puts them back without counting the attempt.
 
 mod compute;
-mod memory;
 mod retry;
 mod running;
 #[cfg(test)]
@@ -18,6 +17,5 @@ mod tests;
 mod worker;
 
 pub use compute::{Analyzer, Compute, ComputeError, Computed};
-pub use memory::job_bytes;
 pub use retry::backoff;
 pub use worker::{Signals, Worker};

@@ -9,6 +9,7 @@
 
 mod client;
 mod document;
+mod evaluations;
 mod features;
 mod jobs;
 mod maps;

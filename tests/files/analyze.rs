@@ -50,6 +50,35 @@ fn a_map_becomes_a_folder_of_layers_and_pictures() {
 }
 
 #[test]
+fn the_report_tells_how_categories_were_found_and_relaxed() {
+    let folder = folder();
+    let options = r#"{"categorization": {"k": "auto", "maxK": 4, "clustering": "gaussianMixture", "relaxation": {}},
+        "annotation": {"relaxation": {"iterations": 3}}}"#;
+    std::fs::write(folder.path().join("options.json"), options).unwrap();
+    let output = analyze(folder.path(), &["room.yaml", "--options", "options.json"]);
+    assert!(output.status.success(), "{output:?}");
+    let json = |name: &str| -> Value {
+        serde_json::from_slice(&std::fs::read(folder.path().join("room.stillage").join(name)).unwrap()).unwrap()
+    };
+    let report = json("report.json");
+    assert_eq!(report["options"]["categorization"]["k"], "auto");
+    let tried: Vec<&Value> =
+        report["clustering"]["candidates"].as_array().unwrap().iter().map(|candidate| &candidate["k"]).collect();
+    assert_eq!(tried, [2, 3, 4]);
+    assert!(report["clustering"]["mixture"]["logLikelihood"].is_f64());
+    assert_eq!(report["relaxation"]["cells"]["nodes"], report["freeCells"]);
+    assert!(
+        report["relaxation"]["cells"]["entropyAfter"].as_f64()
+            < report["relaxation"]["cells"]["entropyBefore"].as_f64()
+    );
+    assert!(report["relaxation"]["faces"]["changedByIteration"].as_array().unwrap().len() <= 3);
+    let faces = json("faces.geojson");
+    let memberships = faces["features"].as_array().unwrap().iter().map(|face| &face["properties"]["membership"]);
+    let sums = memberships.map(|shares| shares.as_array().unwrap().iter().filter_map(Value::as_f64).sum::<f64>());
+    assert!(sums.into_iter().all(|sum| sum == 0.0 || (sum - 1.0).abs() < 1e-3));
+}
+
+#[test]
 fn faults_of_the_input_end_with_2_and_a_sentence() {
     let folder = folder();
     let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).unwrap();

@@ -8,16 +8,16 @@ use crate::arrangement::{self, Subdivision};
 use crate::categorization::{self, CategoryMap};
 use crate::declutter;
 use crate::decomposition;
-use crate::features;
 use crate::grid::{GridFrame, OccupancyGrid};
 use crate::orientation::{self, Orientations};
 use crate::radiography::{self, Line, Radiogram};
+use crate::relaxation::RelaxationReport;
 use crate::segmentation::{self, RegionMap};
 use crate::spec::{AnalysisOptions, AnalysisSpec, DecompositionMethod};
 use crate::watch::{Stage, Stopped, Watch};
 
 /// Version of the algorithms: part of the address of a stored analysis, raised whenever results change.
-pub const ALGORITHM_VERSION: u32 = 2;
+pub const ALGORITHM_VERSION: u32 = 3;
 
 /// What the geometric level finds in a map. Immutable; addressed by grid, options and [`ALGORITHM_VERSION`].
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -50,6 +50,8 @@ pub struct Analysis {
     pub face_categories: FaceCategories,
     /// What is known of each edge, by edge id.
     pub edges: Vec<EdgeAnnotation>,
+    /// What the relaxation of the faces did, where it was asked for.
+    pub face_relaxation: Option<RelaxationReport>,
     /// What the user should know about this result.
     pub diagnostics: Vec<Diagnostic>,
 }
@@ -81,11 +83,7 @@ pub fn analyze(grid: &OccupancyGrid, spec: &AnalysisSpec, watch: &Watch<'_>) -> 
     let options = spec.options();
     let declutter::Decluttered { grid: clean, .. } = declutter::declutter(grid, watch)?;
     let grid = &clean;
-    let features = watch.stage(Stage::Features, || features::extract(grid, &options.categorization, watch))?;
-    let categories = watch.stage(Stage::Categorization, || {
-        categorization::categorize(grid, &features, &options.categorization, options.seed, watch)
-    })?;
-    drop(features);
+    let categorization = categorization::categorize(grid, &options.categorization, options.seed, watch)?;
     let orientations =
         watch.stage(Stage::Orientation, || orientation::dominant_orientations(grid, &options.orientation, watch))?;
     let regions = watch.stage(Stage::Regions, || segmentation::segment(grid, &orientations, options, watch))?;
@@ -102,11 +100,11 @@ pub fn analyze(grid: &OccupancyGrid, spec: &AnalysisSpec, watch: &Watch<'_>) -> 
         arrangement::arrange(&segments, watch)
     })?;
     let graph = AdjacencyGraph::dual(&subdivision);
-    let (faces, edges, face_categories) = watch.stage(Stage::Annotation, || {
+    let annotations = watch.stage(Stage::Annotation, || {
         let cells = CellFaces::rasterize(&subdivision, grid.width(), grid.height(), grid.resolution());
         let subject = annotation::Subject {
             grid,
-            categories: &categories,
+            categorization: &categorization,
             regions: &regions,
             subdivision: &subdivision,
             graph: &graph,
@@ -120,16 +118,17 @@ pub fn analyze(grid: &OccupancyGrid, spec: &AnalysisSpec, watch: &Watch<'_>) -> 
         width: grid.width(),
         height: grid.height(),
         options: options.clone(),
-        categories,
+        categories: categorization.map,
         orientations,
         regions,
         radiograms,
         lines,
         subdivision,
         graph,
-        faces,
-        face_categories,
-        edges,
+        faces: annotations.faces,
+        face_categories: annotations.categories,
+        edges: annotations.edges,
+        face_relaxation: annotations.relaxation,
         diagnostics: Vec::new(),
     };
     analysis.diagnostics = diagnose(grid, &analysis);

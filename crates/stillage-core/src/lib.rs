@@ -13,6 +13,8 @@
 //!                                                                  layout, routing ──┘    human level: [`semantics::apply`]
 //! ```
 //!
+//! Where the truth of a site is known, [`evaluation`] says how well both levels fit it.
+//!
 //! Nothing here touches a file, a socket, a clock or a thread pool of its own: parallel work runs on the rayon pool
 //! of the caller. The same grid and spec give the same [`Analysis`] on any number of threads.
 //!
@@ -28,7 +30,9 @@ pub mod raycast;
 
 pub mod clustering;
 pub mod linalg;
+pub mod relaxation;
 pub mod signal;
+pub mod vectors;
 
 pub mod categorization;
 pub mod declutter;
@@ -45,11 +49,14 @@ pub mod adjacency;
 pub mod annotation;
 
 pub mod analysis;
+pub mod memory;
 
 pub mod semantics;
 
 pub mod layout;
 pub mod routing;
+
+pub mod evaluation;
 
 pub mod spec;
 mod walls;

@@ -4,7 +4,8 @@
 //! fields are refused, and the whole object with its defaults is echoed in the result. [`AnalysisOptions::check`]
 //! turns the wish into a spec; functions that take a spec, or one of its groups, assume that it is valid.
 
-use serde::{Deserialize, Serialize};
+use serde::de::{self, Deserializer, Unexpected, Visitor};
+use serde::{Deserialize, Serialize, Serializer};
 
 /// Everything that decides the result of an analysis beside the map itself.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -53,13 +54,58 @@ pub struct CategorizationOptions {
     /// Smallest difference of consecutive beams that counts as a gap, metres.
     pub gap_m: f64,
     /// Number of categories.
-    pub k: usize,
+    pub k: CategoryCount,
+    /// Most categories when their number is found.
+    pub max_k: usize,
     /// How features are made comparable.
     pub scaling: Scaling,
+    /// What kind of clusters categories are.
+    pub clustering: ClusteringMethod,
+    /// Covariances of the components of a Gaussian mixture.
+    pub covariance: Covariance,
     /// Restarts of k-means, the best one wins.
     pub restarts: usize,
-    /// Most iterations of one k-means run.
+    /// Most iterations of one run of k-means or of expectation-maximization.
     pub max_iterations: usize,
+    /// Probabilistic relaxation of the cells; none when absent.
+    pub relaxation: Option<RelaxationOptions>,
+}
+
+/// A number of categories: in JSON a number or `"auto"`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum CategoryCount {
+    /// As many as the features tell apart reliably.
+    Auto,
+    /// So many.
+    Fixed(usize),
+}
+
+/// What kind of clusters categories are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub enum ClusteringMethod {
+    /// The nearest of k centroids, as in the paper.
+    KMeans,
+    /// The likeliest of k normal distributions.
+    GaussianMixture,
+}
+
+/// The shape of the components of a Gaussian mixture.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub enum Covariance {
+    /// Features are independent within a component: ellipsoids along the axes.
+    Diagonal,
+    /// Any ellipsoid.
+    Full,
+}
+
+/// Options of a probabilistic relaxation: neighbours settle on categories that go together.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields, rename_all = "camelCase")]
+pub struct RelaxationOptions {
+    /// Most iterations; it ends earlier when nothing moves.
+    pub iterations: usize,
 }
 
 /// A set of features.
@@ -188,6 +234,8 @@ pub struct AnnotationOptions {
     pub categories: usize,
     /// Half width of the strip along an edge in which occupied cells support it, metres.
     pub support_width_m: f64,
+    /// Probabilistic relaxation of the faces over the adjacency graph; none when absent.
+    pub relaxation: Option<RelaxationOptions>,
 }
 
 /// How a face gets its category.
@@ -223,11 +271,72 @@ impl Default for CategorizationOptions {
             unknown_blocks: true,
             stride: 1,
             gap_m: 0.5,
-            k: 5,
+            k: CategoryCount::Fixed(5),
+            max_k: 8,
             scaling: Scaling::ZScore,
-            restarts: 8,
+            clustering: ClusteringMethod::KMeans,
+            covariance: Covariance::Full,
+            restarts: 16,
             max_iterations: 300,
+            relaxation: None,
         }
+    }
+}
+
+impl Default for RelaxationOptions {
+    fn default() -> Self {
+        Self { iterations: 10 }
+    }
+}
+
+impl Serialize for CategoryCount {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        // Formats for programs do not tell a number from a word: there, automatic is none.
+        match (*self, serializer.is_human_readable()) {
+            (Self::Auto, true) => serializer.serialize_str(AUTO),
+            (Self::Fixed(count), true) => serializer.serialize_u64(count as u64),
+            (Self::Auto, false) => None::<u64>.serialize(serializer),
+            (Self::Fixed(count), false) => Some(count as u64).serialize(serializer),
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for CategoryCount {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        if deserializer.is_human_readable() {
+            return deserializer.deserialize_any(NumberOrAuto);
+        }
+        let count = Option::<u64>::deserialize(deserializer)?;
+        Ok(count.map_or(Self::Auto, |count| Self::Fixed(count as usize)))
+    }
+}
+
+/// The word for a number that is found.
+const AUTO: &str = "auto";
+
+/// Reads a [`CategoryCount`].
+struct NumberOrAuto;
+
+impl Visitor<'_> for NumberOrAuto {
+    type Value = CategoryCount;
+
+    fn expecting(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(formatter, "a whole number or \"{AUTO}\"")
+    }
+
+    fn visit_u64<E: de::Error>(self, count: u64) -> Result<Self::Value, E> {
+        Ok(CategoryCount::Fixed(usize::try_from(count).unwrap_or(usize::MAX)))
+    }
+
+    fn visit_i64<E: de::Error>(self, count: i64) -> Result<Self::Value, E> {
+        match u64::try_from(count) {
+            Ok(count) => self.visit_u64(count),
+            Err(_) => Err(E::invalid_value(Unexpected::Signed(count), &self)),
+        }
+    }
+
+    fn visit_str<E: de::Error>(self, word: &str) -> Result<Self::Value, E> {
+        if word == AUTO { Ok(CategoryCount::Auto) } else { Err(E::invalid_value(Unexpected::Str(word), &self)) }
     }
 }
 
@@ -275,7 +384,7 @@ impl Default for DecompositionOptions {
 
 impl Default for AnnotationOptions {
     fn default() -> Self {
-        Self { method: AnnotationMethod::Faces, categories: 16, support_width_m: 0.1 }
+        Self { method: AnnotationMethod::Faces, categories: 16, support_width_m: 0.1, relaxation: None }
     }
 }
 
@@ -323,9 +432,15 @@ impl AnalysisOptions {
         }
         check.whole("/categorization/stride", categorization.stride, 1, 64);
         check.number("/categorization/gapM", categorization.gap_m, 0.0, 1_000.0);
-        check.whole("/categorization/k", categorization.k, 2, 32);
+        if let CategoryCount::Fixed(count) = categorization.k {
+            check.whole("/categorization/k", count, 2, 32);
+        }
+        check.whole("/categorization/maxK", categorization.max_k, 2, 32);
         check.whole("/categorization/restarts", categorization.restarts, 1, 100);
         check.whole("/categorization/maxIterations", categorization.max_iterations, 1, 10_000);
+        if let Some(relaxation) = categorization.relaxation {
+            check.whole("/categorization/relaxation/iterations", relaxation.iterations, 1, 100);
+        }
 
         let orientation = &self.orientation;
         check.number("/orientation/gradientScaleM", orientation.gradient_scale_m, 0.001, 10.0);
@@ -358,6 +473,9 @@ impl AnalysisOptions {
 
         check.whole("/annotation/categories", self.annotation.categories, 2, 64);
         check.number("/annotation/supportWidthM", self.annotation.support_width_m, 0.0, 10.0);
+        if let Some(relaxation) = self.annotation.relaxation {
+            check.whole("/annotation/relaxation/iterations", relaxation.iterations, 1, 100);
+        }
 
         if check.problems.is_empty() { Ok(AnalysisSpec(self)) } else { Err(check.problems) }
     }
@@ -413,11 +531,18 @@ mod tests {
     #[test]
     fn every_problem_is_named_with_its_pointer() {
         let mut options = AnalysisOptions::default();
-        options.categorization.k = 0;
+        options.categorization.relaxation = Some(RelaxationOptions { iterations: 0 });
+        options.categorization.k = CategoryCount::Fixed(0);
         options.decomposition.min_distance_m = f64::NAN;
         options.regions.wavelengths_m = [4.0, 2.0];
         let problems = options.check().unwrap_err();
         let pointers: Vec<&str> = problems.iter().map(|problem| problem.pointer).collect();
-        assert_eq!(pointers, ["/categorization/k", "/regions/wavelengthsM", "/decomposition/minDistanceM"]);
+        let expected = [
+            "/categorization/k",
+            "/categorization/relaxation/iterations",
+            "/regions/wavelengthsM",
+            "/decomposition/minDistanceM",
+        ];
+        assert_eq!(pointers, expected);
     }
 }

@@ -6,9 +6,11 @@ use std::sync::atomic::{AtomicBool, Ordering};
 /// The stages of [`crate::analyze`], in their order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Stage {
-    /// Beams from every free cell, reduced to features.
+    /// Beams from every free cell of a sample, or of the whole map, reduced to features.
     Features,
     /// Clustering of the features into place categories.
+    Clustering,
+    /// Features of the cells outside the sample, and the category of every cell.
     Categorization,
     /// Dominant orientations of the whole map.
     Orientation,
@@ -24,8 +26,9 @@ pub enum Stage {
 
 impl Stage {
     /// Every stage, in order.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::Features,
+        Self::Clustering,
         Self::Categorization,
         Self::Orientation,
         Self::Regions,
@@ -39,6 +42,7 @@ impl Stage {
     pub const fn name(self) -> &'static str {
         match self {
             Self::Features => "features",
+            Self::Clustering => "clustering",
             Self::Categorization => "categorization",
             Self::Orientation => "orientation",
             Self::Regions => "regions",

@@ -1,8 +1,6 @@
 //! `stillage analyze`: a map file in, a folder of layers and pictures out, without a server.
 
-mod input;
 mod output;
-mod progress;
 
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
@@ -11,12 +9,11 @@ use stillage_core::analysis::{ALGORITHM_VERSION, Diagnostic};
 use stillage_core::annotation::CellFaces;
 use stillage_core::layout::{self, Location};
 use stillage_core::semantics::{self, Assignment, RuleSet, SemanticMap, Suggestion};
-use stillage_core::watch::{StopFlag, Watch};
 use stillage_core::{Analysis, OccupancyGrid};
 
-use super::Failure;
-use crate::ingest::{self, DecodedMap, Limits};
-use progress::Progress;
+use super::computation::{self, Computed};
+use super::progress::Progress;
+use super::{Failure, input};
 
 /// Arguments of `stillage analyze`.
 #[derive(Debug, clap::Args)]
@@ -67,21 +64,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     output::check(&folder)?;
 
     let progress = Progress::new();
-    let decoded = progress.clock().time("ingest", || ingest::decode(&source, &spec.options().grid, &Limits::default()));
-    let DecodedMap { grid, warnings } = decoded.map_err(|error| input::refused(&arguments.map, &error))?;
-    drop(source);
-    for warning in &warnings {
-        progress.say(&format!("warning: {}", warning.message));
-    }
-    let stop = StopFlag::default();
-    let mut pool = rayon::ThreadPoolBuilder::new();
-    if let Some(threads) = arguments.threads {
-        pool = pool.num_threads(threads.get());
-    }
-    let pool = pool.build().map_err(|error| Failure::Internal(format!("no threads to compute with: {error}")))?;
-    let analysis = pool
-        .install(|| stillage_core::analyze(&grid, &spec, &Watch::new(&stop, &progress)))
-        .map_err(|error| Failure::Internal(error.to_string()))?;
+    let pool = computation::pool(arguments.threads)?;
+    let Computed { grid, analysis, warnings } = computation::analyze(&arguments.map, source, &spec, &pool, &progress)?;
     let findings =
         progress.clock().time("semantics", || read_semantics(name, grid, analysis, warnings, &rule_set, assignment))?;
     progress.finish();
@@ -100,18 +84,10 @@ fn read_semantics(
     assignment: Option<Assignment>,
 ) -> Result<Findings, Failure> {
     let suggestions = semantics::suggest(&analysis, rule_set);
-    let assignment = assignment.unwrap_or_else(|| suggested(&suggestions, rule_set));
-    let semantic = semantics::apply(&analysis, rule_set, &assignment).map_err(|problems| {
-        Failure::Input(format!("the assignment does not fit this map: {}", input::list(&problems)))
-    })?;
+    let assignment = assignment.unwrap_or_else(|| Assignment::suggested(&suggestions, rule_set));
+    let semantic = semantics::apply(&analysis, rule_set, &assignment).map_err(|problems| input::misfit(&problems))?;
     let locations = layout::locations(&analysis, &semantic);
     let cells = CellFaces::rasterize(&analysis.subdivision, grid.width(), grid.height(), grid.resolution());
     diagnostics.extend(analysis.diagnostics.iter().cloned());
     Ok(Findings { name, grid, cells, analysis, suggestions, assignment, semantic, locations, diagnostics })
-}
-
-/// The suggestions as if a person had assigned them.
-fn suggested(suggestions: &[Suggestion], rule_set: &RuleSet) -> Assignment {
-    let label = |suggestion: &Suggestion| (suggestion.category, rule_set.label(suggestion.label).id.clone());
-    Assignment { assignment: suggestions.iter().map(label).collect(), ..Assignment::default() }
 }

@@ -121,6 +121,8 @@ fn report(findings: &Findings, stages: &[StageReport]) -> Value {
             "places": semantic.places.len(),
             "locations": findings.locations.len(),
         },
+        "clustering": analysis.categories.fit,
+        "relaxation": {"cells": analysis.categories.relaxation, "faces": analysis.face_relaxation},
         "diagnostics": findings.diagnostics,
         "ruleSet": rule_set.draft(),
         "assignment": findings.assignment,

@@ -191,6 +191,7 @@ fn face_annotation(tally: &Tally, rings: &[Vec<Point>], categories: &CategoryMap
     FaceAnnotation {
         category,
         category_shares: tally.categories.iter().map(|&count| share(count, votes) as f32).collect(),
+        membership: None,
         cells: total as usize,
         free_fraction: share(free, total),
         occupied_fraction: share(occupied, total),

@@ -9,9 +9,9 @@
 use super::roles::Role;
 use super::{FaceAnnotation, FaceCategories};
 use crate::categorization::CategoryMap;
-use crate::clustering::{KMeansOptions, ScaledRows, k_means};
+use crate::clustering::{KMeansOptions, k_means};
 use crate::decomposition::PlotKind;
-use crate::spec::{AnnotationOptions, Scaling};
+use crate::spec::AnnotationOptions;
 use crate::watch::{Stopped, Watch};
 
 /// Numbers per face.
@@ -55,12 +55,14 @@ pub(super) fn categorize(
         fit_rows: usize::MAX,
         seed,
     };
-    let found = k_means(&ScaledRows::new(&rows, COLUMNS, Scaling::None), &search, watch)?;
-    let numbers = canonical_numbers(&found.centroids, found.count);
-    let kinds = FaceCategories { clusters: found.count };
-    let spread = (found.inertia / members.len().max(1) as f64).max(1e-6);
+    let labels = k_means(&rows, COLUMNS, &search, watch)?;
+    let centroids = centroids(&rows, &labels);
+    let count = centroids.len() / COLUMNS;
+    let numbers = canonical_numbers(&centroids, count);
+    let kinds = FaceCategories { clusters: count };
+    let spread = mean_squared_distance(&rows, &centroids).max(1e-6);
     for (face, row) in members.iter().zip(rows.chunks_exact(COLUMNS)) {
-        let shares = memberships(row, &found.centroids, &numbers, spread);
+        let shares = memberships(row, &centroids, &numbers, spread);
         let best = (0..shares.len()).fold(0, |best, at| if shares[at] > shares[best] { at } else { best });
         faces[*face].category = best as u8;
         faces[*face].confidence = f64::from(shares[best]);
@@ -96,6 +98,33 @@ fn describe(face: &FaceAnnotation, role: &Role) -> [f32; COLUMNS] {
     ]
 }
 
+/// Means of the rows of each cluster, clusters without rows left out.
+fn centroids(rows: &[f32], labels: &[u8]) -> Vec<f32> {
+    let clusters = labels.iter().max().map_or(0, |&last| usize::from(last) + 1);
+    let mut sums = vec![[0.0_f64; COLUMNS]; clusters];
+    let mut counts = vec![0_usize; clusters];
+    for (row, &label) in rows.chunks_exact(COLUMNS).zip(labels) {
+        counts[usize::from(label)] += 1;
+        sums[usize::from(label)].iter_mut().zip(row).for_each(|(sum, &value)| *sum += f64::from(value));
+    }
+    let filled = sums.iter().zip(&counts).filter(|&(_, &count)| count > 0);
+    filled.flat_map(|(sum, &count)| sum.map(|sum| (sum / count as f64) as f32)).collect()
+}
+
+fn squared_distance(row: &[f32], centroid: &[f32]) -> f64 {
+    row.iter().zip(centroid).map(|(a, b)| f64::from(a - b).powi(2)).sum()
+}
+
+/// Mean over the rows of the squared distance to the nearest centroid.
+fn mean_squared_distance(rows: &[f32], centroids: &[f32]) -> f64 {
+    let nearest = |row: &[f32]| {
+        let distances = centroids.chunks_exact(COLUMNS).map(|centroid| squared_distance(row, centroid));
+        distances.fold(f64::INFINITY, f64::min)
+    };
+    let count = (rows.len() / COLUMNS).max(1);
+    rows.chunks_exact(COLUMNS).map(nearest).sum::<f64>() / count as f64
+}
+
 /// Numbers clusters by their centroids, so that the numbers do not depend on the luck of the seed.
 fn canonical_numbers(centroids: &[f32], count: usize) -> Vec<usize> {
     let mut order: Vec<usize> = (0..count).collect();
@@ -113,11 +142,7 @@ fn canonical_numbers(centroids: &[f32], count: usize) -> Vec<usize> {
 
 /// How far a face belongs to each category: the densities of equally wide bells around the centroids.
 fn memberships(row: &[f32], centroids: &[f32], numbers: &[usize], spread: f64) -> Vec<f32> {
-    let distance = |cluster: usize| -> f64 {
-        let centroid = &centroids[cluster * COLUMNS..(cluster + 1) * COLUMNS];
-        row.iter().zip(centroid).map(|(a, b)| f64::from(a - b).powi(2)).sum()
-    };
-    let distances: Vec<f64> = (0..numbers.len()).map(distance).collect();
+    let distances: Vec<f64> = centroids.chunks_exact(COLUMNS).map(|centroid| squared_distance(row, centroid)).collect();
     let nearest = distances.iter().copied().fold(f64::INFINITY, f64::min);
     let bells: Vec<f64> = distances.iter().map(|distance| (-0.5 * (distance - nearest) / spread).exp()).collect();
     let total: f64 = bells.iter().sum();

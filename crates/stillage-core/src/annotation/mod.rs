@@ -6,6 +6,7 @@
 mod edges;
 mod faces;
 mod kinds;
+mod membership;
 mod outside;
 mod raster;
 mod roles;
@@ -20,9 +21,10 @@ pub use raster::CellFaces;
 
 use crate::adjacency::AdjacencyGraph;
 use crate::arrangement::Subdivision;
-use crate::categorization::CategoryMap;
+use crate::categorization::Categorization;
 use crate::decomposition::{Plot, PlotKind};
 use crate::grid::OccupancyGrid;
+use crate::relaxation::RelaxationReport;
 use crate::segmentation::RegionMap;
 use crate::spec::{AnnotationMethod, AnnotationOptions};
 use crate::watch::{Stopped, Watch};
@@ -39,10 +41,14 @@ pub enum Evidence {
 /// What the cells say about a face.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct FaceAnnotation {
-    /// Category in force: a cluster, or `occupied`, `unknown` or `outside` of [`CategoryMap`].
+    /// Category in force: a cluster, or `occupied`, `unknown` or `outside` of
+    /// [`CategoryMap`](crate::categorization::CategoryMap).
     pub category: u8,
     /// Share of each cluster among the categorized cells of the face (sums to 1, or all 0 without such cells).
     pub category_shares: Vec<f32>,
+    /// Distribution over the clusters: the mean membership of its measured cells, or what relaxation made of it. Absent
+    /// where it is no other than [`FaceAnnotation::category_shares`]; empty for a face without categorized cells.
+    pub membership: Option<Vec<f32>>,
     /// Cells whose centre lies in the face.
     pub cells: usize,
     /// Share of its cells that are free.
@@ -65,10 +71,18 @@ pub struct FaceAnnotation {
     pub kind: Option<PlotKind>,
     /// Length of its border along the fronts and backs of places, metres.
     pub fronts: f64,
-    /// Share of the winning category among the votes, 0 to 1.
+    /// Share of the category in force among the votes, or in the relaxed distribution, 0 to 1.
     pub confidence: f64,
     /// Whether cells show it.
     pub evidence: Evidence,
+}
+
+impl FaceAnnotation {
+    /// Distribution over the clusters: the membership where there is one, else the shares of the votes.
+    #[must_use]
+    pub fn distribution(&self) -> &[f32] {
+        self.membership.as_ref().filter(|membership| !membership.is_empty()).unwrap_or(&self.category_shares)
+    }
 }
 
 /// What the cells say about an edge.
@@ -123,7 +137,7 @@ pub struct Subject<'a> {
     /// The map.
     pub grid: &'a OccupancyGrid,
     /// Categories of its cells.
-    pub categories: &'a CategoryMap,
+    pub categorization: &'a Categorization,
     /// Its regions.
     pub regions: &'a RegionMap,
     /// Its faces and edges.
@@ -136,6 +150,19 @@ pub struct Subject<'a> {
     pub plots: &'a [Plot],
 }
 
+/// What the cells say about all faces and edges.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Annotations {
+    /// By face; entry 0, the unbounded face, is empty.
+    pub faces: Vec<FaceAnnotation>,
+    /// The categories that they may have.
+    pub categories: FaceCategories,
+    /// By edge.
+    pub edges: Vec<EdgeAnnotation>,
+    /// What the relaxation of the faces did, where it was asked for.
+    pub relaxation: Option<RelaxationReport>,
+}
+
 /// Gives faces their categories and measures faces and edges.
 ///
 /// # Errors
@@ -145,19 +172,31 @@ pub fn annotate(
     options: &AnnotationOptions,
     seed: u64,
     watch: &Watch<'_>,
-) -> Result<(Vec<FaceAnnotation>, Vec<EdgeAnnotation>, FaceCategories), Stopped> {
-    let Subject { grid, categories, regions, subdivision, graph, cells, plots } = *subject;
+) -> Result<Annotations, Stopped> {
+    let Subject { grid, categorization, regions, subdivision, graph, cells, plots } = *subject;
+    let categories = &categorization.map;
     let mut faces = faces::annotate_faces(grid, categories, regions, subdivision, cells, watch)?;
     let roles = roles::roles(subdivision, graph, &faces, plots);
     for (face, role) in faces.iter_mut().zip(&roles) {
         face.kind = role.plot.map(|plot| plot.kind);
         face.fronts = role.fronts;
     }
+    let votes = options.method == AnnotationMethod::Vote;
+    if let Some(memberships) = categorization.memberships.as_ref().filter(|_| votes) {
+        membership::average(&mut faces, cells, memberships, watch)?;
+    }
+    let mut kinds = FaceCategories { clusters: categories.categories.len() };
+    let mut relaxation = None;
+    if let Some(wanted) = options.relaxation.filter(|_| votes) {
+        relaxation = Some(membership::relax(&mut faces, subdivision, kinds.clusters, wanted, watch)?);
+    }
     outside::mark_outside(&mut faces, subdivision, categories);
-    let kinds = match options.method {
-        AnnotationMethod::Vote => FaceCategories { clusters: categories.categories.len() },
-        AnnotationMethod::Faces => kinds::categorize(&mut faces, &roles, categories, options, seed, watch)?,
-    };
+    if !votes {
+        kinds = kinds::categorize(&mut faces, &roles, categories, options, seed, watch)?;
+        if let Some(wanted) = options.relaxation {
+            relaxation = Some(membership::relax(&mut faces, subdivision, kinds.clusters, wanted, watch)?);
+        }
+    }
     let edges = edges::annotate_edges(grid, subdivision, options, watch)?;
-    Ok((faces, edges, kinds))
+    Ok(Annotations { faces, categories: kinds, edges, relaxation })
 }

@@ -5,7 +5,8 @@ use proptest::prelude::*;
 
 use super::*;
 use crate::arrangement::{EdgeSource, FaceId, SourceSegment, arrange};
-use crate::categorization::Category;
+use crate::categorization::{Category, CategoryMap};
+use crate::clustering::FitReport;
 use crate::geometry::{OrientedBox, Point};
 use crate::segmentation::Region;
 
@@ -40,24 +41,25 @@ fn read(picture: &str) -> (OccupancyGrid, CategoryMap) {
     let category = |symbol: char| symbol.to_digit(10).map_or(CategoryMap::NONE, |digit| digit as u8);
     let cells = rows.iter().rev().flat_map(|row| row.chars().map(category)).collect();
     let categories = vec![Category { cells: 0, mean_features: vec![] }; 3];
-    (grid, CategoryMap { cells, categories, feature_names: vec![] })
+    (grid, CategoryMap { cells, categories, feature_names: vec![], fit: FitReport::default(), relaxation: None })
 }
 
 fn annotated(picture: &str, subdivision: &Subdivision) -> (Vec<FaceAnnotation>, Vec<EdgeAnnotation>) {
     let (grid, categories) = read(picture);
     let cells = CellFaces::rasterize(subdivision, grid.width(), grid.height(), grid.resolution());
     let options = AnnotationOptions { method: AnnotationMethod::Vote, ..AnnotationOptions::default() };
+    let categorization = Categorization { map: categories, memberships: None };
     let subject = Subject {
         grid: &grid,
-        categories: &categories,
+        categorization: &categorization,
         regions: &one_region(&grid),
         subdivision,
         graph: &AdjacencyGraph::dual(subdivision),
         cells: &cells,
         plots: &[],
     };
-    let (faces, edges, _) = annotate(&subject, &options, 1, &Watch::unwatched()).expect("nobody stops it");
-    (faces, edges)
+    let found = annotate(&subject, &options, 1, &Watch::unwatched()).expect("nobody stops it");
+    (found.faces, found.edges)
 }
 
 fn picture_of(cells: &CellFaces, width: usize) -> String {

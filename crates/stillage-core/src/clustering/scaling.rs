@@ -1,9 +1,11 @@
 //! Columns made comparable. Scaling decides more about clusters than any other choice, so it is an option, not a habit.
 //!
-//! Scaled values are computed on the way to the clustering and never stored. Statistics are sums in double precision
-//! over fixed blocks of rows, combined in order: the same for any number of threads. Cost: O(values), twice.
+//! A scaling is fitted once, to the rows that the clusters are fitted to, and is then a part of the model: scaled values
+//! are computed on the way to the clusters and never stored. Statistics are sums in double precision over fixed blocks
+//! of rows, combined in order: the same for any number of threads. Cost: O(values), twice for the fit.
 
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 use crate::spec::Scaling;
 
@@ -13,66 +15,52 @@ const ROWS_PER_BLOCK: usize = 4_096;
 /// Spread, relative to the mean, below which a column counts as constant: what single precision leaves of one.
 const CONSTANT: f64 = 1e-6;
 
-/// Rows of equal length with a scaling of their columns.
-#[derive(Debug)]
-pub struct ScaledRows<'a> {
-    values: &'a [f32],
+/// A scaling of each column of a row.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct RowScaling {
     columns: Vec<ColumnScaling>,
 }
 
 /// `value -> (value - shift) * factor`, after the logarithm if there is one.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 struct ColumnScaling {
     logarithm: bool,
     shift: f64,
     factor: f64,
 }
 
-impl<'a> ScaledRows<'a> {
-    /// Finds the scaling of `values`, rows of `columns` numbers each. Constant columns become zero where they are
-    /// divided by their spread; `DivideByMean` divides by the mean of absolute values, which is the mean for lengths
-    /// and counts, and keeps columns of either sign from blowing up.
+impl RowScaling {
+    /// Finds the scaling of `rows`, `columns` numbers each. Constant columns become zero where they are divided by
+    /// their spread; `DivideByMean` divides by the mean of absolute values, which is the mean for lengths and counts,
+    /// and keeps columns of either sign from blowing up.
     ///
     /// # Panics
     /// When the values are no whole rows, or there are no columns.
     #[must_use]
-    pub fn new(values: &'a [f32], columns: usize, scaling: Scaling) -> Self {
-        assert!(columns > 0 && values.len().is_multiple_of(columns), "rows have {columns} values each");
+    pub fn fit(rows: &[f32], columns: usize, scaling: Scaling) -> Self {
+        assert!(columns > 0 && rows.len().is_multiple_of(columns), "rows have {columns} values each");
         let logarithm = scaling == Scaling::LogZScore;
-        let plain = vec![ColumnScaling { logarithm, shift: 0.0, factor: 1.0 }; columns];
-        let mut rows = Self { values, columns: plain };
-        if scaling == Scaling::None || values.is_empty() {
-            return rows;
+        let mut fitted = Self { columns: vec![ColumnScaling { logarithm, shift: 0.0, factor: 1.0 }; columns] };
+        if scaling == Scaling::None || rows.is_empty() {
+            return fitted;
         }
-        let count = rows.len() as f64;
-        let means = rows.sums(|_, value| value).into_iter().map(|sum| sum / count).collect::<Vec<f64>>();
+        let count = (rows.len() / columns) as f64;
+        let means = fitted.sums(rows, |_, value| value).into_iter().map(|sum| sum / count).collect::<Vec<f64>>();
         if scaling == Scaling::DivideByMean {
-            let sizes = rows.sums(|_, value| value.abs());
-            for (column, size) in rows.columns.iter_mut().zip(sizes) {
+            let sizes = fitted.sums(rows, |_, value| value.abs());
+            for (column, size) in fitted.columns.iter_mut().zip(sizes) {
                 column.factor = if size > 0.0 { count / size } else { 0.0 };
             }
-            return rows;
+            return fitted;
         }
-        let squares = rows.sums(|column, value| (value - means[column]).powi(2));
-        for ((column, mean), square) in rows.columns.iter_mut().zip(means).zip(squares) {
+        let squares = fitted.sums(rows, |column, value| (value - means[column]).powi(2));
+        for ((column, mean), square) in fitted.columns.iter_mut().zip(means).zip(squares) {
             let deviation = (square / count).sqrt();
             let constant = deviation <= CONSTANT * mean.abs();
             column.shift = mean;
             column.factor = if constant { 0.0 } else { deviation.recip() };
         }
-        rows
-    }
-
-    /// Number of rows.
-    #[must_use]
-    pub fn len(&self) -> usize {
-        self.values.len() / self.columns.len()
-    }
-
-    /// Whether there are no rows.
-    #[must_use]
-    pub fn is_empty(&self) -> bool {
-        self.values.is_empty()
+        fitted
     }
 
     /// Values per row.
@@ -82,17 +70,14 @@ impl<'a> ScaledRows<'a> {
     }
 
     /// The scaled values of a row.
-    pub fn row(&self, row: usize) -> impl Iterator<Item = f32> {
-        let columns = self.columns.len();
-        let values = &self.values[row * columns..(row + 1) * columns];
-        values.iter().zip(&self.columns).map(|(&value, column)| column.apply(value) as f32)
+    pub fn row<'a>(&'a self, row: &'a [f32]) -> impl Iterator<Item = f32> + 'a {
+        row.iter().zip(&self.columns).map(|(&value, column)| column.apply(value) as f32)
     }
 
     /// Sum of a function of the (so far scaled) values of each column.
-    fn sums(&self, function: impl Fn(usize, f64) -> f64 + Sync) -> Vec<f64> {
+    fn sums(&self, rows: &[f32], function: impl Fn(usize, f64) -> f64 + Sync) -> Vec<f64> {
         let columns = self.columns.len();
-        let blocks: Vec<Vec<f64>> = self
-            .values
+        let blocks: Vec<Vec<f64>> = rows
             .par_chunks(ROWS_PER_BLOCK * columns)
             .map(|block| {
                 let mut sums = vec![0.0; columns];
@@ -129,9 +114,9 @@ mod tests {
     const ROWS: [f32; 12] = [1.0, -2.0, 5.0, 2.0, 2.0, 5.0, 3.0, -2.0, 5.0, 10.0, 2.0, 5.0];
 
     fn check(scaling: Scaling, expected: &Expect) {
-        let rows = ScaledRows::new(&ROWS, 3, scaling);
-        let line = |row| rows.row(row).map(|value| format!("{value:.2}")).collect::<Vec<_>>().join(", ");
-        expected.assert_eq(&(0..rows.len()).map(line).collect::<Vec<_>>().join("\n"));
+        let fitted = RowScaling::fit(&ROWS, 3, scaling);
+        let line = |row| fitted.row(row).map(|value| format!("{value:.2}")).collect::<Vec<_>>().join(", ");
+        expected.assert_eq(&ROWS.chunks_exact(3).map(line).collect::<Vec<_>>().join("\n"));
     }
 
     #[test]
@@ -184,6 +169,6 @@ mod tests {
 
     #[test]
     fn no_rows_are_no_trouble() {
-        assert!(ScaledRows::new(&[], 3, Scaling::ZScore).is_empty());
+        assert_eq!(RowScaling::fit(&[], 3, Scaling::ZScore).columns(), 3);
     }
 }

@@ -20,13 +20,12 @@
 
 use std::f64::consts::TAU;
 
-use rayon::prelude::*;
-
 use super::paper_sums::principal_spreads;
+use super::{CellFeatures, measured_rows};
 use crate::geometry::{Vector, direction};
 use crate::grid::{Occupancy, OccupancyGrid};
 use crate::spec::CategorizationOptions;
-use crate::watch::{Stage, Stopped, Watch};
+use crate::watch::{Stopped, Watch};
 
 /// The features, in their order.
 pub(super) const NAMES: [&str; 17] = [
@@ -57,34 +56,49 @@ const GAP_CELLS: f64 = 1.0;
 const NO_SPREAD: f64 = 2e-6;
 /// Coinciding end points are nearer than this, in the author's unit (cells over resolution).
 const COINCIDENT: f64 = 0.5;
-/// Cells between two looks at the stop flag.
+/// Cells of a chunk.
 const CELLS_PER_CHUNK: usize = 512;
 
-/// Features of the measured cells, one row per cell.
-pub(super) fn measure(
-    grid: &OccupancyGrid,
-    cells: &[u32],
-    options: &CategorizationOptions,
-    watch: &Watch<'_>,
-) -> Result<Vec<f32>, Stopped> {
-    let caster = Caster::new(grid, options);
-    let mut values = vec![0.0_f32; cells.len() * NAMES.len()];
-    values.par_chunks_mut(CELLS_PER_CHUNK * NAMES.len()).zip(cells.par_chunks(CELLS_PER_CHUNK)).try_for_each(
-        |(values, cells)| {
-            watch.check()?;
-            let mut lengths = vec![0.0; options.beams];
-            for (row, &cell) in values.chunks_exact_mut(NAMES.len()).zip(cells) {
-                caster.cast(cell as usize, &mut lengths);
-                row.copy_from_slice(&caster.features(&lengths));
-            }
-            Ok(())
-        },
-    )?;
-    watch.progress(Stage::Features, 1.0);
-    Ok(values)
+/// The features of a grid, chunk by chunk of its measured cells.
+#[derive(Debug)]
+pub(super) struct HalmstadFeatures {
+    cells: Vec<u32>,
+    beams: usize,
+    caster: Caster,
+}
+
+impl HalmstadFeatures {
+    pub(super) fn new(grid: &OccupancyGrid, stride: usize, options: &CategorizationOptions) -> Self {
+        let free = |(start, row): (usize, &[Occupancy])| {
+            let columns = (0..row.len()).step_by(stride).filter(|&column| row[column] == Occupancy::Free);
+            columns.map(|column| (start + column) as u32).collect::<Vec<u32>>()
+        };
+        let cells = measured_rows(grid, stride).flat_map(free).collect();
+        Self { cells, beams: options.beams, caster: Caster::new(grid, options) }
+    }
+
+    /// How many chunks there are.
+    pub(super) fn chunks(&self) -> usize {
+        self.cells.len().div_ceil(CELLS_PER_CHUNK)
+    }
+
+    /// The features of one chunk.
+    pub(super) fn chunk(&self, index: usize, watch: &Watch<'_>) -> Result<CellFeatures, Stopped> {
+        watch.check()?;
+        let start = index * CELLS_PER_CHUNK;
+        let cells = self.cells[start..self.cells.len().min(start + CELLS_PER_CHUNK)].to_vec();
+        let mut lengths = vec![0.0; self.beams];
+        let mut values = Vec::with_capacity(cells.len() * NAMES.len());
+        for &cell in &cells {
+            self.caster.cast(cell as usize, &mut lengths);
+            values.extend_from_slice(&self.caster.features(&lengths));
+        }
+        Ok(CellFeatures { cells, names: &NAMES, values })
+    }
 }
 
 /// Casts the author's beams.
+#[derive(Debug)]
 struct Caster {
     width: usize,
     height: usize,

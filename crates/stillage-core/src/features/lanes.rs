@@ -1,84 +1,118 @@
 //! A few neighbouring cells at once: arithmetic on short arrays, which compilers turn into vector instructions.
+//!
+//! Written with plain loops: what is not inlined, as the closures of `array::from_fn` may not be, is not compiled for the
+//! wider vectors.
 
-use std::array::from_fn;
 use std::ops::{Add, AddAssign, Mul, Sub};
 
-/// Cells that are worked on together.
-pub(super) const LANES: usize = 8;
+/// One number for each of `N` neighbouring cells.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Lanes<const N: usize>([f32; N]);
 
-/// One number for each of a few neighbouring cells.
-#[derive(Debug, Clone, Copy, Default)]
-#[repr(align(32))]
-pub(super) struct Lanes(pub(super) [f32; LANES]);
+impl<const N: usize> Lanes<N> {
+    /// No number but 0.
+    pub(super) const ZERO: Self = Self([0.0; N]);
 
-impl Lanes {
-    /// From whole numbers.
-    #[inline]
-    pub(super) fn from_units(units: &[u16; LANES]) -> Self {
-        // By way of i32, for which there is a vector instruction.
-        Self(from_fn(|lane| i32::from(units[lane]) as f32))
+    /// The first numbers of a slice.
+    #[inline(always)]
+    pub(super) fn load(numbers: &[f32]) -> Self {
+        Self(*numbers.first_chunk().expect("planes are worked on in whole groups"))
     }
 
-    #[inline]
+    /// Puts the numbers at the start of a slice.
+    #[inline(always)]
+    pub(super) fn store(self, numbers: &mut [f32]) {
+        *numbers.first_chunk_mut().expect("planes are worked on in whole groups") = self.0;
+    }
+
+    /// From the first whole numbers of a slice.
+    #[inline(always)]
+    pub(super) fn from_units(units: &[u16]) -> Self {
+        let units: &[u16; N] = units.first_chunk().expect("planes are worked on in whole groups");
+        let mut lanes = Self::ZERO;
+        for (lane, &units) in lanes.0.iter_mut().zip(units) {
+            // By way of i32, for which there is a vector instruction.
+            *lane = i32::from(units) as f32;
+        }
+        lanes
+    }
+
+    #[inline(always)]
     pub(super) fn min(self, limit: f32) -> Self {
-        Self(self.0.map(|value| if value < limit { value } else { limit }))
+        self.map(|value| if value < limit { value } else { limit })
     }
 
-    #[inline]
+    #[inline(always)]
     pub(super) fn abs(self) -> Self {
-        Self(self.0.map(f32::abs))
+        self.map(f32::abs)
     }
 
-    #[inline]
+    #[inline(always)]
     pub(super) fn sqrt(self) -> Self {
-        Self(self.0.map(f32::sqrt))
+        self.map(f32::sqrt)
     }
 
     /// One where a value is above the threshold, nothing elsewhere.
-    #[inline]
+    #[inline(always)]
     pub(super) fn above(self, threshold: f32) -> Self {
-        Self(self.0.map(|value| if value > threshold { 1.0 } else { 0.0 }))
+        self.map(|value| if value > threshold { 1.0 } else { 0.0 })
+    }
+
+    #[inline(always)]
+    fn map(mut self, function: impl Fn(f32) -> f32) -> Self {
+        for lane in &mut self.0 {
+            *lane = function(*lane);
+        }
+        self
+    }
+
+    #[inline(always)]
+    fn zip(mut self, other: Self, function: impl Fn(f32, f32) -> f32) -> Self {
+        for (lane, other) in self.0.iter_mut().zip(other.0) {
+            *lane = function(*lane, other);
+        }
+        self
     }
 }
 
-impl Add for Lanes {
+impl<const N: usize> Add for Lanes<N> {
     type Output = Self;
 
-    #[inline]
+    #[inline(always)]
     fn add(self, other: Self) -> Self {
-        Self(from_fn(|lane| self.0[lane] + other.0[lane]))
+        self.zip(other, |a, b| a + b)
     }
 }
 
-impl Sub for Lanes {
+impl<const N: usize> Sub for Lanes<N> {
     type Output = Self;
 
-    #[inline]
+    #[inline(always)]
     fn sub(self, other: Self) -> Self {
-        Self(from_fn(|lane| self.0[lane] - other.0[lane]))
+        self.zip(other, |a, b| a - b)
     }
 }
 
-impl Mul for Lanes {
+impl<const N: usize> Mul for Lanes<N> {
     type Output = Self;
 
-    #[inline]
+    #[inline(always)]
     fn mul(self, other: Self) -> Self {
-        Self(from_fn(|lane| self.0[lane] * other.0[lane]))
+        self.zip(other, |a, b| a * b)
     }
 }
 
-impl Mul<f32> for Lanes {
+impl<const N: usize> Mul<f32> for Lanes<N> {
     type Output = Self;
 
-    #[inline]
+    #[inline(always)]
     fn mul(self, factor: f32) -> Self {
-        Self(self.0.map(|value| value * factor))
+        self.map(|value| value * factor)
     }
 }
 
-impl AddAssign for Lanes {
-    #[inline]
+impl<const N: usize> AddAssign for Lanes<N> {
+    #[inline(always)]
     fn add_assign(&mut self, other: Self) {
         *self = *self + other;
     }

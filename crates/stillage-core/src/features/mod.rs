@@ -17,9 +17,14 @@ use rayon::prelude::*;
 
 use crate::grid::{Occupancy, OccupancyGrid};
 use crate::spec::{CategorizationOptions, FeatureProfile};
+use crate::vectors::Vectors;
 use crate::watch::{Stopped, Watch};
+use halmstad::HalmstadFeatures;
+use paper::PaperFeatures;
 
-/// Features of the measured free cells, one row per cell. The first feature is the mean beam length.
+pub use paper::Workspace;
+
+/// Features of measured free cells, one row per cell. The first feature is the mean beam length.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CellFeatures {
     /// Index (row-major) of each measured cell, ascending.
@@ -30,35 +35,97 @@ pub struct CellFeatures {
     pub values: Vec<f32>,
 }
 
-/// Casts beams from every free cell (of the stride) and reduces them to features.
-///
-/// # Errors
-/// [`Stopped`] when the watch says so.
-///
-/// # Panics
-/// When the grid has 2^32 cells or more.
-pub fn extract(
-    grid: &OccupancyGrid,
-    options: &CategorizationOptions,
-    watch: &Watch<'_>,
-) -> Result<CellFeatures, Stopped> {
-    let mut stride = options.stride;
-    let mut cells = measured_cells(grid, stride);
-    if cells.is_empty() {
-        stride = 1;
-        cells = measured_cells(grid, stride);
-    }
-    if cells.is_empty() {
-        return Ok(CellFeatures { cells, names: names(options.profile), values: Vec::new() });
-    }
-    let values = match options.profile {
-        FeatureProfile::Paper13 => paper::measure(grid, &cells, stride, options, watch)?,
-        FeatureProfile::Halmstad2017 => halmstad::measure(grid, &cells, options, watch)?,
-    };
-    Ok(CellFeatures { cells, names: names(options.profile), values })
+/// The features of a map, part by part: those of a big site at once would fill a gigabyte.
+#[derive(Debug)]
+pub struct FeatureSource<'a> {
+    profile: Profile<'a>,
 }
 
-/// The names of a profile's features, in their order.
+/// How the features are measured.
+#[derive(Debug)]
+enum Profile<'a> {
+    Paper(PaperFeatures<'a>),
+    Halmstad(HalmstadFeatures),
+}
+
+impl<'a> FeatureSource<'a> {
+    /// How much of the work is done, by measure, when a source is ready and no part is.
+    pub const PREPARATION_SHARE: f64 = 0.2;
+
+    /// Prepares the measurement of every free cell (of the stride).
+    ///
+    /// # Errors
+    /// [`Stopped`] when the watch says so.
+    ///
+    /// # Panics
+    /// When the grid has 2^32 cells or more.
+    pub fn new(
+        grid: &'a OccupancyGrid,
+        options: &CategorizationOptions,
+        vectors: Vectors,
+        watch: &Watch<'_>,
+    ) -> Result<Self, Stopped> {
+        assert!(u32::try_from(grid.cells().len()).is_ok(), "cells are numbered by 32 bits");
+        let stride = if has_measured_cells(grid, options.stride) { options.stride } else { 1 };
+        let profile = match options.profile {
+            FeatureProfile::Paper13 => Profile::Paper(PaperFeatures::new(grid, stride, options, vectors, watch)?),
+            FeatureProfile::Halmstad2017 => Profile::Halmstad(HalmstadFeatures::new(grid, stride, options)),
+        };
+        Ok(Self { profile })
+    }
+
+    /// The names of the features, in their order. The first is the mean beam length.
+    #[must_use]
+    pub fn names(&self) -> &'static [&'static str] {
+        names(match self.profile {
+            Profile::Paper(_) => FeatureProfile::Paper13,
+            Profile::Halmstad(_) => FeatureProfile::Halmstad2017,
+        })
+    }
+
+    /// How many parts there are. Every measured cell is in one of them.
+    #[must_use]
+    pub fn parts(&self) -> usize {
+        match &self.profile {
+            Profile::Paper(features) => features.tiles(),
+            Profile::Halmstad(features) => features.chunks(),
+        }
+    }
+
+    /// Measures the cells of one part; the same whatever was measured before.
+    ///
+    /// # Errors
+    /// [`Stopped`] when the watch says so.
+    pub fn part(&self, index: usize, workspace: &mut Workspace, watch: &Watch<'_>) -> Result<CellFeatures, Stopped> {
+        match &self.profile {
+            Profile::Paper(features) => features.tile(index, workspace, watch),
+            Profile::Halmstad(features) => features.chunk(index, watch),
+        }
+    }
+
+    /// The features of all measured cells at once, by ascending cell.
+    ///
+    /// # Errors
+    /// [`Stopped`] when the watch says so.
+    pub fn all(&self, watch: &Watch<'_>) -> Result<CellFeatures, Stopped> {
+        let parts: Result<Vec<CellFeatures>, Stopped> = (0..self.parts())
+            .into_par_iter()
+            .map_init(Workspace::default, |workspace, index| self.part(index, workspace, watch))
+            .collect();
+        let columns = self.names().len();
+        let parts = parts?;
+        let mut rows: Vec<(u32, &[f32])> =
+            parts.iter().flat_map(|part| part.cells.iter().copied().zip(part.values.chunks_exact(columns))).collect();
+        rows.sort_unstable_by_key(|&(cell, _)| cell);
+        Ok(CellFeatures {
+            cells: rows.iter().map(|&(cell, _)| cell).collect(),
+            names: self.names(),
+            values: rows.iter().flat_map(|&(_, values)| values).copied().collect(),
+        })
+    }
+}
+
+/// The names of the features of a profile, in their order.
 #[must_use]
 pub const fn names(profile: FeatureProfile) -> &'static [&'static str] {
     match profile {
@@ -67,15 +134,12 @@ pub const fn names(profile: FeatureProfile) -> &'static [&'static str] {
     }
 }
 
-/// The free cells on the lattice of a stride, ascending.
-fn measured_cells(grid: &OccupancyGrid, stride: usize) -> Vec<u32> {
-    assert!(u32::try_from(grid.cells().len()).is_ok(), "cells are numbered by 32 bits");
-    (0..grid.height())
-        .into_par_iter()
-        .step_by(stride)
-        .flat_map_iter(|row| {
-            let free = move |column: &usize| grid.row(row)[*column] == Occupancy::Free;
-            (0..grid.width()).step_by(stride).filter(free).map(move |column| (row * grid.width() + column) as u32)
-        })
-        .collect()
+/// Whether some free cell is on the lattice of a stride.
+fn has_measured_cells(grid: &OccupancyGrid, stride: usize) -> bool {
+    measured_rows(grid, stride).any(|(_, row)| row.iter().step_by(stride).any(|&cell| cell == Occupancy::Free))
+}
+
+/// The rows on the lattice of a stride, and where they begin.
+fn measured_rows(grid: &OccupancyGrid, stride: usize) -> impl Iterator<Item = (usize, &[Occupancy])> {
+    (0..grid.height()).step_by(stride).map(|row| (row * grid.width(), grid.row(row)))
 }

@@ -17,18 +17,16 @@
 //! (wrap-around after Mozos). A feature that is no number (PC2 of points on a line) is 0.
 //!
 //! Method: the sweep gives the beams of a tile direction by direction; they go into twelve running sums per cell, and
-//! are forgotten. Cost: O(cells x beams). Tiles are independent and each writes its own part of the result in a fixed
-//! order, so the result does not depend on threads.
+//! are forgotten. Directions that are swept along columns are added up with rows and columns exchanged, first, so that
+//! the sums are turned once and no beam is. Cost: O(cells x beams). Tiles are independent, and no sum depends on the
+//! width of the machine's vectors, so the result depends on neither.
 
-use std::sync::atomic::{AtomicUsize, Ordering};
-
-use rayon::prelude::*;
-
-use super::lanes::LANES;
-use super::paper_sums::{BeamTerms, FanTerms, RunningSums, units_of};
+use super::paper_sums::{BeamTerms, FanTerms, GROUP, Planes, TileSums};
+use super::{CellFeatures, FeatureSource};
 use crate::grid::{Occupancy, OccupancyGrid};
-use crate::raycast::{BeamOptions, Sweep, Tile, TileScratch, beam_direction};
+use crate::raycast::{BeamOptions, PLANE_PITCH, Sweep, Tile, TileScratch, beam_direction};
 use crate::spec::CategorizationOptions;
+use crate::vectors::{Kernel, Vectors};
 use crate::watch::{Stage, Stopped, Watch};
 
 /// The features, in their order.
@@ -52,100 +50,63 @@ pub(super) const NAMES: [&str; 13] = [
 const BEAMS_PER_BLOCK: usize = 16;
 
 /// Beams, evenly around, whose mean length is the pivot of the sums.
-const PIVOT_BEAMS: usize = 16;
+const PIVOT_BEAMS: usize = 8;
 
-/// Features of the measured cells, one row per cell.
-pub(super) fn measure(
-    grid: &OccupancyGrid,
-    cells: &[u32],
-    stride: usize,
-    options: &CategorizationOptions,
-    watch: &Watch<'_>,
-) -> Result<Vec<f32>, Stopped> {
-    let sweep = Sweep::new(grid, &BeamOptions::from(options), watch)?;
-    let measure = Measure::new(grid, &sweep, options);
-    let tile_rows = sweep.tile_rows(stride);
-    let tiles: usize = tile_rows.iter().map(Vec::len).sum();
-    let done = AtomicUsize::new(0);
-    let mut values = vec![0.0; cells.len() * NAMES.len()];
-    let strips = strips(grid, &tile_rows, cells, &mut values);
-    strips.into_par_iter().zip(&tile_rows).try_for_each(|(strip, tiles_of_strip)| {
-        let measured: Result<Vec<TileFeatures>, Stopped> = tiles_of_strip
-            .par_iter()
-            .map_init(Workspace::default, |workspace, tile| {
-                let features = measure.tile(tile, workspace, watch)?;
-                let done = done.fetch_add(1, Ordering::Relaxed) + 1;
-                watch.progress(Stage::Features, done as f64 / tiles as f64);
-                Ok(features)
-            })
-            .collect();
-        join_rows(&measured?, strip);
-        Ok(())
-    })?;
-    Ok(values)
+/// The features of a grid, tile by tile.
+#[derive(Debug)]
+pub(super) struct PaperFeatures<'a> {
+    grid: &'a OccupancyGrid,
+    sweep: Sweep,
+    tiles: Vec<Tile>,
+    beams: Vec<BeamTerms>,
+    fan: FanTerms,
+    /// The beams in runs of the same frame, those that are swept along columns first; each begins where the `next`
+    /// one of the run before it ends.
+    runs: Vec<Run>,
+    vectors: Vectors,
 }
 
-/// Cuts the values of all cells into those of each row of tiles.
-fn strips<'a>(
-    grid: &OccupancyGrid,
-    tile_rows: &[Vec<Tile>],
-    cells: &[u32],
-    mut values: &'a mut [f32],
-) -> Vec<&'a mut [f32]> {
-    let mut first = 0;
-    let mut strips = Vec::with_capacity(tile_rows.len());
-    for tiles in tile_rows {
-        let end_row = tiles.first().map_or(0, Tile::end_row);
-        let end = cells.partition_point(|&cell| (cell as usize) < end_row * grid.width());
-        let (strip, rest) = values.split_at_mut((end - first) * NAMES.len());
-        strips.push(strip);
-        values = rest;
-        first = end;
-    }
-    strips
-}
-
-/// The features of the measured cells of a tile, row by row.
-struct TileFeatures {
-    values: Vec<f32>,
-    /// Where each measured row of the tile ends among the values.
-    row_ends: Vec<usize>,
-}
-
-/// Joins the rows of tiles that lie side by side.
-fn join_rows(tiles: &[TileFeatures], mut strip: &mut [f32]) {
-    let rows = tiles.first().map_or(0, |tile| tile.row_ends.len());
-    for row in 0..rows {
-        for tile in tiles {
-            let start = if row == 0 { 0 } else { tile.row_ends[row - 1] };
-            let values = &tile.values[start..tile.row_ends[row]];
-            let (part, rest) = strip.split_at_mut(values.len());
-            part.copy_from_slice(values);
-            strip = rest;
-        }
-    }
+/// Consecutive beams that are swept in the same frame.
+#[derive(Debug)]
+struct Run {
+    /// Along columns?
+    transposed: bool,
+    beams: Vec<usize>,
+    terms: Vec<BeamTerms>,
+    /// The run that follows around the circle.
+    next: usize,
 }
 
 /// Memory of one task, reused from tile to tile.
-#[derive(Default)]
-struct Workspace {
+#[derive(Debug, Default)]
+pub struct Workspace {
+    tile: Option<TileMemory>,
+}
+
+/// What the work on a tile needs.
+#[derive(Debug)]
+struct TileMemory {
     sweep: TileScratch,
-    planes: Vec<Vec<u16>>,
-    sums: Vec<RunningSums>,
+    /// The beams of a block.
+    planes: Planes<u16>,
+    /// The first and the last beam of each run.
+    ends: Planes<u16>,
+    sums: TileSums,
 }
 
-/// What the work on every tile shares.
-struct Measure<'a> {
-    grid: &'a OccupancyGrid,
-    sweep: &'a Sweep,
-    beams: Vec<BeamTerms>,
-    fan: FanTerms,
-}
-
-impl<'a> Measure<'a> {
-    fn new(grid: &'a OccupancyGrid, sweep: &'a Sweep, options: &CategorizationOptions) -> Self {
+impl<'a> PaperFeatures<'a> {
+    /// Prepares the sweep.
+    pub(super) fn new(
+        grid: &'a OccupancyGrid,
+        stride: usize,
+        options: &CategorizationOptions,
+        vectors: Vectors,
+        watch: &Watch<'_>,
+    ) -> Result<Self, Stopped> {
+        let progress = |done: f64| watch.progress(Stage::Features, FeatureSource::PREPARATION_SHARE * done);
+        let sweep = Sweep::new(grid, &BeamOptions::from(options), vectors, watch, progress)?;
         let count = options.beams;
-        let beams = (0..count)
+        let beams: Vec<BeamTerms> = (0..count)
             .map(|beam| {
                 let (once, twice) = (beam_direction(beam, count), beam_direction(2 * beam, count));
                 BeamTerms {
@@ -163,109 +124,205 @@ impl<'a> Measure<'a> {
             gap: (options.gap_m / grid.resolution()) as f32,
             chord_factor: (2.0 * (1.0 - beam_direction(1, count).x)) as f32,
         };
-        Self { grid, sweep, beams, fan }
+        let runs = runs(&sweep, &beams);
+        Ok(Self { grid, tiles: sweep.tiles(stride), runs, sweep, beams, fan, vectors })
+    }
+
+    /// How many tiles there are.
+    pub(super) fn tiles(&self) -> usize {
+        self.tiles.len()
     }
 
     /// The features of one tile.
-    fn tile(&self, tile: &Tile, workspace: &mut Workspace, watch: &Watch<'_>) -> Result<TileFeatures, Stopped> {
-        let groups = self.groups_with_free_cells(tile);
-        if groups.is_empty() {
-            return Ok(TileFeatures { values: Vec::new(), row_ends: vec![0; tile.measured_rows().len()] });
-        }
-        let Workspace { sweep: scratch, planes, sums } = workspace;
-        planes.resize_with(BEAMS_PER_BLOCK, Vec::new);
-        for plane in planes.iter_mut() {
-            plane.resize(tile.plane_length(), 0);
-        }
-        sums.clear();
-        sums.resize(groups.len(), RunningSums::default());
-        self.begin(tile, &groups, scratch, &mut planes[0], sums);
-        for (block, terms) in self.beams.chunks(BEAMS_PER_BLOCK).enumerate() {
-            watch.check()?;
-            for (index, plane) in planes.iter_mut().enumerate().take(terms.len()) {
-                self.sweep.cast(tile, block * BEAMS_PER_BLOCK + index, scratch, plane);
-            }
-            for (sums, &group) in sums.iter_mut().zip(&groups) {
-                sums.add(terms, planes, group, &self.fan);
-            }
-        }
-        Ok(self.finish(tile, &groups, sums))
-    }
-
-    /// Where, in a plane, the groups of neighbouring cells begin of which at least one is free.
-    fn groups_with_free_cells(&self, tile: &Tile) -> Vec<usize> {
-        let pitch = tile.pitch();
-        let mut groups: Vec<usize> = Vec::new();
-        for (row_index, row) in tile.measured_rows().enumerate() {
-            for (index, column) in tile.measured_columns().enumerate() {
-                let group = row_index * pitch + index / LANES * LANES;
-                if self.grid.row(row)[column] == Occupancy::Free && groups.last() != Some(&group) {
-                    groups.push(group);
-                }
-            }
-        }
-        groups
-    }
-
-    /// Sets the pivots, and the beam before the first.
-    fn begin(
+    pub(super) fn tile(
         &self,
-        tile: &Tile,
-        groups: &[usize],
-        scratch: &mut TileScratch,
-        plane: &mut [u16],
-        sums: &mut [RunningSums],
-    ) {
-        let count = self.fan.beams;
-        let pivots = PIVOT_BEAMS.min(count);
-        for pivot in 0..pivots {
-            let beam = pivot * count / pivots;
-            self.sweep.cast(tile, beam, scratch, plane);
-            for (sums, &group) in sums.iter_mut().zip(groups) {
-                sums.add_to_pivot(units_of(plane, group), &self.beams[beam], &self.fan, pivots);
-            }
+        index: usize,
+        workspace: &mut Workspace,
+        watch: &Watch<'_>,
+    ) -> Result<CellFeatures, Stopped> {
+        let tile = &self.tiles[index];
+        let Workspace { tile: memory } = workspace;
+        let memory = memory.get_or_insert_with(|| TileMemory {
+            sweep: TileScratch::default(),
+            planes: Planes::new(BEAMS_PER_BLOCK),
+            ends: Planes::new(2 * self.runs.len()),
+            sums: TileSums::default(),
+        });
+        let rows: Vec<usize> = tile.measured_rows().collect();
+        let columns: Vec<usize> = tile.measured_columns().collect();
+        let groups = [
+            groups(&rows, &columns, |row, column| self.is_free(row, column)),
+            groups(&columns, &rows, |column, row| self.is_free(row, column)),
+        ];
+        if groups[0].is_empty() {
+            return Ok(CellFeatures { cells: Vec::new(), names: &NAMES, values: Vec::new() });
         }
-        self.sweep.cast(tile, count - 1, scratch, plane);
-        for (sums, &group) in sums.iter_mut().zip(groups) {
-            sums.begin_after(units_of(plane, group), &self.beams[count - 1], &self.fan);
-        }
+        self.vectors.run(TileWork { features: self, tile, groups, memory, watch })?;
+        Ok(self.finish(&rows, &columns, &memory.sums))
+    }
+
+    fn is_free(&self, row: usize, column: usize) -> bool {
+        self.grid.row(row)[column] == Occupancy::Free
     }
 
     /// From sums to features, for the free cells only.
-    fn finish(&self, tile: &Tile, groups: &[usize], sums: &[RunningSums]) -> TileFeatures {
-        let pitch = tile.pitch();
-        let columns: Vec<usize> = tile.measured_columns().collect();
-        let mut features = TileFeatures { values: Vec::new(), row_ends: Vec::new() };
-        let mut groups = groups.iter().zip(sums).peekable();
-        for (row_index, row) in tile.measured_rows().enumerate() {
-            while let Some((group, sums)) = groups.next_if(|(group, _)| **group / pitch == row_index) {
-                for (lane, &column) in columns.iter().skip(group % pitch).take(LANES).enumerate() {
-                    if self.grid.row(row)[column] == Occupancy::Free {
-                        let cell = sums.of_lane(lane).features(self.fan.beams, self.grid.resolution());
-                        features.values.extend_from_slice(&cell);
-                    }
-                }
+    fn finish(&self, rows: &[usize], columns: &[usize], sums: &TileSums) -> CellFeatures {
+        let mut features = CellFeatures { cells: Vec::new(), names: &NAMES, values: Vec::new() };
+        for (row_index, &row) in rows.iter().enumerate() {
+            for (index, &column) in columns.iter().enumerate().filter(|&(_, &column)| self.is_free(row, column)) {
+                let cell = sums.of_cell(row_index * PLANE_PITCH + index);
+                features.cells.push((row * self.grid.width() + column) as u32);
+                features.values.extend_from_slice(&cell.features(self.fan.beams, self.grid.resolution()));
             }
-            features.row_ends.push(features.values.len());
         }
         features
+    }
+}
+
+/// Cuts the circle of beams where the frame changes; the runs along columns come first.
+fn runs(sweep: &Sweep, terms: &[BeamTerms]) -> Vec<Run> {
+    let count = terms.len();
+    let changes = |beam: usize| sweep.is_transposed(beam) != sweep.is_transposed((beam + count - 1) % count);
+    let start = (0..count).find(|&beam| changes(beam)).expect("eight beams or more look along both axes");
+    let circle: Vec<usize> = (0..count).map(|turn| (start + turn) % count).collect();
+    let mut runs: Vec<Run> = circle
+        .chunk_by(|&a, &b| sweep.is_transposed(a) == sweep.is_transposed(b))
+        .map(|beams| Run {
+            transposed: sweep.is_transposed(beams[0]),
+            beams: beams.to_vec(),
+            terms: beams.iter().map(|&beam| terms[beam]).collect(),
+            next: 0,
+        })
+        .collect();
+    runs.sort_by_key(|run| !run.transposed);
+    let firsts: Vec<usize> = runs.iter().map(|run| run.beams[0]).collect();
+    for run in &mut runs {
+        let after = (run.beams[run.beams.len() - 1] + 1) % count;
+        run.next = firsts.iter().position(|&first| first == after).expect("a run begins where another one ends");
+    }
+    runs
+}
+
+/// Where, in a plane, the groups of neighbouring cells begin of which at least one is free.
+fn groups(rows: &[usize], columns: &[usize], is_free: impl Fn(usize, usize) -> bool) -> Vec<usize> {
+    let mut groups = Vec::new();
+    for (row_index, &row) in rows.iter().enumerate() {
+        for (group, columns) in columns.chunks(GROUP).enumerate() {
+            if columns.iter().any(|&column| is_free(row, column)) {
+                groups.push(row_index * PLANE_PITCH + group * GROUP);
+            }
+        }
+    }
+    groups
+}
+
+/// The way from the beams of a tile to its sums.
+struct TileWork<'a> {
+    features: &'a PaperFeatures<'a>,
+    tile: &'a Tile,
+    /// Groups with free cells: by rows, and by columns.
+    groups: [Vec<usize>; 2],
+    memory: &'a mut TileMemory,
+    watch: &'a Watch<'a>,
+}
+
+impl Kernel for TileWork<'_> {
+    type Output = Result<(), Stopped>;
+
+    #[inline(always)]
+    fn run<const LANES: usize>(mut self) -> Self::Output {
+        self.memory.sums.clear();
+        self.choose_pivots();
+        let runs = &self.features.runs;
+        let mut transposed = true;
+        for (index, run) in runs.iter().enumerate() {
+            if run.transposed != transposed {
+                self.turn();
+                transposed = run.transposed;
+            }
+            self.add_run::<LANES>(index, run)?;
+        }
+        for (index, run) in runs.iter().enumerate() {
+            let beams = [run.beams[run.beams.len() - 1], runs[run.next].beams[0]];
+            let terms = beams.map(|beam| &self.features.beams[beam]);
+            let TileMemory { ends, sums, .. } = &mut *self.memory;
+            let units = [ends.plane(2 * index + 1), ends.plane(2 * run.next)];
+            sums.join::<LANES>(&self.groups[0], terms, units, &self.features.fan);
+        }
+        Ok(())
+    }
+}
+
+impl TileWork<'_> {
+    /// Means of a few beams, for the sums to be taken around; leaves them in the frame of the columns.
+    #[inline(always)]
+    fn choose_pivots(&mut self) {
+        let TileMemory { sweep: scratch, planes, sums, .. } = &mut *self.memory;
+        let Self { features, tile, .. } = self;
+        let count = features.fan.beams;
+        let pivots = PIVOT_BEAMS.min(count);
+        for transposed in [false, true] {
+            let beams = (0..pivots).map(|pivot| pivot * count / pivots);
+            for beam in beams.filter(|&beam| features.sweep.is_transposed(beam) == transposed) {
+                features.sweep.cast(tile, beam, scratch, planes.plane_mut(0));
+                sums.add_to_pivots(planes.plane(0), &features.beams[beam], &features.fan, pivots);
+            }
+            if !transposed {
+                sums.transpose_pivots();
+            }
+        }
+    }
+
+    /// Adds the beams of a run, and keeps its ends.
+    #[inline(always)]
+    fn add_run<const LANES: usize>(&mut self, index: usize, run: &Run) -> Result<(), Stopped> {
+        let TileMemory { sweep: scratch, planes, sums, ends } = &mut *self.memory;
+        let Self { features, tile, groups, watch, .. } = self;
+        let groups = &groups[usize::from(run.transposed)];
+        for (block, beams) in run.beams.chunks(BEAMS_PER_BLOCK).enumerate() {
+            watch.check()?;
+            for (place, &beam) in beams.iter().enumerate() {
+                features.sweep.cast(tile, beam, scratch, planes.plane_mut(place));
+            }
+            let terms = &run.terms[block * BEAMS_PER_BLOCK..][..beams.len()];
+            sums.add::<LANES>(groups, terms, planes, &features.fan, block == 0);
+            if block == 0 {
+                ends.plane_mut(2 * index).copy_from_slice(planes.plane(0));
+            }
+        }
+        let last = (run.beams.len() - 1) % BEAMS_PER_BLOCK;
+        ends.plane_mut(2 * index + 1).copy_from_slice(planes.plane(last));
+        Ok(())
+    }
+
+    /// From the frame of the columns to that of the rows.
+    #[inline(always)]
+    fn turn(&mut self) {
+        let TileMemory { ends, sums, .. } = &mut *self.memory;
+        sums.transpose();
+        for (index, _) in self.features.runs.iter().enumerate().filter(|(_, run)| run.transposed) {
+            ends.transpose(2 * index);
+            ends.transpose(2 * index + 1);
+        }
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::features::{CellFeatures, extract};
+    use crate::raycast::PLANE_LENGTH;
     use crate::test_maps::real_maps;
     use proptest::prelude::*;
 
     fn features(grid: &OccupancyGrid, options: &CategorizationOptions) -> CellFeatures {
-        extract(grid, options, &Watch::unwatched()).expect("nobody stops it")
+        let watch = Watch::unwatched();
+        let source = FeatureSource::new(grid, options, Vectors::widest(), &watch).expect("nobody stops it");
+        source.all(&watch).expect("nobody stops it")
     }
 
     /// The lengths (cells) of all beams of all measured cells of a tile, by row, column and beam.
     fn beams_of_tile(sweep: &Sweep, tile: &Tile, beams: usize) -> Vec<((usize, usize), Vec<f64>)> {
-        let (mut scratch, mut plane) = (TileScratch::default(), vec![0; tile.plane_length()]);
+        let (mut scratch, mut plane) = (TileScratch::default(), vec![0; PLANE_LENGTH]);
         let mut cells: Vec<((usize, usize), Vec<f64>)> = tile
             .measured_rows()
             .flat_map(|row| tile.measured_columns().map(move |column| ((column, row), Vec::new())))
@@ -274,11 +331,18 @@ mod tests {
             sweep.cast(tile, beam, &mut scratch, &mut plane);
             let columns = tile.measured_columns().len();
             for (index, (_, lengths)) in cells.iter_mut().enumerate() {
-                let units = plane[index / columns * tile.pitch() + index % columns];
-                lengths.push(f64::from((f32::from(units) * sweep.unit(beam)).min(sweep.limit())));
+                let (row, column) = (index / columns, index % columns);
+                let place =
+                    if sweep.is_transposed(beam) { column * PLANE_PITCH + row } else { row * PLANE_PITCH + column };
+                lengths.push(f64::from((f32::from(plane[place]) * sweep.unit(beam)).min(sweep.limit())));
             }
         }
         cells
+    }
+
+    fn sweep_of(grid: &OccupancyGrid, options: &CategorizationOptions) -> Sweep {
+        Sweep::new(grid, &BeamOptions::from(options), Vectors::widest(), &Watch::unwatched(), |_| ())
+            .expect("nobody stops it")
     }
 
     /// The features by their definitions, in double precision.
@@ -323,10 +387,10 @@ mod tests {
     /// Compares all features of a grid with their definitions; gives the largest relative difference of each.
     fn worst_differences(grid: &OccupancyGrid, options: &CategorizationOptions) -> [f64; 13] {
         let found = features(grid, options);
-        let sweep = Sweep::new(grid, &BeamOptions::from(options), &Watch::unwatched()).expect("nobody stops it");
+        let sweep = sweep_of(grid, options);
         let gap = f64::from((options.gap_m / grid.resolution()) as f32);
         let mut worst = [0.0_f64; 13];
-        for tile in sweep.tile_rows(options.stride).iter().flatten() {
+        for tile in &sweep.tiles(options.stride) {
             for ((column, row), lengths) in beams_of_tile(&sweep, tile, options.beams) {
                 let cell = (row * grid.width() + column) as u32;
                 let Ok(index) = found.cells.binary_search(&cell) else { continue };
@@ -397,16 +461,21 @@ mod tests {
     }
 
     #[test]
-    fn any_number_of_threads_gives_the_same_bytes() {
+    fn any_number_of_threads_and_any_vectors_give_the_same_bytes() {
         let grid = OccupancyGrid::from_ascii(&vec!["...#......##.".repeat(23); 270].join("\n"), 0.05);
         let options = CategorizationOptions { beams: 45, ..CategorizationOptions::default() };
-        let bytes = |threads| {
+        let bytes = |threads, vectors| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads can be had");
-            let found = pool.install(|| features(&grid, &options));
-            found.values.iter().map(|value| value.to_bits()).collect::<Vec<u32>>()
+            let watch = Watch::unwatched();
+            let found = pool.install(|| FeatureSource::new(&grid, &options, vectors, &watch)?.all(&watch));
+            found.expect("nobody stops it").values.iter().map(|value| value.to_bits()).collect::<Vec<u32>>()
         };
-        let one = bytes(1);
-        assert!(one == bytes(2) && one == bytes(7));
+        let first = bytes(1, Vectors::Portable);
+        for vectors in Vectors::available() {
+            for threads in [1, 2, 7] {
+                assert!(first == bytes(threads, vectors), "{vectors:?}, {threads} threads");
+            }
+        }
     }
 
     #[test]
@@ -418,12 +487,29 @@ mod tests {
         let stop = crate::StopFlag::default();
         stop.raise();
         let grid = OccupancyGrid::from_ascii("...", 0.1);
-        let stopped = extract(&grid, &CategorizationOptions::default(), &Watch::new(&stop, &Nobody));
-        assert_eq!(stopped, Err(Stopped));
+        let watch = Watch::new(&stop, &Nobody);
+        let stopped = FeatureSource::new(&grid, &CategorizationOptions::default(), Vectors::widest(), &watch);
+        assert!(stopped.is_err());
     }
 
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(24))]
+
+        #[test]
+        fn every_vector_width_gives_the_same_features_of_random_maps(
+            rows in proptest::collection::vec("[.]{4,200}[.#?]{0,30}", 1..150),
+            beams in 8_usize..40,
+            stride in 1_usize..4,
+        ) {
+            let grid = OccupancyGrid::from_ascii(&rows.join("\n"), 0.1);
+            let options = CategorizationOptions { beams, stride, ..CategorizationOptions::default() };
+            let watch = Watch::unwatched();
+            let features = |vectors| FeatureSource::new(&grid, &options, vectors, &watch)?.all(&watch);
+            let portable = features(Vectors::Portable).expect("nobody stops it");
+            for vectors in Vectors::available() {
+                prop_assert_eq!(&portable, &features(vectors).expect("nobody stops it"));
+            }
+        }
 
         #[test]
         fn running_sums_give_the_defined_features_of_random_maps(

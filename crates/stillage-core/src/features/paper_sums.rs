@@ -8,7 +8,8 @@
 
 use std::f64::consts::TAU;
 
-use super::lanes::{LANES, Lanes};
+use super::lanes::Lanes;
+use crate::raycast::{PLANE_LENGTH, PLANE_PITCH};
 
 /// How many sums there are.
 const SUMS: usize = 12;
@@ -41,66 +42,191 @@ pub(super) struct FanTerms {
     pub(super) chord_factor: f32,
 }
 
-/// The sums of a few neighbouring cells.
-#[derive(Debug, Clone, Copy, Default)]
-pub(super) struct RunningSums {
-    sums: [Lanes; SUMS],
-    previous: Lanes,
-    pivot: Lanes,
+/// Cells whose sums are skipped together where none of them is free.
+pub(super) const GROUP: usize = 16;
+
+/// The plane of pivots, and that of the lengths of the beam added last.
+const PIVOT: usize = SUMS;
+const PREVIOUS: usize = SUMS + 1;
+
+/// The sums of all cells of a tile, plane by plane.
+#[derive(Debug)]
+pub(super) struct TileSums(Planes<f32>);
+
+/// Planes of numbers, one for each cell of a tile.
+#[derive(Debug)]
+pub(super) struct Planes<T> {
+    numbers: Vec<T>,
 }
 
-impl RunningSums {
-    /// Adds one of `of` lengths whose mean becomes the pivot.
-    #[inline]
-    pub(super) fn add_to_pivot(&mut self, units: &[u16; LANES], beam: &BeamTerms, fan: &FanTerms, of: usize) {
-        self.pivot += (Lanes::from_units(units) * beam.unit).min(fan.limit) * (1.0 / of as f32);
+impl<T: Copy + Default> Planes<T> {
+    /// From the start of a plane to the next. Planes a power of two apart would meet in the same lines of the caches.
+    const STEP: usize = PLANE_LENGTH + 64;
+
+    /// Planes of nothing.
+    pub(super) fn new(count: usize) -> Self {
+        Self { numbers: vec![T::default(); count * Self::STEP] }
     }
 
-    /// Says which beam came before the first one: the last.
-    #[inline]
-    pub(super) fn begin_after(&mut self, units: &[u16; LANES], beam: &BeamTerms, fan: &FanTerms) {
-        self.previous = (Lanes::from_units(units) * beam.unit).min(fan.limit);
+    #[inline(always)]
+    pub(super) fn plane(&self, index: usize) -> &[T] {
+        &self.numbers[index * Self::STEP..][..PLANE_LENGTH]
     }
 
-    /// Adds consecutive beams: of each, its terms and the plane that holds this group of cells from `start` on.
-    #[inline]
-    pub(super) fn add(&mut self, beams: &[BeamTerms], planes: &[Vec<u16>], start: usize, fan: &FanTerms) {
-        let mut sums = self.sums;
-        let mut previous = self.previous;
-        for (beam, plane) in beams.iter().zip(planes) {
-            let length = (Lanes::from_units(units_of(plane, start)) * beam.unit).min(fan.limit);
-            let change = length - previous;
-            let (change_size, change_squared) = (change.abs(), change * change);
-            let squared = length * length;
-            let shifted = length - self.pivot;
-            let shifted_squared = shifted * shifted;
-            sums[0] += shifted;
-            sums[1] += shifted_squared;
-            sums[2] += shifted_squared * shifted;
-            sums[3] += shifted_squared * shifted_squared;
-            sums[4] += change_size;
-            sums[5] += change_squared;
-            sums[6] += (length * previous * fan.chord_factor + change_squared).sqrt();
-            sums[7] += change_size.above(fan.gap);
-            sums[8] += length * beam.cos;
-            sums[9] += length * beam.sin;
-            sums[10] += squared * beam.cos_twice;
-            sums[11] += squared * beam.sin_twice;
-            previous = length;
+    #[inline(always)]
+    pub(super) fn plane_mut(&mut self, index: usize) -> &mut [T] {
+        &mut self.numbers[index * Self::STEP..][..PLANE_LENGTH]
+    }
+
+    /// Exchanges rows and columns of a plane.
+    #[inline(always)]
+    pub(super) fn transpose(&mut self, index: usize) {
+        const BLOCK: usize = 16;
+        let plane = self.plane_mut(index);
+        for block_row in (0..PLANE_PITCH).step_by(BLOCK) {
+            for block_column in (0..=block_row).step_by(BLOCK) {
+                for row in block_row..block_row + BLOCK {
+                    for column in block_column..row.min(block_column + BLOCK) {
+                        plane.swap(row * PLANE_PITCH + column, column * PLANE_PITCH + row);
+                    }
+                }
+            }
         }
-        self.sums = sums;
-        self.previous = previous;
-    }
-
-    /// The sums of one of the cells.
-    pub(super) fn of_lane(&self, lane: usize) -> CellSums {
-        CellSums { sums: self.sums.map(|sum| f64::from(sum.0[lane])), pivot: f64::from(self.pivot.0[lane]) }
     }
 }
 
-/// The lengths of the group of cells that begins at `start`.
-pub(super) fn units_of(plane: &[u16], start: usize) -> &[u16; LANES] {
-    plane[start..].first_chunk().expect("rows of a plane are filled up to whole groups")
+impl Default for TileSums {
+    fn default() -> Self {
+        Self(Planes::new(SUMS + 2))
+    }
+}
+
+impl TileSums {
+    /// Begins again.
+    pub(super) fn clear(&mut self) {
+        self.0.numbers.fill(0.0);
+    }
+
+    /// Exchanges rows and columns of all sums and pivots.
+    #[inline(always)]
+    pub(super) fn transpose(&mut self) {
+        (0..=PIVOT).for_each(|plane| self.0.transpose(plane));
+    }
+
+    /// Exchanges rows and columns of the pivots.
+    #[inline(always)]
+    pub(super) fn transpose_pivots(&mut self) {
+        self.0.transpose(PIVOT);
+    }
+
+    /// Adds one of `of` lengths whose mean becomes the pivot.
+    #[inline(always)]
+    pub(super) fn add_to_pivots(&mut self, units: &[u16], beam: &BeamTerms, fan: &FanTerms, of: usize) {
+        let share = 1.0 / of as f32;
+        for (pivot, &units) in self.0.plane_mut(PIVOT).iter_mut().zip(units) {
+            *pivot += (f32::from(units) * beam.unit).min(fan.limit) * share;
+        }
+    }
+
+    /// Adds consecutive beams of the cells of some groups: of each beam, its terms and its plane. The first one follows
+    /// the beam added before, or none.
+    #[inline(always)]
+    pub(super) fn add<const N: usize>(
+        &mut self,
+        groups: &[usize],
+        beams: &[BeamTerms],
+        planes: &Planes<u16>,
+        fan: &FanTerms,
+        opens: bool,
+    ) {
+        for start in groups.iter().flat_map(|&group| (group..group + GROUP).step_by(N)) {
+            let mut sums: [Lanes<N>; SUMS] = self.load(start);
+            let pivot = Lanes::<N>::load(&self.0.plane(PIVOT)[start..]);
+            let mut previous = Lanes::<N>::load(&self.0.plane(PREVIOUS)[start..]);
+            for (index, beam) in beams.iter().enumerate() {
+                let length = (Lanes::from_units(&planes.plane(index)[start..]) * beam.unit).min(fan.limit);
+                add_length(&mut sums, length, pivot, beam);
+                if index > 0 || !opens {
+                    add_change(&mut sums, previous, length, fan);
+                }
+                previous = length;
+            }
+            self.store(start, &sums);
+            previous.store(&mut self.0.plane_mut(PREVIOUS)[start..]);
+        }
+    }
+
+    /// The sums of some cells.
+    #[inline(always)]
+    fn load<const N: usize>(&self, start: usize) -> [Lanes<N>; SUMS] {
+        let mut sums = [Lanes::ZERO; SUMS];
+        for (plane, sum) in sums.iter_mut().enumerate() {
+            *sum = Lanes::load(&self.0.plane(plane)[start..]);
+        }
+        sums
+    }
+
+    /// Keeps the sums of some cells.
+    #[inline(always)]
+    fn store<const N: usize>(&mut self, start: usize, sums: &[Lanes<N>; SUMS]) {
+        for (plane, sum) in sums.iter().enumerate() {
+            sum.store(&mut self.0.plane_mut(plane)[start..]);
+        }
+    }
+
+    /// Adds the change from one beam to another, for the cells of some groups.
+    #[inline(always)]
+    pub(super) fn join<const N: usize>(
+        &mut self,
+        groups: &[usize],
+        beams: [&BeamTerms; 2],
+        units: [&[u16]; 2],
+        fan: &FanTerms,
+    ) {
+        for start in groups.iter().flat_map(|&group| (group..group + GROUP).step_by(N)) {
+            let mut sums: [Lanes<N>; SUMS] = self.load(start);
+            let previous = (Lanes::from_units(&units[0][start..]) * beams[0].unit).min(fan.limit);
+            let length = (Lanes::from_units(&units[1][start..]) * beams[1].unit).min(fan.limit);
+            add_change(&mut sums, previous, length, fan);
+            self.store(start, &sums);
+        }
+    }
+
+    /// The sums of the cell at a place in the planes.
+    #[inline(always)]
+    pub(super) fn of_cell(&self, place: usize) -> CellSums {
+        CellSums {
+            sums: std::array::from_fn(|sum| f64::from(self.0.plane(sum)[place])),
+            pivot: f64::from(self.0.plane(PIVOT)[place]),
+        }
+    }
+}
+
+/// Adds the terms of a beam alone.
+#[inline(always)]
+fn add_length<const N: usize>(sums: &mut [Lanes<N>; SUMS], length: Lanes<N>, pivot: Lanes<N>, beam: &BeamTerms) {
+    let squared = length * length;
+    let shifted = length - pivot;
+    let shifted_squared = shifted * shifted;
+    sums[0] += shifted;
+    sums[1] += shifted_squared;
+    sums[2] += shifted_squared * shifted;
+    sums[3] += shifted_squared * shifted_squared;
+    sums[8] += length * beam.cos;
+    sums[9] += length * beam.sin;
+    sums[10] += squared * beam.cos_twice;
+    sums[11] += squared * beam.sin_twice;
+}
+
+/// Adds the terms of a beam and the one before it.
+#[inline(always)]
+fn add_change<const N: usize>(sums: &mut [Lanes<N>; SUMS], previous: Lanes<N>, length: Lanes<N>, fan: &FanTerms) {
+    let change = length - previous;
+    let (change_size, change_squared) = (change.abs(), change * change);
+    sums[4] += change_size;
+    sums[5] += change_squared;
+    sums[6] += (length * previous * fan.chord_factor + change_squared).sqrt();
+    sums[7] += change_size.above(fan.gap);
 }
 
 /// The sums of one cell.
@@ -111,6 +237,7 @@ pub(super) struct CellSums {
 
 impl CellSums {
     /// The features, in the order of [`super::paper::NAMES`].
+    #[inline(always)]
     pub(super) fn features(&self, beams: usize, resolution: f64) -> [f32; 13] {
         let count = beams as f64;
         let [shifted, squared, cubed, fourth, change, change_squared, perimeter, gaps, x, y, cos_twice, sin_twice] =
@@ -144,7 +271,7 @@ impl CellSums {
             major * resolution,
             minor * resolution,
             major / minor,
-            x.hypot(y) * resolution,
+            (x * x + y * y).sqrt() * resolution,
         ]
         .map(|feature| if feature.is_finite() { feature as f32 } else { 0.0 })
     }
@@ -153,6 +280,6 @@ impl CellSums {
 /// Square roots of the eigenvalues of a covariance `[xx, yy, xy]`, the larger first.
 pub(super) fn principal_spreads([xx, yy, xy]: [f64; 3]) -> [f64; 2] {
     let (middle, half_difference) = (0.5 * (xx + yy), 0.5 * (xx - yy));
-    let radius = half_difference.hypot(xy);
+    let radius = (half_difference * half_difference + xy * xy).sqrt();
     [(middle + radius).max(0.0).sqrt(), (middle - radius).max(0.0).sqrt()]
 }

@@ -28,6 +28,8 @@ pub(super) struct Direction {
     pub(super) ascending: bool,
     /// Columns per row, fixed point.
     slope: i64,
+    /// Units of length per column, by the fixed point of columns; nothing means anything where the slope is nothing.
+    units_per_column: f64,
     /// Length of a unit along the beam, in cells.
     pub(super) unit: f32,
 }
@@ -51,25 +53,30 @@ impl Direction {
         let (along, across) = if transposed { (beam.x, beam.y) } else { (beam.y, beam.x) };
         let slope = across / along;
         let length_per_row = (1.0 + slope * slope).sqrt();
+        let slope = (slope * (1_u64 << FRACTION_BITS) as f64).round();
         Self {
             transposed,
             ascending: along > 0.0,
-            slope: (slope * (1_u64 << FRACTION_BITS) as f64).round() as i64,
+            slope: slope as i64,
+            units_per_column: f64::from(UNITS_PER_ROW) / slope,
             unit: (length_per_row / f64::from(UNITS_PER_ROW)) as f32,
         }
     }
 
     /// Column of line 0 of a phase at the border below a row.
+    #[inline(always)]
     pub(super) fn column(&self, phase: usize, border: usize) -> isize {
         (self.position(phase, border) >> FRACTION_BITS) as isize
     }
 
     /// Position of line 0 of a phase at the border below a row, fixed point.
+    #[inline(always)]
     fn position(&self, phase: usize, border: usize) -> i64 {
         self.slope * border as i64 + phase_offset(phase)
     }
 
     /// How lines of a phase cross a row.
+    #[inline(always)]
     pub(super) fn crossing(&self, phase: usize, row: usize) -> RowCrossing {
         let (below, above) = (self.column(phase, row), self.column(phase, row + 1));
         let (entry, exit) = if self.ascending { (below, above) } else { (above, below) };
@@ -78,14 +85,17 @@ impl Direction {
     }
 
     /// Units from the entry into a row to the place where line 0 crosses into or out of `column`.
+    #[inline(always)]
     fn border(&self, phase: usize, row: usize, column: isize) -> u16 {
         let way = ((column as i64) << FRACTION_BITS) - self.position(phase, row);
-        let share = way as f64 / self.slope as f64;
-        let from_entry = if self.ascending { share } else { 1.0 - share };
-        (from_entry.clamp(0.0, 1.0) * f64::from(UNITS_PER_ROW)).round() as u16
+        let units = way as f64 * self.units_per_column;
+        let from_entry = if self.ascending { units } else { f64::from(UNITS_PER_ROW) - units };
+        // A cast rounds down, and keeps within bounds what rounding has put outside.
+        ((from_entry + 0.5) as u16).min(UNITS_PER_ROW)
     }
 
     /// The lines nearest to the cell centres of a row: their phase, and the number of the line of column 0.
+    #[inline(always)]
     pub(super) fn nearest_lines(&self, row: usize) -> (usize, isize) {
         let eighth = 1_i64 << (FRACTION_BITS - 3);
         // The line through the centre of column 0 starts half a column up, and is rounded to the nearest quarter.
@@ -96,6 +106,7 @@ impl Direction {
 }
 
 /// Where line 0 of a phase starts, fixed point.
+#[inline(always)]
 fn phase_offset(phase: usize) -> i64 {
     (phase as i64) << (FRACTION_BITS - 2)
 }

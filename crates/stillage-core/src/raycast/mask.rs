@@ -3,12 +3,17 @@
 use rayon::prelude::*;
 
 use super::BeamOptions;
+use super::sweep::{LINES_PER_STEP, TILE};
 use crate::grid::OccupancyGrid;
 
 /// Side of the blocks in which a mask is transposed: both sides of a block stay in the first cache.
 const TRANSPOSE_BLOCK: usize = 32;
 
-/// All bits set where beams pass, none where they stop. One column on either side stops every beam.
+/// Columns on either side of the grid, which stop every beam: lines that may be needed inside a tile are at most the
+/// side of a tile away from it, and are worked on in whole steps.
+const MARGIN: usize = TILE + 2 * LINES_PER_STEP;
+
+/// All bits set where beams pass, none where they stop.
 #[derive(Debug)]
 pub(super) struct Mask {
     columns: usize,
@@ -22,7 +27,7 @@ impl Mask {
         let mut mask = Self::blocked(grid.width(), grid.height());
         let pitch = mask.pitch();
         mask.cells.par_chunks_mut(pitch).enumerate().for_each(|(row, cells)| {
-            for (cell, &occupancy) in cells[1..].iter_mut().zip(grid.row(row)) {
+            for (cell, &occupancy) in cells[MARGIN..].iter_mut().zip(grid.row(row)) {
                 *cell = if options.passes(occupancy) { u16::MAX } else { 0 };
             }
         });
@@ -36,9 +41,9 @@ impl Mask {
         turned.cells.par_chunks_mut(pitch * TRANSPOSE_BLOCK).enumerate().for_each(|(block, rows)| {
             let first = block * TRANSPOSE_BLOCK;
             for source_row in 0..self.rows {
-                let source = &self.row(source_row)[1 + first..];
+                let source = self.from(source_row, first as isize);
                 for (row, &cell) in rows.chunks_mut(pitch).zip(source) {
-                    row[1 + source_row] = cell;
+                    row[MARGIN + source_row] = cell;
                 }
             }
         });
@@ -47,11 +52,11 @@ impl Mask {
 
     /// A mask that stops every beam.
     fn blocked(columns: usize, rows: usize) -> Self {
-        Self { columns, rows, cells: vec![0; (columns + 2) * rows] }
+        Self { columns, rows, cells: vec![0; (columns + 2 * MARGIN) * rows] }
     }
 
     fn pitch(&self) -> usize {
-        self.columns + 2
+        self.columns + 2 * MARGIN
     }
 
     pub(super) fn columns(&self) -> usize {
@@ -62,8 +67,10 @@ impl Mask {
         self.rows
     }
 
-    /// The cells of a row; column `c` is at index `c + 1`.
-    pub(super) fn row(&self, row: usize) -> &[u16] {
-        &self.cells[row * self.pitch()..(row + 1) * self.pitch()]
+    /// The cells of a row from a column on, to the end of the margin; the column may be in the other margin.
+    #[inline(always)]
+    pub(super) fn from(&self, row: usize, column: isize) -> &[u16] {
+        let start = row * self.pitch() + (column + MARGIN as isize) as usize;
+        &self.cells[start..(row + 1) * self.pitch()]
     }
 }

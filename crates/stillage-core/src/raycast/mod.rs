@@ -22,8 +22,8 @@ use crate::grid::{Occupancy, OccupancyGrid};
 use crate::spec::CategorizationOptions;
 
 pub use march::{march, march_around};
-pub use sweep::Sweep;
-pub use tile_sweep::{Tile, TileScratch};
+pub use sweep::{Sweep, border_bytes_per_cell};
+pub use tile_sweep::{PLANE_LENGTH, PLANE_PITCH, Tile, TileScratch};
 
 /// Which beams are cast, and what stops them.
 #[derive(Debug, Clone, Copy, PartialEq)]

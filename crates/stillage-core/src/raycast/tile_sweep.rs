@@ -4,10 +4,13 @@ use std::ops::Range;
 
 use super::directions::{Direction, PHASES, UNITS_PER_ROW};
 use super::mask::Mask;
-use super::sweep::{Lines, Sweep, TILE, mask_range};
+use super::sweep::{LINES_PER_STEP, Lines, Sweep, TILE};
 
-/// Width of the vectors that read a plane: rows of a plane are filled up to a multiple of it.
-const PLANE_ALIGNMENT: usize = 16;
+/// Numbers from one row of a plane to the next.
+pub const PLANE_PITCH: usize = TILE;
+
+/// Numbers in a plane.
+pub const PLANE_LENGTH: usize = TILE * PLANE_PITCH;
 
 /// A rectangle of the grid, and which of its cells are measured.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -32,24 +35,6 @@ impl Tile {
     #[must_use]
     pub fn measured_rows(&self) -> impl ExactSizeIterator<Item = usize> + use<> {
         on_lattice(&self.rows, self.stride)
-    }
-
-    /// One past the last row.
-    #[must_use]
-    pub fn end_row(&self) -> usize {
-        self.rows.end
-    }
-
-    /// Numbers from one row of a plane to the next: the measured columns, filled up to whole vectors.
-    #[must_use]
-    pub fn pitch(&self) -> usize {
-        self.measured_columns().len().next_multiple_of(PLANE_ALIGNMENT)
-    }
-
-    /// Numbers in a plane.
-    #[must_use]
-    pub fn plane_length(&self) -> usize {
-        self.pitch() * self.measured_rows().len()
     }
 }
 
@@ -80,10 +65,8 @@ struct Window<'a> {
 }
 
 /// See [`Sweep::cast`].
+#[inline(always)]
 pub(super) fn cast_tile(sweep: &Sweep, tile: &Tile, beam: usize, scratch: &mut TileScratch, plane: &mut [u16]) {
-    if tile.plane_length() == 0 {
-        return;
-    }
     let direction = &sweep.directions[beam];
     let (columns, rows) = if direction.transposed { (&tile.rows, &tile.columns) } else { (&tile.columns, &tile.rows) };
     let window = Window {
@@ -97,34 +80,19 @@ pub(super) fn cast_tile(sweep: &Sweep, tile: &Tile, beam: usize, scratch: &mut T
     for step in 0..rows.len() {
         let row = if direction.ascending { rows.end - 1 - step } else { rows.start + step };
         if row % tile.stride == 0 {
-            let measured = &mut scratch.row[..columns.len()];
-            window.read(row, &scratch.lines, measured);
-            store(tile, direction.transposed, (row - first_measured) / tile.stride, measured, plane);
+            let start = (row - first_measured) / tile.stride * PLANE_PITCH;
+            let lengths = plane[start..].first_chunk_mut().expect("a plane has a row for every row of a tile");
+            if tile.stride == 1 {
+                window.read(row, &scratch.lines, lengths);
+            } else {
+                window.read(row, &scratch.lines, &mut scratch.row);
+                let first = columns.start.next_multiple_of(tile.stride) - columns.start;
+                let measured = scratch.row[..columns.len()].iter().skip(first).step_by(tile.stride);
+                lengths.iter_mut().zip(measured).for_each(|(length, &measured)| *length = measured);
+            }
         }
         if step + 1 < rows.len() {
             window.cross(row, &mut scratch.lines);
-        }
-    }
-}
-
-/// Puts the lengths of one row of the sweep where its measured cells are in the plane.
-fn store(tile: &Tile, transposed: bool, index: usize, lengths: &[u16], plane: &mut [u16]) {
-    let pitch = tile.pitch();
-    if transposed {
-        let first = tile.rows.start.next_multiple_of(tile.stride) - tile.rows.start;
-        let measured = lengths.iter().skip(first).step_by(tile.stride);
-        for (row, &length) in plane.chunks_exact_mut(pitch).zip(measured) {
-            row[index] = length;
-        }
-    } else {
-        let row = &mut plane[index * pitch..(index + 1) * pitch];
-        if tile.stride == 1 {
-            row[..lengths.len()].copy_from_slice(lengths);
-        } else {
-            let first = tile.columns.start.next_multiple_of(tile.stride) - tile.columns.start;
-            for (cell, &length) in row.iter_mut().zip(lengths.iter().skip(first).step_by(tile.stride)) {
-                *cell = length;
-            }
         }
     }
 }
@@ -141,12 +109,14 @@ impl Window<'_> {
     }
 
     /// Lines that may be the nearest of a cell of the tile between a border and the near one.
+    #[inline(always)]
     fn lines_from(&self, phase: usize, column: isize) -> Range<isize> {
         let near = self.direction.column(phase, self.near_border());
         self.columns.start - column.max(near) - 1..self.columns.end - column.min(near) + 1
     }
 
     /// Fetches the states at the far border; lines outside the grid, or at its end, are stopped.
+    #[inline(always)]
     fn load(&self, borders: &[u16], lines: &mut [Lines; PHASES]) {
         let columns = self.mask.columns();
         let far = self.far_border();
@@ -154,39 +124,42 @@ impl Window<'_> {
         for (phase, lines) in lines.iter_mut().enumerate() {
             let column = self.direction.column(phase, far);
             let numbers = self.lines_from(phase, column);
-            lines.restart(numbers.clone());
+            lines.restart(numbers.start..numbers.end + (TILE + LINES_PER_STEP) as isize);
+            let inside = numbers.start.max(-column)..numbers.end.min(columns as isize - column);
+            if kept.is_none() || inside != numbers {
+                lines.states_from_mut(numbers.start).fill(0);
+            }
             let Some(start) = kept else { continue };
-            let inside = self.inside(&numbers, column);
             let start = start + phase * columns;
-            let source = start + (inside.start + column) as usize..start + (inside.end + column) as usize;
-            lines.slice_mut(inside).copy_from_slice(&borders[source]);
+            let states = &borders[start + (inside.start + column) as usize..start + (inside.end + column) as usize];
+            lines.states_from_mut(inside.start)[..states.len()].copy_from_slice(states);
         }
     }
 
-    /// The lines that are inside the grid where line 0 is in `column`; never none, for some are inside the tile.
-    fn inside(&self, numbers: &Range<isize>, column: isize) -> Range<isize> {
-        numbers.start.max(-column)..numbers.end.min(self.mask.columns() as isize - column)
-    }
-
-    /// Reads the beams of the cells of a row: half a row to the border ahead, then along the nearest line.
-    fn read(&self, row: usize, lines: &[Lines; PHASES], lengths: &mut [u16]) {
+    /// Reads the beams of the cells of a row: half a row to the border ahead, then along the nearest line. What is
+    /// read beyond the tile means nothing.
+    #[inline(always)]
+    fn read(&self, row: usize, lines: &[Lines; PHASES], lengths: &mut [u16; TILE]) {
         const HALF_ROW: u16 = UNITS_PER_ROW / 2;
         let (phase, line) = self.direction.nearest_lines(row);
         let crossing = self.direction.crossing(phase, row);
-        let numbers = self.columns.start + line..self.columns.end + line;
-        let left = mask_range(self.mask.row(row), numbers.start + crossing.exit, numbers.len());
+        let number = self.columns.start + line;
+        let states: &[u16; TILE] =
+            lines[phase].states_from(number).first_chunk().expect("lines are kept for a whole tile");
+        let left: &[u16; TILE] =
+            self.mask.from(row, number + crossing.exit).first_chunk().expect("the margin is wider than a tile");
         let border = crossing.border.saturating_sub(HALF_ROW);
-        for ((length, &state), &left) in lengths.iter_mut().zip(lines[phase].slice(numbers)).zip(left) {
+        for ((length, &state), &left) in lengths.iter_mut().zip(states).zip(left) {
             *length = (state.saturating_add(HALF_ROW) & left) | (border & !left);
         }
     }
 
     /// Carries the lines that are still needed across a row.
+    #[inline(always)]
     fn cross(&self, row: usize, lines: &mut [Lines; PHASES]) {
         for (phase, lines) in lines.iter_mut().enumerate() {
             let crossing = self.direction.crossing(phase, row);
-            let numbers = self.inside(&self.lines_from(phase, crossing.entry), crossing.entry);
-            lines.cross(numbers, self.mask.row(row), &crossing);
+            lines.cross(&self.lines_from(phase, crossing.entry), self.mask, row, &crossing);
         }
     }
 }

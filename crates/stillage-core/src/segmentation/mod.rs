@@ -12,13 +12,13 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::clustering::{KMeansOptions, ScaledRows, k_means};
+use crate::clustering::{KMeansOptions, k_means};
 use crate::geometry::{OrientedBox, Point};
 use crate::grid::{Occupancy, OccupancyGrid};
 use crate::linalg::PrincipalComponents;
 use crate::orientation::energy::OccupiedSample;
 use crate::orientation::{self, Orientations};
-use crate::spec::{AnalysisOptions, RegionMethod, RegionOptions, Scaling};
+use crate::spec::{AnalysisOptions, RegionMethod, RegionOptions};
 use crate::watch::{Stopped, Watch};
 
 mod directions;
@@ -200,10 +200,9 @@ impl KnownTiles {
             fit_rows: usize::MAX,
             seed,
         };
-        let rows = ScaledRows::new(&self.points, self.dimensions, Scaling::None);
-        let found = k_means(&rows, &options, watch)?;
+        let labels = k_means(&self.points, self.dimensions, &options, watch)?;
         let mut clusters = vec![RegionMap::NONE; tiles.known.len()];
-        for (tile, label) in tiles.known_tiles().zip(found.labels) {
+        for (tile, label) in tiles.known_tiles().zip(labels) {
             clusters[tile] = label;
         }
         Ok(clusters)

@@ -119,7 +119,7 @@ impl Decision {
         self.by_category[usize::from(category)]
     }
 
-    /// The votes of all clusters that bear the face's label; the annotation's own confidence where nobody voted.
+    /// The shares of all clusters that bear the face's label; the annotation's own confidence where nobody voted.
     fn confidence(&self, face: usize, annotation: &FaceAnnotation) -> f64 {
         if self.by_face[face].is_some() {
             return 1.0;
@@ -129,7 +129,7 @@ impl Decision {
         if !is_cluster {
             return annotation.confidence;
         }
-        let shares = annotation.category_shares.iter().zip(&self.by_category);
+        let shares = annotation.distribution().iter().zip(&self.by_category);
         shares.filter(|&(_, &of)| of == label).map(|(&share, _)| f64::from(share)).sum::<f64>().clamp(0.0, 1.0)
     }
 }

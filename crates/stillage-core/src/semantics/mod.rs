@@ -32,6 +32,15 @@ pub struct Assignment {
     pub overrides: BTreeMap<u32, String>,
 }
 
+impl Assignment {
+    /// The suggestions as if a person had assigned them.
+    #[must_use]
+    pub fn suggested(suggestions: &[Suggestion], rule_set: &RuleSet) -> Self {
+        let label = |suggestion: &Suggestion| (suggestion.category, rule_set.label(suggestion.label).id.clone());
+        Self { assignment: suggestions.iter().map(label).collect(), ..Self::default() }
+    }
+}
+
 /// An assignment that cannot be applied: one problem per entry.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{pointer}: {message}")]

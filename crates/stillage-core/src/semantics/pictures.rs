@@ -4,7 +4,8 @@ use crate::adjacency::AdjacencyGraph;
 use crate::analysis::Analysis;
 use crate::annotation::{self, CellFaces};
 use crate::arrangement::{self, EdgeSource, FaceId, SourceSegment};
-use crate::categorization::{Category, CategoryMap};
+use crate::categorization::{Categorization, Category, CategoryMap};
+use crate::clustering::FitReport;
 use crate::geometry::{OrientedBox, Point};
 use crate::grid::{Occupancy, OccupancyGrid};
 use crate::layout::{self, Location};
@@ -57,35 +58,37 @@ impl DrawnMap {
         let subdivision = arrangement::arrange(&segments, &Watch::unwatched()).unwrap();
         let graph = AdjacencyGraph::dual(&subdivision);
         let cells = CellFaces::rasterize(&subdivision, grid.width(), grid.height(), RESOLUTION);
-        let (categories, regions) = (categories(&grid, &letters), one_region(&grid));
+        let regions = one_region(&grid);
+        let categorization = Categorization { map: categories(&grid, &letters), memberships: None };
         let mut options = AnalysisOptions::default();
         options.annotation.method = AnnotationMethod::Vote;
         let subject = annotation::Subject {
             grid: &grid,
-            categories: &categories,
+            categorization: &categorization,
             regions: &regions,
             subdivision: &subdivision,
             graph: &graph,
             cells: &cells,
             plots: &[],
         };
-        let (faces, edges, face_categories) =
+        let annotations =
             annotation::annotate(&subject, &options.annotation, options.seed, &Watch::unwatched()).unwrap();
         let analysis = Analysis {
             frame: *grid.frame(),
             width: grid.width(),
             height: grid.height(),
             options,
-            categories,
+            categories: categorization.map,
             orientations: Orientations::default(),
             regions,
             radiograms: Vec::new(),
             lines: Vec::new(),
             subdivision,
             graph,
-            faces,
-            face_categories,
-            edges,
+            faces: annotations.faces,
+            face_categories: annotations.categories,
+            edges: annotations.edges,
+            face_relaxation: None,
             diagnostics: Vec::new(),
         };
         Self { grid, analysis, cells, letters }
@@ -177,7 +180,7 @@ fn categories(grid: &OccupancyGrid, letters: &[u8]) -> CategoryMap {
     for &cell in cells.iter().filter(|&&cell| cell != CategoryMap::NONE) {
         categories[usize::from(cell)].cells += 1;
     }
-    CategoryMap { cells, categories, feature_names: Vec::new() }
+    CategoryMap { cells, categories, feature_names: Vec::new(), fit: FitReport::default(), relaxation: None }
 }
 
 fn one_region(grid: &OccupancyGrid) -> RegionMap {

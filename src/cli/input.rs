@@ -1,13 +1,13 @@
-//! The files that `stillage analyze` reads.
+//! The files that commands read.
 
 use std::fmt::Display;
 use std::path::{Path, PathBuf};
 
 use serde::de::DeserializeOwned;
-use stillage_core::semantics::{Assignment, RuleSet, RuleSetDraft};
+use stillage_core::semantics::{Assignment, AssignmentProblem, RuleSet, RuleSetDraft};
 use stillage_core::{AnalysisOptions, AnalysisSpec};
 
-use crate::cli::Failure;
+use super::Failure;
 use crate::ingest::{self, IngestError, MapSource};
 
 /// Reads a map: a metadata file with the image it names, or a message.
@@ -89,8 +89,13 @@ pub(super) fn refused(path: &Path, error: &IngestError) -> Failure {
     Failure::Input(format!("{} cannot be read as a map, at `{}`: {error}", path.display(), error.pointer))
 }
 
+/// An assignment that names what a map does not have.
+pub(super) fn misfit(problems: &[AssignmentProblem]) -> Failure {
+    Failure::Input(format!("the assignment does not fit this map: {}", list(problems)))
+}
+
 /// Several problems in one sentence.
-pub(super) fn list(problems: &[impl Display]) -> String {
+fn list(problems: &[impl Display]) -> String {
     let texts: Vec<String> = problems.iter().map(ToString::to_string).collect();
     texts.join("; ")
 }
@@ -100,7 +105,8 @@ fn read(path: &Path) -> Result<Vec<u8>, Failure> {
         .map_err(|error| Failure::Input(format!("{} cannot be opened ({error}): check the path", path.display())))
 }
 
-fn read_json<T: DeserializeOwned>(path: &Path) -> Result<T, Failure> {
+/// Something in a JSON file.
+pub(super) fn read_json<T: DeserializeOwned>(path: &Path) -> Result<T, Failure> {
     serde_json::from_slice(&read(path)?)
         .map_err(|error| Failure::Input(format!("{} is not the JSON that is expected: {error}", path.display())))
 }
