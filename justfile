@@ -30,3 +30,9 @@ bless:
 # What continuous integration runs.
 ci:
     bash .ci/run
+
+# Fill the tables of docs/accuracy.md: sites of the zoo, turned sites, maps of generate.py in MAPS/{seen,unseen,paper}.
+accuracy MAPS SHARED="../shared":
+    cargo run --release --example accuracy -- --zoo seen=1..2 --zoo unseen=5..6 --rotation 1 \
+        --generated seen={{MAPS}}/seen --generated unseen={{MAPS}}/unseen --paper-size {{MAPS}}/paper \
+        --real {{SHARED}}/maps/dev
