@@ -11,6 +11,7 @@
 #![allow(clippy::print_stderr, reason = "a tool of developers says what it does")]
 
 mod document;
+mod rooms;
 mod rotation;
 mod sites;
 mod tables;
@@ -42,7 +43,7 @@ struct Arguments {
     /// Seed of the zoo whose sites are turned: fills the section `rotation`.
     #[arg(long, value_name = "SEED")]
     rotation: Option<u64>,
-    /// Folder of real maps: draws the pictures of those that the document shows.
+    /// Folder of real maps: fills the section `rooms`, and draws the pictures of those that the document shows.
     #[arg(long, value_name = "DIR")]
     real: Option<PathBuf>,
     /// The document.
@@ -89,6 +90,7 @@ fn main() -> Outcome<()> {
         document.fill("rotation", &rotation::table(seed)?)?;
     }
     if let Some(folder) = &arguments.real {
+        document.fill("rooms", &rooms::table(folder)?)?;
         draw_real_maps(folder, &pictures)?;
     }
     document.write()

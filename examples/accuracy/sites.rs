@@ -46,7 +46,13 @@ pub struct OfZoo {
 /// Reads a map beside its metadata file, with `truth.geojson` where it lies in the same folder.
 pub fn read(metadata: &Path) -> Outcome<Site> {
     let bytes = fs::read(metadata).map_err(|error| format!("{}: {error}", metadata.display()))?;
-    let image = fs::read(metadata.with_file_name(ingest::image_entry(&bytes)?))?;
+    let image = metadata.with_file_name(ingest::image_entry(&bytes)?);
+    read_image(&image, metadata)
+}
+
+/// Reads an image with the metadata of a map.
+pub fn read_image(image: &Path, metadata: &Path) -> Outcome<Site> {
+    let (image, bytes) = (fs::read(image)?, fs::read(metadata)?);
     let truth = metadata.with_file_name("truth.geojson");
     let truth = if truth.is_file() { Some(fs::read(truth)?) } else { None };
     site(image, bytes, truth.as_deref())
