@@ -45,7 +45,7 @@ impl Nearest {
         for row in (0..height.saturating_sub(1)).rev() {
             for cell in row * width..(row + 1) * width {
                 let (below, above) = (rows[cell], rows[cell + width]);
-                if above != NONE && (below == NONE || above - (row as u32) < row as u32 - below) {
+                if above != NONE && (below == NONE || above.abs_diff(row as u32) < below.abs_diff(row as u32)) {
                     rows[cell] = above;
                 }
             }

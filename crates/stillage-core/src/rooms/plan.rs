@@ -1,10 +1,11 @@
 //! Which ground is rooms and which is rows.
 //!
-//! The whole site is cut into rows and, apart from that, into rooms. Rooms that open widely into one another are one
-//! zone; a zone with rows of places is a hall, laid out in rows as if the other zones did not exist. All other zones keep
-//! their rooms. So offices in the corner of a hall are offices, and a site without any rows is rooms throughout.
+//! The whole site is cut into rooms and, apart from that, into rows. Rooms that open widely into one another are one
+//! zone: goods come in through gates, not through doors. A large zone with places on a good part of it is a hall, laid
+//! out in rows as if the other zones did not exist; all others keep their rooms. So offices in the corner of a hall are
+//! offices, and a site without rows is rooms throughout.
 //!
-//! Cost: that of both cuts, and of the rows once more where a site has both.
+//! Cost: that of both cuts, and of the rows once more for each time that a zone turns out to have none.
 
 use super::Rooms;
 use super::flood::{self, Passage};
@@ -20,8 +21,13 @@ use crate::segmentation::RegionMap;
 use crate::spec::DecompositionOptions;
 use crate::watch::{Stopped, Watch};
 
-/// Passages wider than this join their rooms to one zone, metres: a door has 0.7 to 1.6.
+/// Passages wider than a door join their rooms to one zone, metres: doors have 0.7 to 1.6.
 const DOOR_M: f64 = 1.6;
+
+/// A zone smaller than this is no hall beside a larger one, square metres: two rows and their aisles.
+const HALL_M2: f64 = 200.0;
+/// Share of the ground of a hall that is places at least; halls have 0.2 and more, a stray row of furniture less.
+const PLACES_SHARE: f64 = 0.1;
 
 /// The lines of a site, what they enclose, and its rooms.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -44,20 +50,31 @@ pub fn plan(
     options: &DecompositionOptions,
     watch: &Watch<'_>,
 ) -> Result<SitePlan, Stopped> {
-    let mut rows = decomposition::decompose(grid, regions, options, watch)?;
     let ground = Ground::of(grid, watch)?;
     let clearance = Nearest::of(ground.width, ground.is_free.len(), |cell| !ground.is_free[cell], watch)?;
     let passages = flood::passages(&ground, &clearance, watch)?;
     let partition = Partition::of(&ground, &passages, watch)?;
-    let is_hall = halls(grid, &ground, &rows, &partition, &passages);
-    let rooms = kept(&ground, &partition, &passages, &is_hall);
+    let zones = Zones::of(&ground, &partition, &passages);
+    let mut is_hall = vec![true; partition.count + 1];
+    let mut rooms = Rooms::default();
+    let rows = loop {
+        let rows = if is_hall.contains(&true) {
+            let grid = if rooms.count == 0 { grid } else { &without(grid, &rooms) };
+            decomposition::decompose(grid, regions, options, watch)?
+        } else {
+            Decomposition::default()
+        };
+        // Furniture that repeats by chance does so less when the rows of the next room are gone.
+        let halls = zones.halls(&ground, &partition, &rows);
+        let is_settled = halls.iter().zip(&is_hall).skip(1).all(|(is_still, was)| is_still == was);
+        is_hall.iter_mut().zip(halls).for_each(|(is_hall, is_still)| *is_hall &= is_still);
+        rooms = kept(&ground, &partition, &passages, &is_hall);
+        if is_settled {
+            break rows;
+        }
+    };
     if rooms.count == 0 {
-        return Ok(SitePlan { lines: rows.lines, plots: rows.plots, rooms: Rooms::default() });
-    }
-    if is_hall.contains(&true) {
-        rows = decomposition::decompose(&without(grid, &rooms), regions, options, watch)?;
-    } else {
-        rows = Decomposition::default();
+        return Ok(SitePlan { lines: rows.lines, plots: rows.plots, rooms });
     }
     let borders = outline::segments(&rooms.cells, ground.width, ground.cell);
     let Decomposition { mut lines, plots } = rows;
@@ -80,34 +97,50 @@ fn sides(ground: &Ground, partition: &Partition, passage: &Passage) -> [u32; 2] 
     })
 }
 
-/// For every room, 1 to `count` (entry 0 is for none), whether it belongs to a zone with rows of places.
-fn halls(
-    grid: &OccupancyGrid,
-    ground: &Ground,
-    rows: &Decomposition,
-    partition: &Partition,
-    passages: &[Passage],
-) -> Vec<bool> {
-    let mut is_hall = vec![false; partition.count + 1];
-    for plot in rows.plots.iter().filter(|plot| plot.kind == PlotKind::Place) {
-        if let Some((column, row)) = grid.cell_at(plot.bounds.center) {
-            is_hall[partition.nearest_room(row * ground.width + column) as usize] = true;
+/// Rooms that open widely into one another.
+struct Zones {
+    /// Zone of each room by its smallest room; entry 0 is for no room.
+    of: Vec<usize>,
+    /// Ground of each room, with its share of the walls, square metres.
+    areas: Vec<f64>,
+}
+
+impl Zones {
+    fn of(ground: &Ground, partition: &Partition, passages: &[Passage]) -> Self {
+        let mut areas = vec![0.0; partition.count + 1];
+        for &room in &partition.rooms {
+            areas[room as usize] += ground.cell * ground.cell;
         }
-    }
-    let is_gate = |passage: &&Passage| passage.wall_ends == 0 || passage.width(ground.cell) > DOOR_M;
-    let gates: Vec<[u32; 2]> = passages.iter().filter(is_gate).map(|passage| sides(ground, partition, passage)).collect();
-    let mut before = 0;
-    loop {
-        for sides in &gates {
-            if sides.iter().any(|&room| room != 0 && is_hall[room as usize]) {
-                sides.iter().for_each(|&room| is_hall[room as usize] = true);
+        let mut of: Vec<usize> = (0..=partition.count).collect();
+        // A neck without a wall at either end is a gap between goods, however narrow.
+        let is_gate = |passage: &&Passage| passage.wall_ends == 0 || passage.width(ground.cell) > DOOR_M;
+        for passage in passages.iter().filter(is_gate) {
+            let [one, other] = sides(ground, partition, passage).map(|room| of[room as usize]);
+            if one != 0 && other != 0 {
+                of.iter_mut().filter(|zone| **zone == one.max(other)).for_each(|zone| *zone = one.min(other));
             }
         }
-        let now = is_hall.iter().filter(|&&is_hall| is_hall).count();
-        if now == before {
-            return is_hall;
+        Self { of, areas }
+    }
+
+    /// For every room whether its zone is a hall: large, and with places on a good part of it.
+    fn halls(&self, ground: &Ground, partition: &Partition, rows: &Decomposition) -> Vec<bool> {
+        let mut places = vec![0.0; self.of.len()];
+        for plot in rows.plots.iter().filter(|plot| plot.kind == PlotKind::Place) {
+            let [column, row] = [plot.bounds.center.x, plot.bounds.center.y].map(|side| (side / ground.cell) as usize);
+            if column < ground.width && row < ground.height {
+                let room = partition.nearest_room(row * ground.width + column) as usize;
+                let [along, across] = plot.bounds.half_extents;
+                places[self.of[room]] += 4.0 * along * across;
+            }
         }
-        before = now;
+        let mut areas = vec![0.0; self.of.len()];
+        for (room, area) in self.areas.iter().enumerate().skip(1) {
+            areas[self.of[room]] += area;
+        }
+        let largest = areas.iter().copied().fold(0.0, f64::max);
+        let is_hall = |zone: usize| areas[zone] >= largest.min(HALL_M2) && places[zone] > PLACES_SHARE * areas[zone];
+        self.of.iter().map(|&zone| zone != 0 && is_hall(zone)).collect()
     }
 }
 
