@@ -204,7 +204,6 @@ fn face_annotation(tally: &Tally, rings: &[Vec<Point>], categories: &CategoryMap
         extent: smallest_box.extent,
         region: region.map_or(RegionMap::NONE, |region| region as u8),
         kind: None,
-        fronts: 0.0,
         confidence,
         evidence: if total > 0 && 2 * u64::from(tally.known()) >= u64::from(total) {
             Evidence::Observed

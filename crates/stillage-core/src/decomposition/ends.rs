@@ -1,8 +1,8 @@
 //! Where rows end, and where aisles end with them.
 //!
 //! The comb fills a row from side to side, but the row of goods ends where its last sign does: free pieces beyond it are
-//! open floor. A band serves a row along its places only: where it runs on without any, and where it is far wider than
-//! aisles are, it is open floor as well. Open floor is a [`PlotKind::Lane`], whatever band it was found in.
+//! open floor. A band serves a row along its places only: where it runs on without any, and where there is room for
+//! a further aisle beside that of the row, it is open floor as well. Open floor is a [`PlotKind::Lane`], whatever band it was found in.
 //!
 //! Cost: O(cells of the pieces at the ends + bands x places). Limits: an empty place at the end of a row without a post
 //! is given up, since nothing tells it from floor.
@@ -25,11 +25,8 @@ const UNSEEN_SHARE: f64 = 0.2;
 const CONTACT_M: f64 = 0.3;
 /// A stretch of a band without places is open floor from this length on, metres: narrower, it is an empty place or two.
 const OPEN_STRETCH_M: f64 = 1.9;
-/// At the ends of a band, metres: what rows of a block differ in length.
+/// The same at the ends of a block, metres.
 const OPEN_END_M: f64 = 0.5;
-/// A band so many times as wide as the usual aisle is an aisle and open floor beside it.
-const WIDE: f64 = 1.5;
-
 /// Ends rows and bands where their signs end.
 pub(super) fn end(frame: &Frame, parcels: Vec<Parcel>) -> Vec<Parcel> {
     let parcels = end_rows(frame, parcels);
@@ -98,12 +95,91 @@ fn is_bare(frame: &Frame, piece: &Parcel, axis: Axis, is_low: bool) -> bool {
 fn end_bands(frame: &Frame, parcels: Vec<Parcel>) -> Vec<Parcel> {
     let is_band = |parcel: &Parcel| matches!(parcel.kind, PlotKind::Aisle | PlotKind::Lane);
     let (bands, mut ended): (Vec<Parcel>, Vec<Parcel>) = parcels.into_iter().partition(is_band);
-    let stretches: Vec<Stretch> = bands.iter().flat_map(|band| stretches(frame, band, &ended)).collect();
+    let mut bands: Vec<Band> = bands.into_iter().map(|band| Band::of(frame, band, &ended)).collect();
+    // Bands of one length are those of one block.
+    bands.sort_by_key(Band::block);
+    for block in bands.chunk_by_mut(|one, other| one.block() == other.block()) {
+        let first = block.iter().filter_map(|band| band.served().position(|here| here)).min();
+        let last = block.iter().filter_map(|band| band.served().rposition(|here| here)).max();
+        if let (Some(first), Some(last)) = (first, last) {
+            block.iter_mut().for_each(|band| band.reach = first..last + 1);
+        }
+    }
+    let stretches: Vec<Stretch> = bands.iter().flat_map(|band| band.stretches(frame)).collect();
     let usual = usual_width(&stretches);
     for stretch in stretches {
-        stretch.cut(usual, frame.cells_of(OPEN_STRETCH_M), &mut ended);
+        stretch.cut(usual, &mut ended);
     }
     ended
+}
+
+/// A band, and where places lie along it.
+struct Band {
+    rect: Rect,
+    axis: Axis,
+    /// By line across the band: whether there is a place at its low and at its high side.
+    sides: [Vec<bool>; 2],
+    /// From the first place to the last one along any band of its block.
+    reach: Range<usize>,
+}
+
+impl Band {
+    fn of(frame: &Frame, band: Parcel, others: &[Parcel]) -> Self {
+        let axis = band.axis.unwrap_or(Axis::U);
+        let (along, across) = (band.rect.range(axis), band.rect.range(axis.other()));
+        let contact = frame.cells_of(CONTACT_M);
+        let mut sides = [vec![false; along.len()], vec![false; along.len()]];
+        for place in others.iter().filter(|other| other.kind == PlotKind::Place && other.axis == Some(axis)) {
+            let (beside, depth) = (place.rect.range(axis), place.rect.range(axis.other()));
+            let meets = [depth.end.abs_diff(across.start) <= contact, depth.start.abs_diff(across.end) <= contact];
+            let (start, end) = (beside.start.max(along.start), beside.end.min(along.end));
+            for (side, _) in sides.iter_mut().zip(meets).filter(|&(_, meets)| meets && start < end) {
+                side[start - along.start..end - along.start].fill(true);
+            }
+        }
+        Self { rect: band.rect, axis, sides, reach: 0..0 }
+    }
+
+    fn block(&self) -> (bool, usize, usize) {
+        let along = self.rect.range(self.axis);
+        (self.axis == Axis::V, along.start, along.end)
+    }
+
+    fn served(&self) -> impl ExactSizeIterator<Item = bool> + DoubleEndedIterator {
+        self.sides[0].iter().zip(&self.sides[1]).map(|(low, high)| *low || *high)
+    }
+
+    /// The stretches with and without places.
+    fn stretches(&self, frame: &Frame) -> Vec<Stretch> {
+        let mut served: Vec<bool> = self.served().collect();
+        if served.contains(&true) {
+            close_gaps(&mut served[self.reach.clone()], frame.cells_of(OPEN_STRETCH_M));
+            close_gaps(&mut served, frame.cells_of(OPEN_END_M));
+        }
+        let offset = self.rect.range(self.axis).start;
+        let mut start = 0;
+        let stretch = |run: &[bool]| {
+            let range = start..start + run.len();
+            start = range.end;
+            let is_front = |side: &Vec<bool>| run[0] && side[range.clone()].contains(&true);
+            let rect = self.rect.with(self.axis, offset + range.start..offset + range.end);
+            Stretch { rect, axis: self.axis, fronts: [is_front(&self.sides[0]), is_front(&self.sides[1])] }
+        };
+        served.chunk_by(PartialEq::eq).map(stretch).collect()
+    }
+}
+
+/// Closes the stretches without places that are shorter than `least`.
+fn close_gaps(served: &mut [bool], least: usize) {
+    let mut start = 0;
+    let mut gaps: Vec<Range<usize>> = Vec::new();
+    for run in served.chunk_by(PartialEq::eq) {
+        if !run[0] && run.len() < least {
+            gaps.push(start..start + run.len());
+        }
+        start += run.len();
+    }
+    gaps.into_iter().for_each(|gap| served[gap].fill(true));
 }
 
 /// A stretch of a band, and whether places lie along its low and its high side.
@@ -111,59 +187,6 @@ struct Stretch {
     rect: Rect,
     axis: Axis,
     fronts: [bool; 2],
-}
-
-/// The stretches of a band with and without places.
-fn stretches(frame: &Frame, band: &Parcel, others: &[Parcel]) -> Vec<Stretch> {
-    let axis = band.axis.unwrap_or(Axis::U);
-    let (along, across) = (band.rect.range(axis), band.rect.range(axis.other()));
-    let contact = frame.cells_of(CONTACT_M);
-    let mut sides = [vec![false; along.len()], vec![false; along.len()]];
-    for place in others.iter().filter(|other| other.kind == PlotKind::Place && other.axis == Some(axis)) {
-        let (beside, depth) = (place.rect.range(axis), place.rect.range(axis.other()));
-        let meets = [depth.end.abs_diff(across.start) <= contact, depth.start.abs_diff(across.end) <= contact];
-        let (start, end) = (beside.start.max(along.start), beside.end.min(along.end));
-        for (side, _) in sides.iter_mut().zip(meets).filter(|&(_, meets)| meets) {
-            if start < end {
-                side[start - along.start..end - along.start].fill(true);
-            }
-        }
-    }
-    let mut served: Vec<bool> = sides[0].iter().zip(&sides[1]).map(|(low, high)| *low || *high).collect();
-    close(&mut served, frame.cells_of(OPEN_STRETCH_M), frame.cells_of(OPEN_END_M));
-    let mut start = 0;
-    let mut found = Vec::new();
-    for run in served.chunk_by(PartialEq::eq) {
-        let range = start..start + run.len();
-        start = range.end;
-        let lies_along = |side: &Vec<bool>| 2 * side[range.clone()].iter().filter(|&&here| here).count() > run.len();
-        let fronts = if run[0] { [lies_along(&sides[0]), lies_along(&sides[1])] } else { [false; 2] };
-        let fronts = if run[0] && fronts == [false; 2] { [true; 2] } else { fronts };
-        let rect = band.rect.with(axis, along.start + range.start..along.start + range.end);
-        found.push(Stretch { rect, axis, fronts });
-    }
-    found
-}
-
-/// Closes short stretches without places between others, and at the ends.
-fn close(served: &mut [bool], between: usize, at_end: usize) {
-    let mut start = 0;
-    let runs: Vec<(Range<usize>, bool)> = served
-        .chunk_by(PartialEq::eq)
-        .map(|run| {
-            let range = start..start + run.len();
-            start = range.end;
-            (range, run[0])
-        })
-        .collect();
-    if runs.len() > 1 {
-        for (range, is_served) in runs {
-            let least = if range.start == 0 || range.end == served.len() { at_end } else { between };
-            if !is_served && range.len() < least {
-                served[range].fill(true);
-            }
-        }
-    }
 }
 
 /// Width of the band at the middle of the length of all bands with places on both sides.
@@ -184,30 +207,26 @@ fn usual_width(stretches: &[Stretch]) -> Option<usize> {
 
 impl Stretch {
     /// Cuts what lies beyond the reach of an aisle off a stretch that is too wide for one.
-    fn cut(self, usual: Option<usize>, least: usize, parcels: &mut Vec<Parcel>) {
+    fn cut(self, usual: Option<usize>, parcels: &mut Vec<Parcel>) {
         let across = self.axis.other();
         let range = self.rect.range(across).clone();
-        let aisle = |part: Range<usize>| Parcel::new(self.rect.with(across, part), PlotKind::Aisle, Some(self.axis));
-        let floor = |part: Range<usize>| Parcel::new(self.rect.with(across, part), PlotKind::Lane, Some(self.axis));
-        let width = usual.unwrap_or(range.len());
-        let sides = usize::from(self.fronts[0]) + usize::from(self.fronts[1]);
-        if sides == 0 {
-            parcels.push(floor(range));
-            return;
-        }
-        let is_wide = range.len() as f64 > WIDE * (width * sides) as f64 && range.len() >= width * sides + least;
-        if !is_wide {
-            parcels.push(aisle(range));
-            return;
-        }
-        let start = if self.fronts[0] { range.start + width } else { range.start };
-        let end = if self.fronts[1] { range.end - width } else { range.end };
-        if self.fronts[0] {
-            parcels.push(aisle(range.start..start));
-        }
-        parcels.push(floor(start..end));
-        if self.fronts[1] {
-            parcels.push(aisle(end..range.end));
+        let mut part = |part: Range<usize>, kind: PlotKind| {
+            parcels.push(Parcel::new(self.rect.with(across, part), kind, Some(self.axis)));
+        };
+        let aisles = usual.map_or(0, |width| width * self.fronts.iter().filter(|&&is_front| is_front).count());
+        match (self.fronts, usual) {
+            ([false, false], _) => part(range, PlotKind::Lane),
+            ([low, high], Some(width)) if range.len() >= aisles + width => {
+                let [start, end] = [low, high].map(|is_front| if is_front { width } else { 0 });
+                let floor = range.start + start..range.end - end;
+                for aisle in [range.start..floor.start, floor.end..range.end] {
+                    if !aisle.is_empty() {
+                        part(aisle, PlotKind::Aisle);
+                    }
+                }
+                part(floor, PlotKind::Lane);
+            }
+            _ => part(range, PlotKind::Aisle),
         }
     }
 }

@@ -46,9 +46,9 @@ use site::Site;
 pub enum PlotKind {
     /// One place for goods.
     Place,
-    /// A drivable band along rows.
+    /// A drivable band with places along it.
     Aisle,
-    /// A drivable band across the ends of rows.
+    /// Open floor: across the ends of rows, beside them, around them.
     Lane,
     /// A passage through a row.
     Gap,
