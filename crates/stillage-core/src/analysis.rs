@@ -97,7 +97,8 @@ pub fn analyze(grid: &OccupancyGrid, spec: &AnalysisSpec, watch: &Watch<'_>) -> 
     })?;
     let subdivision = watch.stage(Stage::Arrangement, || {
         let segments = arrangement::source_segments(grid, &regions, &lines);
-        arrangement::arrange(&segments, watch)
+        let subdivision = arrangement::arrange(&segments, watch)?;
+        annotation::merge_alike(grid, &regions, subdivision, &plots, &options.annotation, watch)
     })?;
     let graph = AdjacencyGraph::dual(&subdivision);
     let annotations = watch.stage(Stage::Annotation, || {

@@ -45,7 +45,7 @@ pub(super) fn annotate_faces(
     (0..subdivision.face_count()).into_par_iter().map(annotate).collect()
 }
 
-fn region_at(grid: &OccupancyGrid, regions: &RegionMap, point: Point) -> u8 {
+pub(super) fn region_at(grid: &OccupancyGrid, regions: &RegionMap, point: Point) -> u8 {
     let region = grid.cell_at(point).and_then(|(column, row)| regions.region_of_cell(column, row));
     region.unwrap_or(RegionMap::NONE)
 }

@@ -7,6 +7,7 @@ mod edges;
 mod faces;
 mod kinds;
 mod membership;
+mod merge;
 mod outside;
 mod raster;
 mod roles;
@@ -17,6 +18,7 @@ mod tests;
 
 use serde::{Deserialize, Serialize};
 
+pub use merge::merge_alike;
 pub use raster::CellFaces;
 
 use crate::adjacency::AdjacencyGraph;

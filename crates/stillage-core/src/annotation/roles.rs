@@ -18,13 +18,13 @@ pub(super) fn kinds(graph: &AdjacencyGraph, faces: &[FaceAnnotation], plots: &[P
 }
 
 /// Plots by the buckets that their boxes touch.
-struct PlotIndex<'a> {
+pub(super) struct PlotIndex<'a> {
     plots: &'a [Plot],
     buckets: BTreeMap<(i64, i64), Vec<u32>>,
 }
 
 impl<'a> PlotIndex<'a> {
-    fn new(plots: &'a [Plot]) -> Self {
+    pub(super) fn new(plots: &'a [Plot]) -> Self {
         let mut buckets: BTreeMap<(i64, i64), Vec<u32>> = BTreeMap::new();
         for (number, plot) in (0..).zip(plots) {
             let corners = plot.bounds.corners().map(bucket);
@@ -42,7 +42,7 @@ impl<'a> PlotIndex<'a> {
     }
 
     /// The first plot of a region that holds a point.
-    fn at(&self, point: Point, region: u8) -> Option<Plot> {
+    pub(super) fn at(&self, point: Point, region: u8) -> Option<Plot> {
         let near = self.buckets.get(&bucket(point))?;
         near.iter().map(|&number| self.plots[number as usize]).find(|plot| plot.region == region && holds(plot, point))
     }
