@@ -51,8 +51,7 @@ pub fn merge_alike(
     }
     let faces = purposes(grid, regions, &subdivision, plots);
     watch.check()?;
-    let inner: Vec<EdgeId> =
-        subdivision.edges().filter(|&edge| is_alike(&faces, subdivision.sides(edge))).collect();
+    let inner: Vec<EdgeId> = subdivision.edges().filter(|&edge| is_alike(&faces, subdivision.sides(edge))).collect();
     let divides_nothing = |edge: &EdgeId| {
         let found = annotate_edge(grid, &subdivision, *edge, options.support_width_m);
         found.support < MAJORITY && (found.open > MAJORITY || found.confidence < MAJORITY)
@@ -104,7 +103,9 @@ fn is_alike(faces: &[Purpose], [left, right]: [FaceId; 2]) -> bool {
         (None, None) => true,
         (Some(one), Some(other)) => match one.kind {
             PlotKind::Place => false,
-            PlotKind::Aisle => other.kind == one.kind && line_angle_between(one.bounds.angle, other.bounds.angle) < SAME_WAY,
+            PlotKind::Aisle => {
+                other.kind == one.kind && line_angle_between(one.bounds.angle, other.bounds.angle) < SAME_WAY
+            }
             PlotKind::Lane | PlotKind::Gap | PlotKind::Rest => other.kind == one.kind,
         },
         _ => false,
@@ -136,5 +137,76 @@ fn join_slivers(subdivision: &Subdivision, sets: &mut DisjointSets) {
         if let Some((&other, _)) = inside.max_by(|one, other| one.1.total_cmp(other.1)) {
             sets.join(set, other);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::{Expect, expect};
+
+    use super::*;
+    use crate::arrangement::{EdgeSource, SourceSegment, arrange};
+    use crate::geometry::{OrientedBox, Point};
+    use crate::segmentation::Region;
+
+    /// Cuts a map, one cell is one metre, into strips at some x, each with its kind, and joins them again.
+    fn check(picture: &str, cuts: &[f64], kinds: &[PlotKind], expected: &Expect) {
+        let grid = OccupancyGrid::from_ascii(picture, 1.0);
+        let (width, height) = (grid.width() as f64, grid.height() as f64);
+        let segment = |ends: [f64; 4]| SourceSegment {
+            start: Point::new(ends[0], ends[1]),
+            end: Point::new(ends[2], ends[3]),
+            source: EdgeSource::Boundary,
+        };
+        let bounds: Vec<f64> = [&[0.0], cuts, &[width]].concat();
+        let sides = [[0.0, 0.0, width, 0.0], [0.0, height, width, height]].map(segment);
+        let segments: Vec<SourceSegment> =
+            sides.into_iter().chain(bounds.iter().map(|&x| segment([x, 0.0, x, height]))).collect();
+        let subdivision = arrange(&segments, &Watch::unwatched()).expect("nobody stops it");
+        let strip = |x: &[f64]| OrientedBox {
+            center: Point::new(f64::midpoint(x[0], x[1]), height / 2.0),
+            half_extents: [(x[1] - x[0]) / 2.0, height / 2.0],
+            angle: 0.0,
+        };
+        let plots: Vec<Plot> =
+            bounds.windows(2).zip(kinds).map(|(x, &kind)| Plot { bounds: strip(x), kind, region: 0 }).collect();
+        let regions = RegionMap {
+            tile_cells: 64,
+            columns: 1,
+            rows: 1,
+            tiles: vec![0],
+            regions: vec![Region { orientations: vec![0.0], bounds: strip(&[0.0, width]), share: 1.0 }],
+        };
+        let options = AnnotationOptions::default();
+        let merged = merge_alike(&grid, &regions, subdivision, &plots, &options, &Watch::unwatched());
+        let merged = merged.expect("nobody stops it");
+        merged.check_invariants().expect("the subdivision is sound");
+        let extent = |face: FaceId| {
+            let ring = merged.rings(face).remove(0);
+            let x = |pick: fn(f64, f64) -> f64| ring.iter().map(|corner| corner.x).reduce(pick).unwrap_or(0.0);
+            format!("{:.1}..{:.1}", x(f64::min), x(f64::max))
+        };
+        expected.assert_eq(&merged.faces().map(extent).collect::<Vec<_>>().join(" "));
+    }
+
+    #[test]
+    fn open_floor_is_one_face_and_a_wall_keeps_it_two() {
+        use PlotKind::Lane;
+        check("........\n........", &[3.0, 5.0], &[Lane; 3], &expect!["0.0..8.0"]);
+        check("...#....\n...#....", &[3.0, 5.0], &[Lane; 3], &expect!["0.0..3.0 3.0..8.0"]);
+        check("...?????\n...?????", &[3.0, 5.0], &[Lane; 3], &expect!["0.0..3.0 3.0..8.0"]);
+    }
+
+    #[test]
+    fn places_stay_places_and_aisles_are_no_floor() {
+        use PlotKind::{Aisle, Lane, Place};
+        check("........\n........", &[3.0, 5.0], &[Place; 3], &expect!["0.0..3.0 3.0..5.0 5.0..8.0"]);
+        check("........\n........", &[3.0, 5.0], &[Aisle, Lane, Lane], &expect!["0.0..3.0 3.0..8.0"]);
+    }
+
+    #[test]
+    fn a_sliver_goes_to_the_neighbour_it_shares_most_with() {
+        use PlotKind::{Lane, Place};
+        check("........\n........", &[3.0, 3.1], &[Place, Lane, Place], &expect!["0.0..3.0 3.0..8.0"]);
     }
 }

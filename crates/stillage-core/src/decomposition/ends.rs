@@ -191,9 +191,8 @@ struct Stretch {
 
 /// Width of the band at the middle of the length of all bands with places on both sides.
 fn usual_width(stretches: &[Stretch]) -> Option<usize> {
-    let size = |stretch: &Stretch| {
-        (stretch.rect.range(stretch.axis.other()).len(), stretch.rect.range(stretch.axis).len())
-    };
+    let size =
+        |stretch: &Stretch| (stretch.rect.range(stretch.axis.other()).len(), stretch.rect.range(stretch.axis).len());
     let mut sizes: Vec<(usize, usize)> = stretches.iter().filter(|of| of.fronts == [true; 2]).map(size).collect();
     sizes.sort_unstable();
     let half = sizes.iter().map(|(_, length)| length).sum::<usize>() / 2;
