@@ -17,7 +17,7 @@ use crate::spec::{AnalysisOptions, AnalysisSpec, DecompositionMethod};
 use crate::watch::{Stage, Stopped, Watch};
 
 /// Version of the algorithms: part of the address of a stored analysis, raised whenever results change.
-pub const ALGORITHM_VERSION: u32 = 4;
+pub const ALGORITHM_VERSION: u32 = 5;
 
 /// What the geometric level finds in a map. Immutable; addressed by grid, options and [`ALGORITHM_VERSION`].
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -98,11 +98,14 @@ pub fn analyze(grid: &OccupancyGrid, spec: &AnalysisSpec, watch: &Watch<'_>) -> 
     })?;
     let subdivision = watch.stage(Stage::Arrangement, || {
         let segments = arrangement::source_segments(grid, &regions, &lines, &rooms.cells);
-        arrangement::arrange(&segments, watch)
+        let subdivision = arrangement::arrange(&segments, watch)?;
+        let of_faces = rooms.of_faces(&subdivision, grid);
+        let cut = annotation::Cut { plots: &plots, rooms: &of_faces };
+        annotation::merge_alike(grid, &regions, subdivision, cut, &options.annotation, watch)
     })?;
     let graph = AdjacencyGraph::dual(&subdivision);
-    let cells = CellFaces::rasterize(&subdivision, grid.width(), grid.height(), grid.resolution());
     let annotations = watch.stage(Stage::Annotation, || {
+        let cells = CellFaces::rasterize(&subdivision, grid.width(), grid.height(), grid.resolution());
         let subject = annotation::Subject {
             grid,
             categorization: &categorization,
@@ -114,7 +117,7 @@ pub fn analyze(grid: &OccupancyGrid, spec: &AnalysisSpec, watch: &Watch<'_>) -> 
         };
         annotation::annotate(&subject, &options.annotation, options.seed, watch)
     })?;
-    let rooms = RoomMap::of(&rooms, &subdivision, &cells);
+    let rooms = RoomMap::of(&rooms, &subdivision, grid);
     let mut analysis = Analysis {
         frame: *grid.frame(),
         width: grid.width(),

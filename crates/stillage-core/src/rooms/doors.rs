@@ -13,7 +13,7 @@ const REACH_M: f64 = 0.3;
 /// The doors at some passages (from jamb to jamb) of a subdivision with rooms by face id.
 pub(super) fn of(passages: &[[Point; 2]], subdivision: &Subdivision, rooms: &[Option<u32>]) -> Vec<Door> {
     let is_border = |&edge: &EdgeId| {
-        let [left, right] = subdivision.sides(edge).map(|face| rooms[face.index()]);
+        let [left, right] = subdivision.sides(edge).map(|face| rooms.get(face.index()).copied().flatten());
         left != right
     };
     let borders: Vec<EdgeId> = subdivision.edges().filter(is_border).collect();

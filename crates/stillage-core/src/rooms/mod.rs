@@ -28,6 +28,7 @@ use serde::{Deserialize, Serialize};
 use crate::annotation::CellFaces;
 use crate::arrangement::{EdgeId, FaceId, Subdivision};
 use crate::geometry::Point;
+use crate::grid::OccupancyGrid;
 
 pub use plan::{SitePlan, plan};
 
@@ -45,7 +46,7 @@ pub struct Rooms {
 /// The rooms and doors of a subdivision.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct RoomMap {
-    /// Room of each face, by face id (entry 0, the unbounded face, has none).
+    /// Room of each face, by face id (entry 0, the unbounded face, has none). Empty without rooms.
     pub faces: Vec<Option<u32>>,
     /// Narrow passages between two rooms, or between a room and other ground.
     pub doors: Vec<Door>,
@@ -73,8 +74,8 @@ impl Door {
 impl RoomMap {
     /// Finds the faces of each room and the edges of each door.
     #[must_use]
-    pub fn of(rooms: &Rooms, subdivision: &Subdivision, cells: &CellFaces) -> Self {
-        let faces = faces_of(rooms, subdivision, cells);
+    pub fn of(rooms: &Rooms, subdivision: &Subdivision, grid: &OccupancyGrid) -> Self {
+        let faces = rooms.of_faces(subdivision, grid);
         let doors = doors::of(&rooms.passages, subdivision, &faces);
         Self { faces, doors }
     }
@@ -86,29 +87,35 @@ impl RoomMap {
     }
 }
 
-/// The room that most cells of a face lie in, if they lie in any; rooms are numbered by their first face.
-fn faces_of(rooms: &Rooms, subdivision: &Subdivision, cells: &CellFaces) -> Vec<Option<u32>> {
-    let mut pairs: Vec<(FaceId, u32)> = cells.as_slice().iter().copied().zip(rooms.cells.iter().copied()).collect();
-    pairs.retain(|&(face, _)| face != FaceId::OUTER);
-    pairs.sort_unstable();
-    let mut room_of = vec![0; subdivision.face_count()];
-    for cells in pairs.chunk_by(|one, other| one.0 == other.0) {
-        // Of equals the last one: no room only where most cells are in none.
-        let most = cells.chunk_by(PartialEq::eq).max_by_key(|cells| cells.len());
-        room_of[cells[0].0.index()] = most.map_or(0, |cells| cells[0].1);
+impl Rooms {
+    /// The room that most cells of each face lie in, by face id; rooms are numbered anew by their first face. Empty
+    /// without rooms.
+    #[must_use]
+    pub fn of_faces(&self, subdivision: &Subdivision, grid: &OccupancyGrid) -> Vec<Option<u32>> {
+        if self.count == 0 {
+            return Vec::new();
+        }
+        let cells = CellFaces::rasterize(subdivision, grid.width(), grid.height(), grid.resolution());
+        let mut pairs: Vec<(FaceId, u32)> = cells.as_slice().iter().copied().zip(self.cells.iter().copied()).collect();
+        pairs.retain(|&(face, _)| face != FaceId::OUTER);
+        pairs.sort_unstable();
+        let mut room_of = vec![0; subdivision.face_count()];
+        for cells in pairs.chunk_by(|one, other| one.0 == other.0) {
+            let most = cells.chunk_by(PartialEq::eq).max_by_key(|cells| cells.len());
+            room_of[cells[0].0.index()] = most.map_or(0, |cells| cells[0].1);
+        }
+        let mut numbers = vec![None; self.count + 1];
+        let mut next = 0;
+        let number = |room: u32| {
+            if room == 0 {
+                return None;
+            }
+            let number = numbers[room as usize].get_or_insert_with(|| {
+                next += 1;
+                next - 1
+            });
+            Some(*number)
+        };
+        room_of.into_iter().map(number).collect()
     }
-    let mut numbers = vec![None; rooms.count + 1];
-    let mut next = 0;
-    let mut number = |room: u32| {
-        if room == 0 {
-            return None;
-        }
-        let slot = &mut numbers[room as usize];
-        if slot.is_none() {
-            *slot = Some(next);
-            next += 1;
-        }
-        *slot
-    };
-    room_of.into_iter().map(&mut number).collect()
 }

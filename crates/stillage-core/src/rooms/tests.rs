@@ -4,13 +4,12 @@ use expect_test::{Expect, expect};
 use proptest::prelude::*;
 
 use super::*;
-use crate::arrangement;
+use crate::{annotation, arrangement};
 use crate::decomposition::PlotKind;
 use crate::geometry::{OrientedBox, direction, normal};
 use crate::grid::{GridFrame, Occupancy, OccupancyGrid};
 use crate::segmentation::{Region, RegionMap};
-use crate::spec::DecompositionOptions;
-use crate::test_maps;
+use crate::spec::{AnalysisOptions, DecompositionOptions};
 use crate::watch::Watch;
 
 /// Every character of a drawing is so many cells wide and high.
@@ -41,8 +40,10 @@ fn planned(grid: &OccupancyGrid) -> (SitePlan, RoomMap, Subdivision) {
     let segments = arrangement::source_segments(grid, &regions, &plan.lines, &plan.rooms.cells);
     let subdivision = arrangement::arrange(&segments, &watch).expect("nobody stops it");
     subdivision.check_invariants().expect("it is sound");
-    let cells = CellFaces::rasterize(&subdivision, grid.width(), grid.height(), grid.resolution());
-    let rooms = RoomMap::of(&plan.rooms, &subdivision, &cells);
+    let cut = annotation::Cut { plots: &plan.plots, rooms: &plan.rooms.of_faces(&subdivision, grid) };
+    let options = AnalysisOptions::default().annotation;
+    let subdivision = annotation::merge_alike(grid, &regions, subdivision, cut, &options, &watch).expect("no stop");
+    let rooms = RoomMap::of(&plan.rooms, &subdivision, grid);
     (plan, rooms, subdivision)
 }
 
@@ -92,9 +93,9 @@ fn rooms_open_to_a_corridor_through_doors() {
             ",
         ),
         &expect![[r#"
-            room 0: 13.6 m2 in 3 face
-            room 1: 9.8 m2 in 2 face
-            room 2: 10.2 m2 in 2 face
+            room 0: 13.6 m2 in 1 face
+            room 1: 9.8 m2 in 1 face
+            room 2: 10.2 m2 in 1 face
             door 1|0 of 0.85 m at (2.0, 1.8)
             door 2|0 of 0.85 m at (5.8, 1.8)
         "#]],
@@ -124,8 +125,8 @@ fn furniture_divides_nothing() {
             ",
         ),
         &expect![[r#"
-            room 0: 7.7 m2 in 2 face
-            room 1: 9.9 m2 in 3 face
+            room 0: 7.7 m2 in 1 face
+            room 1: 9.9 m2 in 1 face
             door 0|1 of 0.85 m at (2.8, 1.4)
         "#]],
     );
@@ -182,7 +183,7 @@ fn an_office_in_the_corner_of_a_hall_is_a_room() {
     let frame = GridFrame { resolution: CELL, origin: Point::origin(), yaw: 0.0 };
     let grid = OccupancyGrid::new(width, height, frame, (0..width * height).map(cell).collect());
     check(&grid, &expect![[r#"
-        room 0: 19.6 m2 in 6 face
+        room 0: 19.6 m2 in 1 face
         door 0|outside of 1.05 m at (5.0, 1.5)
     "#]]);
     let (plan, ..) = planned(&grid);
