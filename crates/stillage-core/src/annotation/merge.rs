@@ -194,7 +194,8 @@ mod tests {
             regions: vec![Region { orientations: vec![0.0], bounds: strip(&[0.0, width]), share: 1.0 }],
         };
         let options = AnnotationOptions::default();
-        let merged = merge_alike(&grid, &regions, subdivision, Cut { plots: &plots, rooms: &[] }, &options, &Watch::unwatched());
+        let merged =
+            merge_alike(&grid, &regions, subdivision, Cut { plots: &plots, rooms: &[] }, &options, &Watch::unwatched());
         let merged = merged.expect("nobody stops it");
         merged.check_invariants().expect("the subdivision is sound");
         let extent = |face: FaceId| {

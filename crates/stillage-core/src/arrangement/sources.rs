@@ -29,12 +29,7 @@ pub struct SourceSegment {
 /// `rooms` holds the room of every cell, 0 for none; it is empty where there are no rooms.
 /// Lines of a region that are shorter than a cell are left out.
 #[must_use]
-pub fn source_segments(
-    grid: &OccupancyGrid,
-    regions: &RegionMap,
-    lines: &[Line],
-    rooms: &[u32],
-) -> Vec<SourceSegment> {
+pub fn source_segments(grid: &OccupancyGrid, regions: &RegionMap, lines: &[Line], rooms: &[u32]) -> Vec<SourceSegment> {
     let tiles = Tiles::new(grid, regions, rooms);
     let mut segments = tiles.boundaries();
     for (number, line) in (0..).zip(lines) {
@@ -115,17 +110,26 @@ impl<'a> Tiles<'a> {
     }
 
     /// The parts of a boundary that are in no room, from metres to metres.
-    fn outside_rooms(&self, [start, end]: [f64; 2], is_in_room: impl Fn(usize) -> bool, mut found: impl FnMut(f64, f64)) {
+    fn outside_rooms(
+        &self,
+        [start, end]: [f64; 2],
+        is_in_room: impl Fn(usize) -> bool,
+        mut found: impl FnMut(f64, f64),
+    ) {
         // The border of a room is straightened: the boundary goes on into the room until it meets it.
         const OVERSHOOT_CELLS: f64 = 3.0;
         let cell = self.grid.resolution();
         let [first, last] = [start, end].map(|side| (side / cell).round() as usize);
         let at = |number: usize| start + (number as f64) * cell;
-        runs(last - first, |number| !is_in_room(first + number), |from, to| {
-            let from = if from == 0 { start } else { at(from) - OVERSHOOT_CELLS * cell };
-            let to = if first + to == last { end } else { at(to) + OVERSHOOT_CELLS * cell };
-            found(from.max(start), to.min(end));
-        });
+        runs(
+            last - first,
+            |number| !is_in_room(first + number),
+            |from, to| {
+                let from = if from == 0 { start } else { at(from) - OVERSHOOT_CELLS * cell };
+                let to = if first + to == last { end } else { at(to) + OVERSHOOT_CELLS * cell };
+                found(from.max(start), to.min(end));
+            },
+        );
     }
 
     /// The stretches of a line that lie in its region; the whole of a line that has none.
@@ -136,7 +140,9 @@ impl<'a> Tiles<'a> {
         let foot = Point::from(normal(line.orientation) * line.offset);
         let hair = 2.0 * lattice::step_for(self.reach());
         if line.region == RegionMap::NONE {
-            line.extents.iter().for_each(|[start, end]| push(foot + along * (start - hair), foot + along * (end + hair)));
+            line.extents
+                .iter()
+                .for_each(|[start, end]| push(foot + along * (start - hair), foot + along * (end + hair)));
             return;
         }
         for &[start, end] in line.extents.iter().filter(|[start, end]| end - start >= cell) {
@@ -295,7 +301,8 @@ mod tests {
             0001
         ",
         );
-        let subdivision = arrange(&source_segments(&grid(8, 6), &regions, &[], &[]), &Watch::unwatched()).expect("no stop");
+        let subdivision =
+            arrange(&source_segments(&grid(8, 6), &regions, &[], &[]), &Watch::unwatched()).expect("no stop");
         subdivision.check_invariants().expect("it is sound");
         let areas: Vec<f64> = subdivision.faces().map(|face| subdivision.area(face)).collect();
         assert_eq!(areas, [6.0, 6.0]);

@@ -114,9 +114,9 @@ impl Flood<'_> {
             }
         }
         let squared = self.clearance.squared[cell];
-        let Some(&widest) = met[..count].iter().min_by_key(|&&basin| {
-            (std::cmp::Reverse(self.basins[basin as usize].peak), basin)
-        }) else {
+        let Some(&widest) =
+            met[..count].iter().min_by_key(|&&basin| (std::cmp::Reverse(self.basins[basin as usize].peak), basin))
+        else {
             self.basin_of[cell] = self.basins.len() as u32;
             self.basins.push(Basin { parent: self.basins.len() as u32, peak: squared });
             return;

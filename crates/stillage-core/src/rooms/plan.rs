@@ -14,7 +14,7 @@ use super::nearest::Nearest;
 use super::outline;
 use super::partition::Partition;
 use crate::decomposition::{self, Decomposition, PlotKind};
-use crate::geometry::{Point, fold_half_turn, normal, direction};
+use crate::geometry::{Point, direction, fold_half_turn, normal};
 use crate::grid::{Occupancy, OccupancyGrid};
 use crate::radiography::Line;
 use crate::segmentation::RegionMap;

@@ -4,13 +4,13 @@ use expect_test::{Expect, expect};
 use proptest::prelude::*;
 
 use super::*;
-use crate::{annotation, arrangement};
 use crate::decomposition::PlotKind;
 use crate::geometry::{OrientedBox, direction, normal};
 use crate::grid::{GridFrame, Occupancy, OccupancyGrid};
 use crate::segmentation::{Region, RegionMap};
 use crate::spec::{AnalysisOptions, DecompositionOptions};
 use crate::watch::Watch;
+use crate::{annotation, arrangement};
 
 /// Every character of a drawing is so many cells wide and high.
 const ENLARGED: usize = 4;
@@ -57,7 +57,8 @@ fn check(grid: &OccupancyGrid, expected: &Expect) {
         lines.push(format!("room {room}: {area:.1} m2 in {} face", faces.len()));
     }
     for door in &rooms.doors {
-        let [one, other] = door.faces.map(|face| rooms.room(face).map_or("outside".to_owned(), |room| room.to_string()));
+        let [one, other] =
+            door.faces.map(|face| rooms.room(face).map_or("outside".to_owned(), |room| room.to_string()));
         let middle = nalgebra::center(&door.ends[0], &door.ends[1]);
         lines.push(format!("door {one}|{other} of {:.2} m at ({:.1}, {:.1})", door.width(), middle.x, middle.y));
     }
@@ -149,11 +150,14 @@ fn slanted_walls_are_as_good_as_any() {
     };
     let frame = GridFrame { resolution: CELL, origin: Point::origin(), yaw: 0.0 };
     let grid = OccupancyGrid::new(side, side, frame, (0..side * side).map(cell).collect());
-    check(&grid, &expect![[r#"
+    check(
+        &grid,
+        &expect![[r#"
         room 0: 88.0 m2 in 1 face
         room 1: 63.3 m2 in 1 face
         door 0|1 of 1.01 m at (9.9, 12.2)
-    "#]]);
+    "#]],
+    );
 }
 
 #[test]
@@ -179,13 +183,17 @@ fn an_office_in_the_corner_of_a_hall_is_a_room() {
         if is_wall(x, y) || is_partition || is_pallet { Occupancy::Occupied } else { Occupancy::Free }
     };
     let (width, height) = (480, 400);
-    let cell = |index: usize| at((index % width) as f64 * CELL + CELL / 2.0, (index / width) as f64 * CELL + CELL / 2.0);
+    let cell =
+        |index: usize| at((index % width) as f64 * CELL + CELL / 2.0, (index / width) as f64 * CELL + CELL / 2.0);
     let frame = GridFrame { resolution: CELL, origin: Point::origin(), yaw: 0.0 };
     let grid = OccupancyGrid::new(width, height, frame, (0..width * height).map(cell).collect());
-    check(&grid, &expect![[r#"
+    check(
+        &grid,
+        &expect![[r#"
         room 0: 19.6 m2 in 1 face
         door 0|outside of 1.05 m at (5.0, 1.5)
-    "#]]);
+    "#]],
+    );
     let (plan, ..) = planned(&grid);
     let places = plan.plots.iter().filter(|plot| plot.kind == PlotKind::Place);
     assert!(places.clone().count() >= 50 && places.clone().all(|plot| plot.bounds.center.y > 6.0));
