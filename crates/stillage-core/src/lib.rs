@@ -41,6 +41,7 @@ pub mod segmentation;
 
 pub mod decomposition;
 pub mod radiography;
+pub mod rooms;
 
 pub mod arrangement;
 
@@ -58,6 +59,7 @@ pub mod routing;
 
 pub mod evaluation;
 
+mod disjoint_sets;
 pub mod spec;
 mod walls;
 pub mod watch;

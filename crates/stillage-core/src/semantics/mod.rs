@@ -89,19 +89,21 @@ pub struct CategoryEvidence {
     pub lined_fraction: f64,
     /// Share of their area that was cut out as places.
     pub place_fraction: f64,
-    /// Share of their area that was cut out as aisles, lanes and gaps.
-    pub band_fraction: f64,
+    /// Share of their area that was cut out as aisles.
+    pub aisle_fraction: f64,
+    /// Share of their area that was cut out as lanes and gaps.
+    pub floor_fraction: f64,
     /// Share of their area that was cut out as something else.
     pub rest_fraction: f64,
-    /// Length of their borders along the fronts of places, over their length.
-    pub front_fraction: f64,
 }
 
-/// Faces of one label that are mutually open, merged: a corridor, a junction, an office, a block of storage.
+/// Merged faces: a room, or faces of one label that are mutually open (a corridor, a junction, a block of storage).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Place {
-    /// Its label.
+    /// Its label; for a room the label of most of its area.
     pub label: LabelId,
+    /// The room it is, if walls bound it.
+    pub room: Option<u32>,
     /// Its faces, ascending.
     pub faces: Vec<FaceId>,
     /// Area, square metres.
@@ -123,7 +125,7 @@ pub struct SemanticMap {
     pub connectivity: Vec<Option<Connectivity>>,
     /// Edges whose cogency and physical support disagree, by edge id.
     pub disagreements: Vec<bool>,
-    /// Place of each face, by face id (`None` for the unbounded and for unidentified faces).
+    /// Place of each face, by face id (`None` for the unbounded face and for unidentified faces outside rooms).
     pub face_places: Vec<Option<u32>>,
     /// Merged faces.
     pub places: Vec<Place>,
