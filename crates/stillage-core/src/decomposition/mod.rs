@@ -17,6 +17,7 @@ mod depth;
 mod drivable;
 mod evidence;
 mod frame;
+mod gate;
 mod lines;
 mod pitch;
 mod rows;
