@@ -15,6 +15,8 @@
 //! Cost: O(pitches x cells) of at most [`MOST_LENGTH_M`] of rows. Limits: furniture at a regular distance of 0.8 to 1.6 m
 //! along several walls is taken for places.
 
+use rayon::prelude::*;
+
 use super::comb;
 use super::evidence::Evidence;
 use super::frame::Patch;
@@ -33,59 +35,41 @@ const PIECE_M: [f64; 2] = [0.25, 0.55];
 /// Rows shorter than two places of the widest kind say nothing, metres.
 const LEAST_LENGTH_M: f64 = 2.6;
 /// So many metres of rows settle the question.
-const MOST_LENGTH_M: f64 = 400.0;
+const MOST_LENGTH_M: f64 = 1000.0;
 
 /// Whether rows repeat themselves. `row` gives the cells of a row by number, `widths` are those that its evidence is
 /// asked about and `pitches` the range of the pitch, metres.
 pub(super) fn is_periodic(
     rows: &[&Evidence],
-    patch: impl Fn(usize) -> Patch,
+    patch: impl Fn(usize) -> Patch + Sync,
     widths: [f64; 2],
     pitches: [f64; 2],
 ) -> bool {
     let long: Vec<usize> = (0..rows.len()).filter(|&row| rows[row].length() >= LEAST_LENGTH_M).collect();
     let length: f64 = long.iter().map(|&row| rows[row].length()).sum();
     let stride = (length / MOST_LENGTH_M).ceil().max(1.0) as usize;
-    let (mut excess, mut weight) = (Fit::default(), 0.0);
-    let mut voters = 0;
-    for &row in long.iter().step_by(stride) {
-        let real = rows[row];
-        let cells = patch(row);
-        excess.add(&fit(real, pitches), real.length());
+    let voters: Vec<usize> = long.into_iter().step_by(stride).collect();
+    let of_row = |&row: &usize| {
+        let (real, cells) = (rows[row], patch(row));
+        let mut excess = fit(real, pitches);
         for turn in 0..SHUFFLES {
             let shuffled = shuffled(&cells, real.cell, row as u64 * SHUFFLES + turn);
-            let evidence = Evidence::of(&shuffled, real.cell, widths);
-            excess.add(&fit(&evidence, pitches), -real.length() / SHUFFLES as f64);
+            let chance = fit(&Evidence::of(&shuffled, real.cell, widths), pitches);
+            excess = [0, 1].map(|at| excess[at] - chance[at] / SHUFFLES as f64);
         }
-        weight += real.length();
-        voters += 1;
-    }
-    let excess = (excess.score + EARNED_WEIGHT * excess.earned.max(0.0)) / weight.max(f64::MIN_POSITIVE);
-    voters > 0 && excess >= LEAST_EXCESS + LEAST_EXCESS_OF_ONE / f64::from(voters)
+        excess.map(|excess| excess * real.length())
+    };
+    let of_rows: Vec<[f64; 2]> = voters.par_iter().map(of_row).collect();
+    let length: f64 = voters.iter().map(|&row| rows[row].length()).sum();
+    let [score, earned] = [0, 1].map(|at| of_rows.iter().map(|excess| excess[at]).sum::<f64>() / length);
+    let excess = score + EARNED_WEIGHT * earned.max(0.0);
+    !voters.is_empty() && excess >= LEAST_EXCESS + LEAST_EXCESS_OF_ONE / voters.len() as f64
 }
 
-/// How well the comb fits at the best pitch.
-#[derive(Default)]
-struct Fit {
-    /// The score by which pitches are chosen.
-    score: f64,
-    /// What the comb earns per place.
-    earned: f64,
-}
-
-impl Fit {
-    fn add(&mut self, other: &Self, weight: f64) {
-        self.score += weight * other.score;
-        self.earned += weight * other.earned;
-    }
-}
-
-fn fit(row: &Evidence, pitches: [f64; 2]) -> Fit {
+/// How well the comb fits at the best pitch: the score by which pitches are chosen, and what the comb earns per place.
+fn fit(row: &Evidence, pitches: [f64; 2]) -> [f64; 2] {
     let best = PitchScores::of(&[row], pitches).best();
-    best.map_or_else(Fit::default, |(pitch, score)| Fit {
-        score,
-        earned: comb::cut(row, pitch).score * pitch / row.length(),
-    })
+    best.map_or([0.0; 2], |(pitch, score)| [score, comb::cut(row, pitch).score * pitch / row.length()])
 }
 
 /// A row with its columns in another order.
