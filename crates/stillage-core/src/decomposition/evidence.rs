@@ -127,6 +127,11 @@ impl Evidence {
         self.border.len()
     }
 
+    /// Length of the row, metres.
+    pub(super) fn length(&self) -> f64 {
+        self.len() as f64 * self.cell
+    }
+
     /// How far the content of a place differs from its mirror image: 0 for even goods and for none, 1 where all the
     /// goods of a place stand on one side. Goods that are cut in two are uneven, whatever they are.
     pub(super) fn unevenness(&self, start: usize, width: usize) -> f64 {

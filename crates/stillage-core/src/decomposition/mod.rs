@@ -18,6 +18,7 @@ mod drivable;
 mod ends;
 mod evidence;
 mod frame;
+mod gate;
 mod lines;
 mod pitch;
 mod rows;

@@ -11,6 +11,7 @@ use super::comb::{self, Tooth};
 use super::depth::{self, Body};
 use super::evidence::Evidence;
 use super::frame::{Axis, Frame, Rect};
+use super::gate;
 use super::pitch::PitchScores;
 use super::{Parcel, PlotKind};
 use crate::watch::{Stopped, Watch};
@@ -19,12 +20,6 @@ use crate::watch::{Stopped, Watch};
 pub(super) const DEPTHS_M: [f64; 2] = [0.8, 1.45];
 /// Widths of places that occur, metres.
 pub(super) const PITCHES_M: [f64; 2] = [0.8, 1.6];
-/// Rows that score less at their best pitch are not periodic and stay whole; the fewer rows, the more chance has a say.
-/// Office floors score up to 0.06, 0.08 with 8 rows and 0.15 with one; warehouses 0.3 to 0.9, the hardest generated ones,
-/// each row with its own pitch and phase, 0.07 over 14 rows and more.
-const PERIODIC_SCORE: f64 = 0.062;
-const PERIODIC_SCORE_OF_MANY: f64 = 0.045;
-const PERIODIC_SCORE_PER_ROW: f64 = 0.3;
 /// Cells above this are too coarse for gaps and posts, metres.
 const COARSEST_CELL_M: f64 = 0.1;
 /// A row's own pitch must score so much better than that of the block (accuracy study).
@@ -39,6 +34,13 @@ const END_SHARE: f64 = 0.3;
 pub(super) struct Hints {
     pub pitch: [f64; 2],
     pub depth: [f64; 2],
+}
+
+impl Hints {
+    /// Widths that places may have.
+    fn widths(&self) -> [f64; 2] {
+        [self.pitch[0] - comb::NARROWER_M, self.pitch[1] + comb::WIDER_M]
+    }
 }
 
 /// One row of places.
@@ -65,45 +67,49 @@ pub(super) fn lay_out(
         }
     }
     let depth = depth::usual(frame, &bodies, hints.depth);
-    let widths = [hints.pitch[0] - comb::NARROWER_M, hints.pitch[1] + comb::WIDER_M];
-    let mut rows = Vec::new();
-    for body in &bodies {
-        watch.check()?;
-        let across = body.axis.other();
-        let layers = depth::layers(frame, body, depth, hints.depth);
-        for layer in layers.rows {
-            let rect = body.rect.with(across, layer);
-            let evidence = Evidence::of(&frame.patch(&rect, body.axis), frame.cell, widths);
-            rows.push(Row { rect, axis: body.axis, evidence });
-        }
-        for rest in layers.rests {
-            parcels.push(Parcel::new(body.rect.with(across, rest), PlotKind::Rest, Some(body.axis)));
-        }
-    }
-    watch.check()?;
     for axis in Axis::BOTH {
-        let rows: Vec<&Row> = rows.iter().filter(|row| row.axis == axis).collect();
-        comb_rows(frame, &rows, hints, &mut parcels, watch)?;
+        let bodies: Vec<&Body> = bodies.iter().filter(|body| body.axis == axis).collect();
+        let (mut rows, mut rests) = (Vec::new(), Vec::new());
+        for body in &bodies {
+            watch.check()?;
+            let layers = depth::layers(frame, body, depth, hints.depth);
+            let rest_of = |rest| Parcel::new(body.rect.with(axis.other(), rest), PlotKind::Rest, Some(axis));
+            rests.extend(layers.rests.into_iter().map(rest_of));
+            rows.extend(layers.rows.into_iter().map(|layer| {
+                let rect = body.rect.with(axis.other(), layer);
+                let evidence = Evidence::of(&frame.patch(&rect, axis), frame.cell, hints.widths());
+                Row { rect, axis, evidence }
+            }));
+        }
+        watch.check()?;
+        if is_periodic(frame, &rows, hints) {
+            parcels.append(&mut rests);
+            comb_rows(frame, &rows, hints, &mut parcels, watch)?;
+        } else {
+            let whole = |body: &&Body| Parcel::new(body.rect.clone(), PlotKind::Rest, Some(axis));
+            parcels.extend(bodies.iter().map(whole));
+        }
     }
     Ok(parcels)
+}
+
+/// Whether these are rows of places, or walls and furniture, which are not cut.
+fn is_periodic(frame: &Frame, rows: &[Row], hints: &Hints) -> bool {
+    let evidence: Vec<&Evidence> = rows.iter().map(|row| &row.evidence).collect();
+    let patch = |row: usize| frame.patch(&rows[row].rect, rows[row].axis);
+    frame.cell <= COARSEST_CELL_M && gate::is_periodic(&evidence, patch, hints.widths(), hints.pitch)
 }
 
 /// Cuts the rows of one direction.
 fn comb_rows(
     frame: &Frame,
-    rows: &[&Row],
+    rows: &[Row],
     hints: &Hints,
     parcels: &mut Vec<Parcel>,
     watch: &Watch<'_>,
 ) -> Result<(), Stopped> {
     let all: Vec<&Evidence> = rows.iter().map(|row| &row.evidence).collect();
-    let Some((pitch, score)) = PitchScores::of(&all, hints.pitch).best() else { return Ok(()) };
-    let least = PERIODIC_SCORE.max(PERIODIC_SCORE_OF_MANY + PERIODIC_SCORE_PER_ROW / rows.len().max(1) as f64);
-    if score < least || frame.cell > COARSEST_CELL_M {
-        let whole = |row: &&Row| Parcel::new(row.rect.clone(), PlotKind::Rest, Some(row.axis));
-        parcels.extend(rows.iter().map(whole));
-        return Ok(());
-    }
+    let Some((pitch, _)) = PitchScores::of(&all, hints.pitch).best() else { return Ok(()) };
     for row in rows {
         watch.check()?;
         let own = PitchScores::of(&[&row.evidence], hints.pitch);

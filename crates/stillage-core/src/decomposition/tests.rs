@@ -89,6 +89,31 @@ fn empty_places_are_places_too() {
     check(&hall.grid(), &expect!["48 Place, 3 Aisle, 2 Lane, 0 Gap, 4 Rest of 1.20 x 1.10 m"]);
 }
 
+/// Four double rows of bare racks 24 m long, with pairs of posts at the given distances from one another.
+fn racks(distance: impl Fn(usize) -> usize) -> OccupancyGrid {
+    let posts: Vec<usize> = (0..)
+        .scan(60, |at, post| Some(std::mem::replace(at, *at + distance(post))))
+        .take_while(|&at| at < 540)
+        .collect();
+    let (columns, rows) = (600, 480);
+    let cell = |index: usize| {
+        let (column, row) = (index % columns, index / columns);
+        let across = row % 108;
+        let on_post = posts.iter().any(|&post| (post..post + 2).contains(&column)) && (60..540).contains(&column);
+        let at_face = across >= 60 && [60, 82, 84, 106].iter().any(|&face| (face..face + 2).contains(&across));
+        let is_wall = column < 2 || row < 2 || column + 2 >= columns || row + 2 >= rows;
+        if is_wall || on_post && at_face && row < 440 { Occupancy::Occupied } else { Occupancy::Free }
+    };
+    let frame = GridFrame { resolution: 0.05, origin: Point::origin(), yaw: 0.0 };
+    OccupancyGrid::new(columns, rows, frame, (0..columns * rows).map(cell).collect())
+}
+
+#[test]
+fn what_repeats_itself_is_combed_and_what_does_not_stays_whole() {
+    check(&racks(|_| 20), &expect![""]);
+    check(&racks(|post| [13, 41, 26, 9, 34, 55, 11, 23, 47, 30][post * 7 % 10]), &expect![""]);
+}
+
 #[test]
 fn a_row_ends_with_its_last_goods() {
     // The first row is two places shorter than the others: floor, and the aisles run on along the others.
