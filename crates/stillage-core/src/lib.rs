@@ -60,6 +60,7 @@ pub mod routing;
 pub mod evaluation;
 
 mod disjoint_sets;
+mod smallest_box;
 pub mod spec;
 mod walls;
 pub mod watch;

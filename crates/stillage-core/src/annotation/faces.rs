@@ -9,7 +9,6 @@ use std::sync::atomic::{AtomicU32, Ordering};
 
 use rayon::prelude::*;
 
-use super::shape::SmallestBox;
 use super::{CellFaces, Evidence, FaceAnnotation, FaceCategories};
 use crate::adjacency::pole;
 use crate::arrangement::{FaceId, Subdivision};
@@ -17,6 +16,7 @@ use crate::categorization::CategoryMap;
 use crate::geometry::{Point, ring_area};
 use crate::grid::{Occupancy, OccupancyGrid};
 use crate::segmentation::RegionMap;
+use crate::smallest_box::SmallestBox;
 use crate::watch::{Stopped, Watch};
 
 /// Annotates every face; entry 0, the unbounded face, is empty.

@@ -11,7 +11,6 @@ mod merge;
 mod outside;
 mod raster;
 mod roles;
-mod shape;
 
 #[cfg(test)]
 mod tests;

@@ -161,16 +161,24 @@ impl Flood<'_> {
         }
     }
 
-    /// The shortest line across a neck at a cell of half its width, cells.
+    /// The shortest line across a neck at a cell of half its width, cells; none between stacks, for goods part no rooms.
     fn passage(&self, cell: usize, half: f64) -> Option<Passage> {
         let place = |cell: usize| [(cell % self.ground.width) as i64, (cell / self.ground.width) as i64];
         let middle = place(cell);
         let near = place(self.clearance.cell[cell] as usize);
         let far = self.far_end(middle, near, FAR_END_FACTOR * half + 2.0)?;
+        let is_stack =
+            |[column, row]: [i64; 2]| self.ground.stacks[row as usize * self.ground.width + column as usize] != 0;
+        if is_stack(near) && is_stack(far) {
+            return None;
+        }
         let along = [(far[0] - near[0]) as f64, (far[1] - near[1]) as f64];
         let length = along[0].hypot(along[1]);
         let forward = along.map(|step| step / length);
-        let goes_on = [self.is_wall(near, forward.map(|step| -step)), self.is_wall(far, forward)];
+        let goes_on = [
+            !is_stack(near) && self.is_wall(near, forward.map(|step| -step)),
+            !is_stack(far) && self.is_wall(far, forward),
+        ];
         let wall_ends = goes_on.into_iter().map(usize::from).sum();
         Some(Passage { ends: [near, far], wall_ends })
     }

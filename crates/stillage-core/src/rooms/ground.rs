@@ -2,14 +2,23 @@
 //!
 //! Table legs, chairs, bins and lone columns stand in a room and do not divide it: obstacles of small extent that touch
 //! nothing else count as ground here. (The map keeps them.) All that is not free bounds the ground, known or not:
-//! drawings show walls in any grey, and scanners see one side of them. Cost: O(cells).
+//! drawings show walls in any grey, and scanners see one side of them. What stands alone, is larger than furniture and
+//! as thick as goods is a *stack*: shelves and piles of goods, which are no walls either, but keep their own ground.
+//! Cost: O(cells).
 
+use crate::geometry::Point;
 use crate::grid::{Occupancy, OccupancyGrid};
+use crate::smallest_box::SmallestBox;
 use crate::watch::{Stopped, Watch};
 
 /// Obstacles up to this diagonal that stand alone are furniture, metres: a chair has 0.7, a bin 0.4; a piece of wall
 /// between two doors is longer.
 const FURNITURE_M: f64 = 1.0;
+
+/// Stacks are as thick as this at least, metres: walls are thinner, shelves of a shop have 0.5.
+const STACK_M: f64 = 0.4;
+/// Share of the smallest box around a stack that it fills; walls around a corner fill less.
+const STACK_FILL: f64 = 0.6;
 
 /// Which cells are ground.
 pub(super) struct Ground {
@@ -19,6 +28,8 @@ pub(super) struct Ground {
     pub cell: f64,
     /// Row-major. No cell of the border is ground, so that every cell of the ground has eight neighbours.
     pub is_free: Vec<bool>,
+    /// Number of the stack that a cell belongs to, from 1; 0 for none.
+    pub stacks: Vec<u32>,
 }
 
 impl Ground {
@@ -30,8 +41,9 @@ impl Ground {
         };
         let cells = grid.cells().iter().enumerate();
         let is_free = cells.map(|(cell, &occupancy)| occupancy == Occupancy::Free && !on_border(cell)).collect();
-        let mut ground = Self { width, height, cell: grid.resolution(), is_free };
-        ground.clear_furniture(watch)?;
+        let stacks = vec![0; width * height];
+        let mut ground = Self { width, height, cell: grid.resolution(), is_free, stacks };
+        ground.tell_obstacles_apart(watch)?;
         Ok(ground)
     }
 
@@ -53,10 +65,11 @@ impl Ground {
         [below - 1, below, below + 1, cell - 1, cell + 1, above - 1, above, above + 1]
     }
 
-    /// Turns small obstacles that touch no other into ground.
-    fn clear_furniture(&mut self, watch: &Watch<'_>) -> Result<(), Stopped> {
+    /// Turns small obstacles that touch no other into ground, and numbers larger ones that are stacks.
+    fn tell_obstacles_apart(&mut self, watch: &Watch<'_>) -> Result<(), Stopped> {
         let mut is_seen = vec![false; self.is_free.len()];
         let (mut open, mut members) = (Vec::new(), Vec::new());
+        let mut stacks = 0;
         for first in 0..self.is_free.len() {
             if first % self.width == 0 {
                 watch.check()?;
@@ -85,12 +98,26 @@ impl Ground {
             }
             let touches_border = low.contains(&0) || high[0] == self.width || high[1] == self.height;
             let diagonal = ((high[0] - low[0]) as f64).hypot((high[1] - low[1]) as f64) * self.cell;
-            if diagonal < FURNITURE_M && !touches_border {
-                for &cell in &members {
-                    self.is_free[cell] = true;
-                }
+            if touches_border {
+                continue;
+            } else if diagonal < FURNITURE_M {
+                members.iter().for_each(|&cell| self.is_free[cell] = true);
+            } else if self.is_stack(&members) {
+                stacks += 1;
+                members.iter().for_each(|&cell| self.stacks[cell] = stacks);
             }
         }
         Ok(())
+    }
+
+    /// Whether an obstacle is as thick and as full as goods.
+    fn is_stack(&self, members: &[usize]) -> bool {
+        let corners = members.iter().flat_map(|cell| {
+            let (column, row) = ((cell % self.width) as f64, (cell / self.width) as f64);
+            [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0, 1.0)].map(|(x, y)| Point::new(column + x, row + y) * self.cell)
+        });
+        let [long, short] = SmallestBox::around(&corners.collect::<Vec<_>>()).extent;
+        let area = members.len() as f64 * self.cell * self.cell;
+        short >= STACK_M && area >= STACK_FILL * long * short
     }
 }

@@ -19,7 +19,10 @@ pub(super) fn segments(rooms: &[u32], width: usize, cell: f64) -> Vec<[Point; 2]
     for chain in corners.chains() {
         let point = |corner: [i64; 2]| Point::new(corner[0] as f64 * cell, corner[1] as f64 * cell);
         let kept = simplified(&chain, tolerance);
-        segments.extend(kept.windows(2).map(|ends| [point(ends[0]), point(ends[1])]));
+        // A ring of two points went there and back: it was smaller than the tolerance.
+        if kept.len() > 3 || kept[0] != kept[kept.len() - 1] {
+            segments.extend(kept.windows(2).map(|ends| [point(ends[0]), point(ends[1])]));
+        }
     }
     segments
 }
@@ -70,8 +73,8 @@ impl Corners {
         }
         let corners: Vec<[i64; 2]> = self.0.keys().copied().collect();
         for start in corners {
-            while let Some(chain) = self.walk(start, |&corner| corner == start) {
-                chains.push(chain);
+            while let Some(ring) = self.walk(start, |&corner| corner == start) {
+                chains.push(from_a_corner(ring));
             }
         }
         chains
@@ -95,6 +98,17 @@ impl Corners {
             }
         }
     }
+}
+
+/// A ring that begins at its point farthest from where it began: a corner, where two straight segments meet at an angle.
+fn from_a_corner(mut ring: Vec<[i64; 2]>) -> Vec<[i64; 2]> {
+    let start = ring[0];
+    ring.pop();
+    let squared = |point: &[i64; 2]| (point[0] - start[0]).pow(2) + (point[1] - start[1]).pow(2);
+    let farthest = (0..ring.len()).max_by_key(|&index| squared(&ring[index])).unwrap_or(0);
+    ring.rotate_left(farthest);
+    ring.push(ring[0]);
+    ring
 }
 
 /// The points of a chain that straight segments need to stay within a tolerance of it.

@@ -2,7 +2,7 @@
 //!
 //! Components of the ground between the closed passages are rooms where they are large enough; smaller ones belong to
 //! the room that they open to. Then walls are shared among the rooms beside them, so that two rooms meet in the middle
-//! of the wall between them. Cost: O(cells).
+//! of the wall between them; stacks keep their own ground. Cost: O(cells).
 
 use std::collections::VecDeque;
 
@@ -40,7 +40,9 @@ impl Partition {
         let reach = ground.cells_of(WALL_SHARE_M) as u32;
         let shared: Vec<u32> = (0..rooms.len())
             .map(|cell| match nearest.cell[cell] {
-                near if near != NONE && nearest.squared[cell] <= reach * reach => rooms[near as usize],
+                near if near != NONE && nearest.squared[cell] <= reach * reach && ground.stacks[cell] == 0 => {
+                    rooms[near as usize]
+                }
                 _ => 0,
             })
             .collect();

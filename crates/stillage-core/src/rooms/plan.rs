@@ -76,7 +76,7 @@ pub fn plan(
     if rooms.count == 0 {
         return Ok(SitePlan { lines: rows.lines, plots: rows.plots, rooms });
     }
-    let borders = outline::segments(&rooms.cells, ground.width, ground.cell);
+    let borders = outline::segments(&with_stacks(&rooms, &ground, &partition), ground.width, ground.cell);
     let Decomposition { mut lines, plots } = rows;
     lines.extend(borders.into_iter().map(|ends| line(grid, ends)));
     Ok(SitePlan { lines, plots, rooms })
@@ -169,6 +169,16 @@ fn kept(ground: &Ground, partition: &Partition, passages: &[Passage], is_hall: &
         cells: partition.rooms.iter().map(|&room| numbers[room as usize]).collect(),
         passages: passages.iter().filter(leads_into_room).map(|passage| passage.ends.map(point)).collect(),
     }
+}
+
+/// The rooms and the stacks that stand in them, each with a number of its own.
+fn with_stacks(rooms: &Rooms, ground: &Ground, partition: &Partition) -> Vec<u32> {
+    let stack = |cell: usize| match ground.stacks[cell] {
+        0 => 0,
+        _ if rooms.cells[partition.nearest.cell[cell] as usize] == 0 => 0,
+        stack => rooms.count as u32 + stack,
+    };
+    rooms.cells.iter().enumerate().map(|(cell, &room)| if room == 0 { stack(cell) } else { room }).collect()
 }
 
 /// A grid on which nobody has seen the rooms.

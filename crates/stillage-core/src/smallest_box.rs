@@ -1,4 +1,4 @@
-//! The smallest box around a face.
+//! The smallest box around points.
 //!
 //! One side of the smallest box lies along a side of the convex hull (H. Freeman and R. Shapira 1975, doi
 //! 10.1145/360881.360919). Hulls of faces have a handful of corners, so each of their sides is tried with all corners:
@@ -11,9 +11,9 @@ use crate::geometry::{Point, fold_half_turn};
 /// Sizes closer than this share are equal: what is left after rounding.
 const SAME: f64 = 1e-9;
 
-/// Size and direction of the smallest box around a face.
+/// Size and direction of the smallest box around points.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct SmallestBox {
+pub(crate) struct SmallestBox {
     /// Long and short side, metres.
     pub extent: [f64; 2],
     /// Direction of the long side, radians in `[-pi/2, pi/2)`.
