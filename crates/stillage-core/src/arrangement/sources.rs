@@ -4,7 +4,7 @@
 //! Lines are cut at the boundaries of their region, since decomposition runs per region (paper, II-D), and then made
 //! longer by a hair, so that no rounding keeps them from reaching what they end at; what sticks out is loose and dropped
 //! by [`super::arrange`]. Rooms are older than regions: no boundary runs through one, and their own borders, lines of no
-//! region, are not cut. Cost: O(tiles + cells of boundaries + lines x (tile columns + tile rows)).
+//! region, are neither cut nor made longer. Cost: O(tiles + cells of boundaries + lines x (tile columns + tile rows)).
 
 use super::EdgeSource;
 use super::lattice;
@@ -136,13 +136,15 @@ impl<'a> Tiles<'a> {
     fn stretches(&self, line: &Line, cell: f64, mut push: impl FnMut(Point, Point)) {
         // Ends may have been found by cells: half a cell more reaches the boundary they stand at.
         const OVERSHOOT_CELLS: f64 = 0.5;
+        const NANOMETRE: f64 = 1e-9;
         let along = direction(line.orientation);
         let foot = Point::from(normal(line.orientation) * line.offset);
         let hair = 2.0 * lattice::step_for(self.reach());
         if line.region == RegionMap::NONE {
-            line.extents
-                .iter()
-                .for_each(|[start, end]| push(foot + along * (start - hair), foot + along * (end + hair)));
+            // Borders of rooms share their corners: what they differ by is rounding, and a hair more would make blunt
+            // corners miss each other.
+            let exact = |at: f64| (foot + along * at).map(|side| (side / NANOMETRE).round() * NANOMETRE);
+            line.extents.iter().for_each(|&[start, end]| push(exact(start), exact(end)));
             return;
         }
         for &[start, end] in line.extents.iter().filter(|[start, end]| end - start >= cell) {
