@@ -17,8 +17,10 @@ mod depth;
 mod drivable;
 mod evidence;
 mod frame;
+mod goods;
 mod lines;
 mod pitch;
+mod reading;
 mod rows;
 mod site;
 
