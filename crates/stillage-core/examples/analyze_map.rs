@@ -95,11 +95,16 @@ fn faces(analysis: &Analysis, label: impl Fn(FaceId) -> String) -> String {
             let mut properties = String::new();
             let _ = write!(
                 properties,
-                "\"id\":{face},\"category\":{},\"label\":\"{}\",\"free\":{:.3},\"occupied\":{:.3}",
+                "\"id\":{face},\"category\":{},\"label\":\"{}\",\"free\":{:.3},\"occupied\":{:.3},\
+                 \"unknown\":{:.3},\"kind\":\"{}\",\"long\":{:.2},\"short\":{:.2}",
                 annotation.category,
                 label(face),
                 annotation.free_fraction,
                 annotation.occupied_fraction,
+                annotation.unknown_fraction,
+                annotation.kind.map_or(String::new(), |kind| format!("{kind:?}").to_lowercase()),
+                annotation.extent[0],
+                annotation.extent[1],
             );
             format!(
                 "{{\"type\":\"Feature\",\"properties\":{{{properties}}},\"geometry\":{{\"type\":\"Polygon\",\"coordinates\":[{}]}}}}",

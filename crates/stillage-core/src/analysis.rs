@@ -17,7 +17,7 @@ use crate::spec::{AnalysisOptions, AnalysisSpec, DecompositionMethod};
 use crate::watch::{Stage, Stopped, Watch};
 
 /// Version of the algorithms: part of the address of a stored analysis, raised whenever results change.
-pub const ALGORITHM_VERSION: u32 = 3;
+pub const ALGORITHM_VERSION: u32 = 4;
 
 /// What the geometric level finds in a map. Immutable; addressed by grid, options and [`ALGORITHM_VERSION`].
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -97,7 +97,8 @@ pub fn analyze(grid: &OccupancyGrid, spec: &AnalysisSpec, watch: &Watch<'_>) -> 
     })?;
     let subdivision = watch.stage(Stage::Arrangement, || {
         let segments = arrangement::source_segments(grid, &regions, &lines);
-        arrangement::arrange(&segments, watch)
+        let subdivision = arrangement::arrange(&segments, watch)?;
+        annotation::merge_alike(grid, &regions, subdivision, &plots, &options.annotation, watch)
     })?;
     let graph = AdjacencyGraph::dual(&subdivision);
     let annotations = watch.stage(Stage::Annotation, || {

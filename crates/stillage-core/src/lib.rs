@@ -58,6 +58,7 @@ pub mod routing;
 
 pub mod evaluation;
 
+mod disjoint_sets;
 pub mod spec;
 mod walls;
 pub mod watch;

@@ -30,7 +30,12 @@ pub(super) fn annotate_edges(
     (0..subdivision.edge_count() as u32).into_par_iter().map(annotate).collect()
 }
 
-fn annotate_edge(grid: &OccupancyGrid, subdivision: &Subdivision, edge: EdgeId, support_width: f64) -> EdgeAnnotation {
+pub(super) fn annotate_edge(
+    grid: &OccupancyGrid,
+    subdivision: &Subdivision,
+    edge: EdgeId,
+    support_width: f64,
+) -> EdgeAnnotation {
     // All in cells from here on.
     let [start, end] = subdivision.segment(edge).map(|point| point.coords / grid.resolution());
     let along = end - start;

@@ -45,7 +45,7 @@ pub(super) fn annotate_faces(
     (0..subdivision.face_count()).into_par_iter().map(annotate).collect()
 }
 
-fn region_at(grid: &OccupancyGrid, regions: &RegionMap, point: Point) -> u8 {
+pub(super) fn region_at(grid: &OccupancyGrid, regions: &RegionMap, point: Point) -> u8 {
     let region = grid.cell_at(point).and_then(|(column, row)| regions.region_of_cell(column, row));
     region.unwrap_or(RegionMap::NONE)
 }
@@ -204,7 +204,6 @@ fn face_annotation(tally: &Tally, rings: &[Vec<Point>], categories: &CategoryMap
         extent: smallest_box.extent,
         region: region.map_or(RegionMap::NONE, |region| region as u8),
         kind: None,
-        fronts: 0.0,
         confidence,
         evidence: if total > 0 && 2 * u64::from(tally.known()) >= u64::from(total) {
             Evidence::Observed

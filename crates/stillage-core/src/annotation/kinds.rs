@@ -1,22 +1,22 @@
-//! Categories of faces: faces that look alike, are alike in shape, and lie alike among their neighbours.
+//! Categories of faces: faces that look alike, are alike in shape, and were cut out for the same.
 //!
-//! A face is described by what its cells hold, by its shape, by the plot it was cut out for and by what stands along its
-//! border; k-means finds the categories. One look at a whole face tells more than the votes of its cells, which see
-//! through open racks (accuracy study: 11 points of correct places, corridors 0.69 to 0.90 by area).
+//! A face is described by what its cells hold, by its shape and by the plot it was cut out for; k-means finds the
+//! categories, and its model ([`PlaceModel`]) says how far a face belongs to each. One look at a whole face tells more
+//! than the votes of its cells, which see through open racks (accuracy study: 11 points of correct places, corridors
+//! 0.69 to 0.90 by area).
 //!
 //! Cost: O(faces x categories x iterations). Limits: faces of unexplored ground around the site are not clustered.
 
-use super::roles::Role;
 use super::{FaceAnnotation, FaceCategories};
-use crate::clustering::{KMeansOptions, k_means};
+use crate::clustering::{self, FitOptions, Method, PlaceModel};
 use crate::decomposition::PlotKind;
-use crate::spec::AnnotationOptions;
+use crate::spec::{AnnotationOptions, CategoryCount, Scaling};
 use crate::watch::{Stopped, Watch};
 
 /// Numbers per face.
-const COLUMNS: usize = 11;
+const COLUMNS: usize = 10;
 /// Weight of what a face was cut out for: no category holds faces of two kinds, unless there are very few of one.
-const ROLE_WEIGHT: f32 = 3.0;
+const KIND_WEIGHT: f32 = 3.0;
 /// Weights of the shares of cells (accuracy study).
 const OCCUPIED_WEIGHT: f32 = 2.0;
 const UNKNOWN_WEIGHT: f32 = 2.0;
@@ -25,19 +25,14 @@ const AREA_WEIGHT: f32 = 1.0;
 const ELONGATION_WEIGHT: f32 = 0.8;
 /// Area that counts as none, square metres (accuracy study).
 const NO_AREA: f64 = 0.05;
-/// Weight of lying along the fronts of places.
-const FRONT_WEIGHT: f32 = 3.0;
-/// Share of its length that a corridor has fronts along (accuracy study).
-pub(super) const FRONT_SHARE: f64 = 0.3;
 /// Runs of k-means and their length: thousands of rows of a few numbers.
 const RESTARTS: usize = 8;
 const MAX_ITERATIONS: usize = 200;
 const TOLERANCE: f64 = 1e-6;
 
-/// Gives every face that is not outside its category.
+/// Gives every face that is not outside its category, and its distribution over all.
 pub(super) fn categorize(
     faces: &mut [FaceAnnotation],
-    roles: &[Role],
     votes: FaceCategories,
     options: &AnnotationOptions,
     seed: u64,
@@ -45,26 +40,16 @@ pub(super) fn categorize(
 ) -> Result<FaceCategories, Stopped> {
     let (members, outside): (Vec<usize>, Vec<usize>) =
         (1..faces.len()).partition(|&face| faces[face].category != votes.outside());
-    let rows: Vec<f32> = members.iter().flat_map(|&face| describe(&faces[face], &roles[face])).collect();
-    let search = KMeansOptions {
-        k: options.categories,
-        restarts: RESTARTS,
-        max_iterations: MAX_ITERATIONS,
-        tolerance: TOLERANCE,
-        fit_rows: usize::MAX,
-        seed,
-    };
-    let labels = k_means(&rows, COLUMNS, &search, watch)?;
-    let (centroids, inertia) = centroids(&rows, &labels);
-    let numbers = canonical_numbers(&centroids, centroids.len() / COLUMNS);
-    let kinds = FaceCategories { clusters: numbers.len() };
-    let spread = (inertia / members.len().max(1) as f64).max(1e-6);
-    for (face, row) in members.iter().zip(rows.chunks_exact(COLUMNS)) {
-        let shares = memberships(row, &centroids, &numbers, spread);
-        let best = (0..shares.len()).fold(0, |best, at| if shares[at] > shares[best] { at } else { best });
-        faces[*face].category = best as u8;
-        faces[*face].confidence = f64::from(shares[best]);
-        faces[*face].category_shares = shares;
+    let rows: Vec<f32> = members.iter().flat_map(|&face| describe(&faces[face])).collect();
+    let model = fit(&rows, options.categories, seed, watch)?;
+    let kinds = FaceCategories { clusters: model.len() };
+    let mut labels = vec![0; members.len()];
+    let mut memberships = vec![0.0; members.len() * model.len()];
+    model.memberships(&rows, &mut labels, &mut memberships);
+    for ((&face, category), shares) in members.iter().zip(labels).zip(memberships.chunks_exact(model.len().max(1))) {
+        faces[face].category = category;
+        faces[face].confidence = f64::from(shares[usize::from(category)]);
+        faces[face].category_shares = shares.to_vec();
     }
     for face in outside {
         faces[face].category = kinds.outside();
@@ -73,76 +58,35 @@ pub(super) fn categorize(
     Ok(kinds)
 }
 
-/// A face in numbers.
-fn describe(face: &FaceAnnotation, role: &Role) -> [f32; COLUMNS] {
-    let kind = role.plot.map(|plot| plot.kind);
-    let is = |wanted: &[PlotKind]| kind.is_some_and(|kind| wanted.contains(&kind));
-    let flag = |holds: bool| if holds { ROLE_WEIGHT } else { 0.0 };
-    let along_fronts = role.fronts >= FRONT_SHARE * face.extent[0];
-    let is_drivable = is(&[PlotKind::Aisle, PlotKind::Lane, PlotKind::Gap]);
-    let inside = 1.0 - face.unknown_fraction;
+/// Clusters of faces, numbered from small to large ones.
+fn fit(rows: &[f32], categories: usize, seed: u64, watch: &Watch<'_>) -> Result<PlaceModel, Stopped> {
+    let options = FitOptions {
+        method: Method::KMeans,
+        count: CategoryCount::Fixed(categories),
+        max_count: categories,
+        scaling: Scaling::None,
+        restarts: RESTARTS,
+        max_iterations: MAX_ITERATIONS,
+        tolerance: TOLERANCE,
+        fit_rows: usize::MAX,
+        seed,
+    };
+    Ok(clustering::fit(rows, COLUMNS, &options, watch)?.0)
+}
+
+/// A face in numbers, its size first.
+fn describe(face: &FaceAnnotation) -> [f32; COLUMNS] {
+    let flag = |kinds: &[Option<PlotKind>]| if kinds.contains(&face.kind) { KIND_WEIGHT } else { 0.0 };
     [
-        flag(is(&[PlotKind::Place])),
-        flag(is_drivable),
-        flag(is(&[PlotKind::Gap])) / 2.0,
-        flag(kind.is_none()),
+        AREA_WEIGHT * ((face.area + NO_AREA).ln() as f32),
+        ELONGATION_WEIGHT * (face.elongation.ln() as f32),
+        flag(&[Some(PlotKind::Place)]),
+        flag(&[Some(PlotKind::Aisle)]),
+        flag(&[Some(PlotKind::Lane), Some(PlotKind::Gap)]),
+        flag(&[Some(PlotKind::Rest)]),
+        flag(&[None]),
         OCCUPIED_WEIGHT * (face.occupied_fraction.sqrt() as f32),
         UNKNOWN_WEIGHT * face.unknown_fraction as f32,
         face.free_fraction as f32,
-        AREA_WEIGHT * ((face.area + NO_AREA).ln() as f32),
-        ELONGATION_WEIGHT * (face.elongation.ln() as f32),
-        if is_drivable && along_fronts { FRONT_WEIGHT } else { 0.0 },
-        inside as f32,
     ]
-}
-
-/// The means of clusters, one row each, and the sum of squared distances to them.
-fn centroids(rows: &[f32], labels: &[u8]) -> (Vec<f32>, f64) {
-    let count = labels.iter().max().map_or(0, |&label| usize::from(label) + 1);
-    let (mut sums, mut members) = (vec![0.0_f64; count * COLUMNS], vec![0_usize; count]);
-    for (row, &label) in rows.chunks_exact(COLUMNS).zip(labels) {
-        members[usize::from(label)] += 1;
-        let sums = &mut sums[usize::from(label) * COLUMNS..][..COLUMNS];
-        sums.iter_mut().zip(row).for_each(|(sum, &value)| *sum += f64::from(value));
-    }
-    let mean = |(index, sum): (usize, f64)| (sum / members[index / COLUMNS].max(1) as f64) as f32;
-    let centroids: Vec<f32> = sums.into_iter().enumerate().map(mean).collect();
-    let squared = |(row, &label): (&[f32], &u8)| {
-        let centroid = &centroids[usize::from(label) * COLUMNS..][..COLUMNS];
-        row.iter().zip(centroid).map(|(a, b)| f64::from(a - b).powi(2)).sum::<f64>()
-    };
-    let inertia = rows.chunks_exact(COLUMNS).zip(labels).map(squared).sum();
-    (centroids, inertia)
-}
-
-/// Numbers clusters by their centroids, so that the numbers do not depend on the luck of the seed.
-fn canonical_numbers(centroids: &[f32], count: usize) -> Vec<usize> {
-    let mut order: Vec<usize> = (0..count).collect();
-    let centroid = |cluster: usize| &centroids[cluster * COLUMNS..(cluster + 1) * COLUMNS];
-    order.sort_by(|&one, &other| {
-        let pairs = centroid(one).iter().zip(centroid(other));
-        pairs.map(|(a, b)| b.total_cmp(a)).find(|order| order.is_ne()).unwrap_or(std::cmp::Ordering::Equal)
-    });
-    let mut numbers = vec![0; count];
-    for (number, cluster) in order.into_iter().enumerate() {
-        numbers[cluster] = number;
-    }
-    numbers
-}
-
-/// How far a face belongs to each category: the densities of equally wide bells around the centroids.
-fn memberships(row: &[f32], centroids: &[f32], numbers: &[usize], spread: f64) -> Vec<f32> {
-    let distance = |cluster: usize| -> f64 {
-        let centroid = &centroids[cluster * COLUMNS..(cluster + 1) * COLUMNS];
-        row.iter().zip(centroid).map(|(a, b)| f64::from(a - b).powi(2)).sum()
-    };
-    let distances: Vec<f64> = (0..numbers.len()).map(distance).collect();
-    let nearest = distances.iter().copied().fold(f64::INFINITY, f64::min);
-    let bells: Vec<f64> = distances.iter().map(|distance| (-0.5 * (distance - nearest) / spread).exp()).collect();
-    let total: f64 = bells.iter().sum();
-    let mut shares = vec![0.0; numbers.len()];
-    for (&number, bell) in numbers.iter().zip(bells) {
-        shares[number] = (bell / total) as f32;
-    }
-    shares
 }

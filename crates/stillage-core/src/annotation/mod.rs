@@ -7,6 +7,7 @@ mod edges;
 mod faces;
 mod kinds;
 mod membership;
+mod merge;
 mod outside;
 mod raster;
 mod roles;
@@ -17,6 +18,7 @@ mod tests;
 
 use serde::{Deserialize, Serialize};
 
+pub use merge::merge_alike;
 pub use raster::CellFaces;
 
 use crate::adjacency::AdjacencyGraph;
@@ -68,8 +70,6 @@ pub struct FaceAnnotation {
     pub region: u8,
     /// What it was cut out for; `None` where no plot of the decomposition lies.
     pub kind: Option<PlotKind>,
-    /// Length of its border along the fronts and backs of places, metres.
-    pub fronts: f64,
     /// Share of the category in force among the votes, or in the distribution of the face, 0 to 1.
     pub confidence: f64,
     /// Whether cells show it.
@@ -182,11 +182,8 @@ pub fn annotate(
     let Subject { grid, categorization, regions, subdivision, graph, cells, plots } = *subject;
     let categories = &categorization.map;
     let mut faces = faces::annotate_faces(grid, categories, regions, subdivision, cells, watch)?;
-    let roles = roles::roles(subdivision, graph, &faces, plots);
-    for (face, role) in faces.iter_mut().zip(&roles) {
-        face.kind = role.plot.map(|plot| plot.kind);
-        face.fronts = role.fronts;
-    }
+    let plot_kinds = roles::kinds(graph, &faces, plots);
+    faces.iter_mut().zip(plot_kinds).for_each(|(face, kind)| face.kind = kind);
     let votes = FaceCategories::from(categories);
     outside::mark_outside(&mut faces, subdivision, votes);
     let kinds = match options.method {
@@ -196,7 +193,7 @@ pub fn annotate(
             }
             votes
         }
-        AnnotationMethod::Faces => kinds::categorize(&mut faces, &roles, votes, options, seed, watch)?,
+        AnnotationMethod::Faces => kinds::categorize(&mut faces, votes, options, seed, watch)?,
     };
     let relax = |relaxation| membership::relax(&mut faces, subdivision, kinds.clusters, relaxation, watch);
     let relaxation = options.relaxation.map(relax).transpose()?;

@@ -14,6 +14,7 @@
 
 mod buckets;
 mod builder;
+mod dissolve;
 mod ids;
 mod invariants;
 mod lattice;

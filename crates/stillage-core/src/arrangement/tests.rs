@@ -92,6 +92,27 @@ fn one_cell() {
 }
 
 #[test]
+fn dissolving_a_wall_joins_the_rooms_on_both_sides() {
+    let rooms = arranged(&strokes(
+        "
+        +---+---+
+        |   |   |
+        |   +---+
+        |   |   |
+        +---+---+
+        ",
+    ));
+    let is_between_small_rooms = |edge| rooms.sides(edge) == [FaceId(3), FaceId(2)];
+    let joined = rooms.dissolve(is_between_small_rooms, &Watch::unwatched()).expect("nobody stops it");
+    joined.check_invariants().expect("the subdivision is sound");
+    expect![[r#"
+        8 vertices, 9 edges, 2 bounded faces
+        1: 16 m2, 5 corners
+        2: 16 m2, 6 corners"#]]
+    .assert_eq(&describe(&joined));
+}
+
+#[test]
 fn t_junctions_split_the_wall_they_meet() {
     check(
         "
@@ -373,6 +394,23 @@ proptest! {
         let turned: Vec<_> =
             shuffled.into_iter().map(|(number, [x0, y0, x1, y1])| segment(number, [x1, y1, x0, y0])).collect();
         prop_assert_eq!(arranged(&turned), arranged(&segments(&ends)));
+    }
+
+    /// Whatever edges are dissolved, the result is sound and is what arranging the others gives.
+    #[test]
+    fn dissolved_edges_leave_a_sound_subdivision(ends in segment_sets(), fate in proptest::collection::vec(any::<bool>(), 1..64)) {
+        let whole = arranged(&segments(&ends));
+        let is_dissolved = |edge: EdgeId| fate[edge.index() % fate.len()];
+        let joined = whole.dissolve(is_dissolved, &Watch::unwatched()).expect("nobody stops it");
+        joined.check_invariants().expect("the subdivision is sound");
+        let kept = whole.edges().filter(|&edge| !is_dissolved(edge));
+        let pieces: Vec<SourceSegment> = kept
+            .map(|edge| {
+                let [start, end] = whole.segment(edge);
+                SourceSegment { start, end, source: whole.source(edge) }
+            })
+            .collect();
+        prop_assert_eq!(joined, arranged(&pieces));
     }
 
     /// Every ring is simple: no vertex twice; the outer one turns left, holes turn right, and their areas add up.

@@ -15,6 +15,7 @@ mod blocks;
 mod comb;
 mod depth;
 mod drivable;
+mod ends;
 mod evidence;
 mod frame;
 mod goods;
@@ -47,9 +48,9 @@ use site::Site;
 pub enum PlotKind {
     /// One place for goods.
     Place,
-    /// A drivable band along rows.
+    /// A drivable band with places along it.
     Aisle,
-    /// A drivable band across the ends of rows.
+    /// Open floor: across the ends of rows, beside them, around them.
     Lane,
     /// A passage through a row.
     Gap,
@@ -131,7 +132,7 @@ fn decompose_region(
     let blocks = blocks::cut(&frame, watch)?;
     let hints =
         Hints { pitch: options.pitch_m.unwrap_or(rows::PITCHES_M), depth: options.depth_m.unwrap_or(rows::DEPTHS_M) };
-    let parcels = rows::lay_out(&frame, &blocks, &hints, watch)?;
+    let parcels = ends::end(&frame, rows::lay_out(&frame, &blocks, &hints, watch)?);
     let lines = lines::of_parcels(&frame, region, &parcels);
     let plots = parcels.iter().map(|parcel| plot(&frame, region, parcel)).collect();
     Ok(Decomposition { lines, plots })

@@ -9,6 +9,7 @@ use super::{Assignment, AssignmentProblem, Cogency, Connectivity, LabelId, Place
 use crate::analysis::Analysis;
 use crate::annotation::{EdgeAnnotation, FaceAnnotation};
 use crate::arrangement::FaceId;
+use crate::disjoint_sets::DisjointSets;
 
 /// Share of the length of an edge beyond which the cells along it outvote its cogency: the majority, as everywhere in
 /// the paper's annotation ("winner takes all").
@@ -190,29 +191,6 @@ fn merge_places(
         places[place as usize].area += analysis.faces[face.index()].area;
     }
     (face_places, places)
-}
-
-/// Union-find with the smallest member as the root of each set.
-struct DisjointSets(Vec<usize>);
-
-impl DisjointSets {
-    fn new(count: usize) -> Self {
-        Self((0..count).collect())
-    }
-
-    fn find(&mut self, mut member: usize) -> usize {
-        while self.0[member] != member {
-            // Path halving (Tarjan and van Leeuwen 1984) keeps trees flat without a second pass.
-            self.0[member] = self.0[self.0[member]];
-            member = self.0[member];
-        }
-        member
-    }
-
-    fn join(&mut self, first: usize, second: usize) {
-        let (first, second) = (self.find(first), self.find(second));
-        self.0[first.max(second)] = first.min(second);
-    }
 }
 
 #[cfg(test)]

@@ -89,12 +89,12 @@ pub struct CategoryEvidence {
     pub lined_fraction: f64,
     /// Share of their area that was cut out as places.
     pub place_fraction: f64,
-    /// Share of their area that was cut out as aisles, lanes and gaps.
-    pub band_fraction: f64,
+    /// Share of their area that was cut out as aisles.
+    pub aisle_fraction: f64,
+    /// Share of their area that was cut out as lanes and gaps.
+    pub floor_fraction: f64,
     /// Share of their area that was cut out as something else.
     pub rest_fraction: f64,
-    /// Length of their borders along the fronts of places, over their length.
-    pub front_fraction: f64,
 }
 
 /// Faces of one label that are mutually open, merged: a corridor, a junction, an office, a block of storage.

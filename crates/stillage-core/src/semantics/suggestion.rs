@@ -152,26 +152,22 @@ struct Reading {
 #[derive(Debug, Clone, Copy)]
 struct Cut {
     place: f64,
-    band: f64,
-    /// Places have their fronts along it.
-    along_fronts: f64,
+    aisle: f64,
+    floor: f64,
 }
 
 impl Cut {
     /// `None` for faces that were cut out for nothing, as all are in the paper's decomposition.
     fn of(evidence: &CategoryEvidence) -> Option<Self> {
-        let cut = evidence.place_fraction + evidence.band_fraction + evidence.rest_fraction;
-        // A corridor has storage along 0.3 of its length at least (accuracy study).
-        let along_fronts = ramp(evidence.front_fraction, 0.2, 0.4);
-        let found = Self { place: evidence.place_fraction, band: evidence.band_fraction, along_fronts };
-        (cut > MAJORITY).then_some(found)
+        let (place, aisle, floor) = (evidence.place_fraction, evidence.aisle_fraction, evidence.floor_fraction);
+        (place + aisle + floor + evidence.rest_fraction > MAJORITY).then_some(Self { place, aisle, floor })
     }
 
     fn suits(self, functionality: Functionality) -> f64 {
         match functionality {
-            Functionality::Drivable => self.band,
-            Functionality::StorageAccess | Functionality::Access => self.band.min(self.along_fronts),
-            Functionality::Connection => self.band.min(1.0 - self.along_fronts),
+            Functionality::Drivable => self.aisle + self.floor,
+            Functionality::StorageAccess | Functionality::Access => self.aisle,
+            Functionality::Connection => self.floor,
             Functionality::Storage => self.place,
             Functionality::WorkPlace => 0.0,
         }
@@ -259,11 +255,11 @@ pub(super) fn category_evidence(analysis: &Analysis) -> Vec<CategoryEvidence> {
         sum.elongation += weight * annotation.elongation;
         match annotation.kind {
             Some(PlotKind::Place) => sum.place_fraction += weight,
-            Some(PlotKind::Aisle | PlotKind::Lane | PlotKind::Gap) => sum.band_fraction += weight,
+            Some(PlotKind::Aisle) => sum.aisle_fraction += weight,
+            Some(PlotKind::Lane | PlotKind::Gap) => sum.floor_fraction += weight,
             Some(PlotKind::Rest) => sum.rest_fraction += weight,
             None => {}
         }
-        sum.front_fraction += weight * (annotation.fronts / annotation.extent[0].max(f64::MIN_POSITIVE)).min(2.0);
         sum.open_fraction += borders.open[face];
         sum.lined_fraction += borders.lined[face];
         lengths[category] += borders.length[face];
@@ -278,9 +274,9 @@ pub(super) fn category_evidence(analysis: &Analysis) -> Vec<CategoryEvidence> {
             &mut sum.unknown_fraction,
             &mut sum.elongation,
             &mut sum.place_fraction,
-            &mut sum.band_fraction,
+            &mut sum.aisle_fraction,
+            &mut sum.floor_fraction,
             &mut sum.rest_fraction,
-            &mut sum.front_fraction,
         ] {
             *mean = share(*mean, area);
         }
