@@ -22,7 +22,7 @@ use super::pitch::Guesses;
 /// Length along which the noise of content is the same, metres: goods off their mark, and the smoothing.
 const CORRELATION_M: f64 = 0.2;
 /// Share of the energy that is noise even where goods explain all of it.
-const LEAST_NOISE: f64 = 0.05;
+const LEAST_NOISE: f64 = 0.15;
 /// Noise before anything is explained, as a share of the energy.
 const FIRST_NOISE: f64 = 0.4;
 /// Turns of cutting and learning; there is no change worth it afterwards.
