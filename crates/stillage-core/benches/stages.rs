@@ -93,7 +93,7 @@ fn lines(bencher: Bencher<'_, '_>) {
 /// Counted in faces.
 #[divan::bench]
 fn subdivision(bencher: Bencher<'_, '_>) {
-    let segments = arrangement::source_segments(&GRID, &ANALYSIS.regions, &ANALYSIS.lines);
+    let segments = arrangement::source_segments(&GRID, &ANALYSIS.regions, &ANALYSIS.lines, &[]);
     bencher
         .counter(ItemsCount::new(ANALYSIS.faces.len()))
         .bench(|| arrangement::arrange(&segments, &Watch::unwatched()));

@@ -40,14 +40,18 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
     fs::create_dir_all(out)?;
     let label = |face: FaceId| semantic.label(face).id.clone();
-    fs::write(Path::new(out).join("faces.geojson"), faces(&analysis, label))?;
+    let place = |face: FaceId| semantic.face_places[face.index()];
+    fs::write(Path::new(out).join("faces.geojson"), faces(&analysis, label, place))?;
     let cogency = |edge: usize| format!("{:?}", semantic.cogency[edge]);
     fs::write(Path::new(out).join("edges.geojson"), edges(&analysis, cogency))?;
     println!(
-        "{} faces, {} lines, {} regions",
+        "{} faces, {} lines, {} regions, {} places, {} rooms, {} doors",
         analysis.faces.len() - 1,
         analysis.lines.len(),
-        analysis.regions.regions.len()
+        analysis.regions.regions.len(),
+        semantic.places.len(),
+        semantic.places.iter().filter(|place| place.room.is_some()).count(),
+        analysis.rooms.doors.len(),
     );
     for region in &analysis.regions.regions {
         let angles: Vec<String> =
@@ -76,7 +80,7 @@ fn collection(features: &[String]) -> String {
     format!("{{\"type\":\"FeatureCollection\",\"features\":[{}]}}", features.join(",\n"))
 }
 
-fn faces(analysis: &Analysis, label: impl Fn(FaceId) -> String) -> String {
+fn faces(analysis: &Analysis, label: impl Fn(FaceId) -> String, place: impl Fn(FaceId) -> Option<u32>) -> String {
     let text = |point: &Point| {
         let point = analysis.frame.to_map(*point);
         format!("[{:.4},{:.4}]", point.x, point.y)
@@ -93,6 +97,9 @@ fn faces(analysis: &Analysis, label: impl Fn(FaceId) -> String) -> String {
                 .collect();
             let annotation = &analysis.faces[face.index()];
             let mut properties = String::new();
+            if let Some(place) = place(face) {
+                let _ = write!(properties, "\"place\":{place},");
+            }
             let _ = write!(
                 properties,
                 "\"id\":{face},\"category\":{},\"label\":\"{}\",\"free\":{:.3},\"occupied\":{:.3},\

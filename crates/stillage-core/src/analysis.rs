@@ -7,17 +7,17 @@ use crate::annotation::{self, CellFaces, EdgeAnnotation, FaceAnnotation, FaceCat
 use crate::arrangement::{self, Subdivision};
 use crate::categorization::{self, CategoryMap};
 use crate::declutter;
-use crate::decomposition;
 use crate::grid::{GridFrame, OccupancyGrid};
 use crate::orientation::{self, Orientations};
 use crate::radiography::{self, Line, Radiogram};
 use crate::relaxation::RelaxationReport;
+use crate::rooms::{self, RoomMap, SitePlan};
 use crate::segmentation::{self, RegionMap};
 use crate::spec::{AnalysisOptions, AnalysisSpec, DecompositionMethod};
 use crate::watch::{Stage, Stopped, Watch};
 
 /// Version of the algorithms: part of the address of a stored analysis, raised whenever results change.
-pub const ALGORITHM_VERSION: u32 = 4;
+pub const ALGORITHM_VERSION: u32 = 5;
 
 /// What the geometric level finds in a map. Immutable; addressed by grid, options and [`ALGORITHM_VERSION`].
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -46,6 +46,8 @@ pub struct Analysis {
     pub subdivision: Subdivision,
     /// The dual of the subdivision.
     pub graph: AdjacencyGraph,
+    /// Rooms of the faces, and the doors between them.
+    pub rooms: RoomMap,
     /// What is known of each face, by face id (entry 0, the unbounded face, is empty).
     pub faces: Vec<FaceAnnotation>,
     /// The categories that faces may have.
@@ -89,18 +91,19 @@ pub fn analyze(grid: &OccupancyGrid, spec: &AnalysisSpec, watch: &Watch<'_>) -> 
     let orientations =
         watch.stage(Stage::Orientation, || orientation::dominant_orientations(grid, &options.orientation, watch))?;
     let regions = watch.stage(Stage::Regions, || segmentation::segment(grid, &orientations, options, watch))?;
-    let (radiograms, lines, plots) = watch.stage(Stage::Radiography, || {
+    let (radiograms, SitePlan { lines, plots, rooms }) = watch.stage(Stage::Radiography, || {
         let (radiograms, lines) = radiography::lines(grid, &regions, &options.decomposition, watch)?;
         if options.decomposition.method == DecompositionMethod::Paper {
-            return Ok((radiograms, lines, Vec::new()));
+            return Ok((radiograms, SitePlan { lines, ..SitePlan::default() }));
         }
-        let found = decomposition::decompose(grid, &regions, &options.decomposition, watch)?;
-        Ok((radiograms, found.lines, found.plots))
+        Ok((radiograms, rooms::plan(grid, &regions, &options.decomposition, watch)?))
     })?;
     let subdivision = watch.stage(Stage::Arrangement, || {
-        let segments = arrangement::source_segments(grid, &regions, &lines);
+        let segments = arrangement::source_segments(grid, &regions, &lines, &rooms.cells);
         let subdivision = arrangement::arrange(&segments, watch)?;
-        annotation::merge_alike(grid, &regions, subdivision, &plots, &options.annotation, watch)
+        let of_faces = rooms.of_faces(&subdivision, grid);
+        let cut = annotation::Cut { plots: &plots, rooms: &of_faces };
+        annotation::merge_alike(grid, &regions, subdivision, cut, &options.annotation, watch)
     })?;
     let graph = AdjacencyGraph::dual(&subdivision);
     let annotations = watch.stage(Stage::Annotation, || {
@@ -116,6 +119,7 @@ pub fn analyze(grid: &OccupancyGrid, spec: &AnalysisSpec, watch: &Watch<'_>) -> 
         };
         annotation::annotate(&subject, &options.annotation, options.seed, watch)
     })?;
+    let rooms = RoomMap::of(&rooms, &subdivision, grid);
     let mut analysis = Analysis {
         frame: *grid.frame(),
         width: grid.width(),
@@ -129,6 +133,7 @@ pub fn analyze(grid: &OccupancyGrid, spec: &AnalysisSpec, watch: &Watch<'_>) -> 
         lines,
         subdivision,
         graph,
+        rooms,
         faces: annotations.faces,
         face_categories: annotations.categories,
         edges: annotations.edges,

@@ -41,6 +41,7 @@ pub mod segmentation;
 
 pub mod decomposition;
 pub mod radiography;
+pub mod rooms;
 
 pub mod arrangement;
 

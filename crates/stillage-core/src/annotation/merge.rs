@@ -2,7 +2,7 @@
 //!
 //! The decomposition cuts from side to side, so open floor comes in pieces. Faces that were cut out for the same (never
 //! places: those are the cells asked for) are joined where nothing stands along their border and both sides look alike.
-//! What is too small for a face then joins the neighbour that it shares most of its border with (over-segmentation is
+//! A room is one face. What is too small for a face then joins the neighbour that it shares most of its border with (over-segmentation is
 //! undone, as in the author's later work: edges without support are pruned).
 //!
 //! Joining changes the subdivision only ([`Subdivision::dissolve`]); all that is known of faces is measured afterwards.
@@ -34,6 +34,15 @@ const LEAST_AREA_M2: f64 = 0.24;
 /// No face is narrower than this in the mean, metres.
 const LEAST_WIDTH_M: f64 = 0.15;
 
+/// What a subdivision was cut into.
+#[derive(Debug, Clone, Copy)]
+pub struct Cut<'a> {
+    /// The parcels of rows.
+    pub plots: &'a [Plot],
+    /// Room of each face, by face id; empty without rooms.
+    pub rooms: &'a [Option<u32>],
+}
+
 /// Joins the faces of a decomposition that nothing divides.
 ///
 /// # Errors
@@ -42,14 +51,14 @@ pub fn merge_alike(
     grid: &OccupancyGrid,
     regions: &RegionMap,
     subdivision: Subdivision,
-    plots: &[Plot],
+    cut: Cut<'_>,
     options: &AnnotationOptions,
     watch: &Watch<'_>,
 ) -> Result<Subdivision, Stopped> {
-    if plots.is_empty() {
+    if cut.plots.is_empty() && cut.rooms.is_empty() {
         return Ok(subdivision);
     }
-    let faces = purposes(grid, regions, &subdivision, plots);
+    let faces = purposes(grid, regions, &subdivision, cut);
     watch.check()?;
     let inner: Vec<EdgeId> = subdivision.edges().filter(|&edge| is_alike(&faces, subdivision.sides(edge))).collect();
     let divides_nothing = |edge: &EdgeId| {
@@ -59,7 +68,11 @@ pub fn merge_alike(
     let open: Vec<EdgeId> = inner.into_par_iter().filter(divides_nothing).collect();
     watch.check()?;
     let mut sets = DisjointSets::new(subdivision.face_count());
-    for edge in open {
+    let is_in_room = |&edge: &EdgeId| {
+        let [left, right] = subdivision.sides(edge).map(|face| faces[face.index()].room);
+        left.is_some() && left == right
+    };
+    for edge in subdivision.edges().filter(is_in_room).chain(open) {
         let [left, right] = subdivision.sides(edge).map(FaceId::index);
         sets.join(left, right);
     }
@@ -75,20 +88,22 @@ pub fn merge_alike(
 /// What a face was cut out for, and where.
 #[derive(Debug, Clone, Copy)]
 struct Purpose {
+    room: Option<u32>,
     region: u8,
     plot: Option<Plot>,
 }
 
-fn purposes(grid: &OccupancyGrid, regions: &RegionMap, subdivision: &Subdivision, plots: &[Plot]) -> Vec<Purpose> {
-    let index = PlotIndex::new(plots);
+fn purposes(grid: &OccupancyGrid, regions: &RegionMap, subdivision: &Subdivision, cut: Cut<'_>) -> Vec<Purpose> {
+    let index = PlotIndex::new(cut.plots);
     let graph = AdjacencyGraph::dual(subdivision);
-    let purpose = |face| {
+    let purpose = |face: FaceId| {
         if face == FaceId::OUTER {
-            return Purpose { region: RegionMap::NONE, plot: None };
+            return Purpose { room: None, region: RegionMap::NONE, plot: None };
         }
         let inside = graph.position(face);
         let region = super::faces::region_at(grid, regions, inside);
-        Purpose { region, plot: index.at(inside, region) }
+        let room = cut.rooms.get(face.index()).copied().flatten();
+        Purpose { room, region, plot: index.at(inside, region) }
     };
     (0..subdivision.face_count() as u32).map(|face| purpose(FaceId(face))).collect()
 }
@@ -110,7 +125,8 @@ fn is_alike(faces: &[Purpose], [left, right]: [FaceId; 2]) -> bool {
         },
         _ => false,
     };
-    left.region == right.region && same_purpose
+    let is_hall = left.room.is_none() && right.room.is_none();
+    is_hall && left.region == right.region && same_purpose
 }
 
 /// Joins what is too small or too narrow for a face with the neighbour it shares most of its border with.
@@ -178,7 +194,8 @@ mod tests {
             regions: vec![Region { orientations: vec![0.0], bounds: strip(&[0.0, width]), share: 1.0 }],
         };
         let options = AnnotationOptions::default();
-        let merged = merge_alike(&grid, &regions, subdivision, &plots, &options, &Watch::unwatched());
+        let merged =
+            merge_alike(&grid, &regions, subdivision, Cut { plots: &plots, rooms: &[] }, &options, &Watch::unwatched());
         let merged = merged.expect("nobody stops it");
         merged.check_invariants().expect("the subdivision is sound");
         let extent = |face: FaceId| {

@@ -18,7 +18,7 @@ mod tests;
 
 use serde::{Deserialize, Serialize};
 
-pub use merge::merge_alike;
+pub use merge::{Cut, merge_alike};
 pub use raster::CellFaces;
 
 use crate::adjacency::AdjacencyGraph;

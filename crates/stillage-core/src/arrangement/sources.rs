@@ -3,7 +3,8 @@
 //! Boundaries run along tile borders: between two regions, and between a region and the part of the map without one.
 //! Lines are cut at the boundaries of their region, since decomposition runs per region (paper, II-D), and then made
 //! longer by a hair, so that no rounding keeps them from reaching what they end at; what sticks out is loose and dropped
-//! by [`super::arrange`]. Cost: O(tiles + lines x (tile columns + tile rows)).
+//! by [`super::arrange`]. Rooms are older than regions: no boundary runs through one, and their own borders, lines of no
+//! region, are not cut. Cost: O(tiles + cells of boundaries + lines x (tile columns + tile rows)).
 
 use super::EdgeSource;
 use super::lattice;
@@ -25,10 +26,11 @@ pub struct SourceSegment {
 
 /// The segments of a decomposition: the boundaries of the regions and the stretches of the lines within their regions.
 ///
-/// A map without regions has none. Lines shorter than a cell are left out.
+/// `rooms` holds the room of every cell, 0 for none; it is empty where there are no rooms.
+/// Lines of a region that are shorter than a cell are left out.
 #[must_use]
-pub fn source_segments(grid: &OccupancyGrid, regions: &RegionMap, lines: &[Line]) -> Vec<SourceSegment> {
-    let tiles = Tiles::new(grid, regions);
+pub fn source_segments(grid: &OccupancyGrid, regions: &RegionMap, lines: &[Line], rooms: &[u32]) -> Vec<SourceSegment> {
+    let tiles = Tiles::new(grid, regions, rooms);
     let mut segments = tiles.boundaries();
     for (number, line) in (0..).zip(lines) {
         tiles.stretches(line, grid.resolution(), |start, end| {
@@ -40,18 +42,21 @@ pub fn source_segments(grid: &OccupancyGrid, regions: &RegionMap, lines: &[Line]
 
 /// The tiles of a region map with their borders in metres.
 struct Tiles<'a> {
+    grid: &'a OccupancyGrid,
     regions: &'a RegionMap,
+    rooms: &'a [u32],
     /// Borders of the tile columns and rows, cut off at the end of the grid.
     x: Vec<f64>,
     y: Vec<f64>,
 }
 
 impl<'a> Tiles<'a> {
-    fn new(grid: &OccupancyGrid, regions: &'a RegionMap) -> Self {
+    fn new(grid: &'a OccupancyGrid, regions: &'a RegionMap, rooms: &'a [u32]) -> Self {
         let borders = |tiles: usize, cells: usize| -> Vec<f64> {
             (0..=tiles).map(|tile| (tile * regions.tile_cells).min(cells) as f64 * grid.resolution()).collect()
         };
-        Self { regions, x: borders(regions.columns, grid.width()), y: borders(regions.rows, grid.height()) }
+        let (x, y) = (borders(regions.columns, grid.width()), borders(regions.rows, grid.height()));
+        Self { grid, regions, rooms, x, y }
     }
 
     /// Region of a tile; `NONE` outside.
@@ -64,7 +69,7 @@ impl<'a> Tiles<'a> {
         }
     }
 
-    /// The borders between tiles of different regions, in straight runs.
+    /// The borders between tiles of different regions, in straight runs outside rooms.
     fn boundaries(&self) -> Vec<SourceSegment> {
         let mut segments = Vec::new();
         let mut push = |start, end| {
@@ -72,26 +77,74 @@ impl<'a> Tiles<'a> {
                 segments.push(SourceSegment { start, end, source: EdgeSource::Boundary });
             }
         };
+        let tile = self.regions.tile_cells;
         for (column, &x) in self.x.iter().enumerate() {
             let differs = |row| self.region(column.checked_sub(1), Some(row)) != self.region(Some(column), Some(row));
-            runs(self.regions.rows, differs, |from, to| push(Point::new(x, self.y[from]), Point::new(x, self.y[to])));
+            let is_in_room = |row| self.is_in_room([column * tile, row], [(column * tile).wrapping_sub(1), row]);
+            runs(self.regions.rows, differs, |from, to| {
+                self.outside_rooms([self.y[from], self.y[to]], is_in_room, |from, to| {
+                    push(Point::new(x, from), Point::new(x, to));
+                });
+            });
         }
         for (row, &y) in self.y.iter().enumerate() {
             let differs =
                 |column| self.region(Some(column), row.checked_sub(1)) != self.region(Some(column), Some(row));
+            let is_in_room = |column| self.is_in_room([column, row * tile], [column, (row * tile).wrapping_sub(1)]);
             runs(self.regions.columns, differs, |from, to| {
-                push(Point::new(self.x[from], y), Point::new(self.x[to], y));
+                self.outside_rooms([self.x[from], self.x[to]], is_in_room, |from, to| {
+                    push(Point::new(from, y), Point::new(to, y));
+                });
             });
         }
         segments
     }
 
-    /// The stretches of a line that lie in its region.
+    /// Whether two cells (column, row) lie in one room.
+    fn is_in_room(&self, one: [usize; 2], other: [usize; 2]) -> bool {
+        let room = |[column, row]: [usize; 2]| {
+            let is_inside = column < self.grid.width() && row < self.grid.height();
+            is_inside.then(|| self.rooms.get(row * self.grid.width() + column).copied()).flatten().unwrap_or(0)
+        };
+        room(one) != 0 && room(one) == room(other)
+    }
+
+    /// The parts of a boundary that are in no room, from metres to metres.
+    fn outside_rooms(
+        &self,
+        [start, end]: [f64; 2],
+        is_in_room: impl Fn(usize) -> bool,
+        mut found: impl FnMut(f64, f64),
+    ) {
+        // The border of a room is straightened: the boundary goes on into the room until it meets it.
+        const OVERSHOOT_CELLS: f64 = 3.0;
+        let cell = self.grid.resolution();
+        let [first, last] = [start, end].map(|side| (side / cell).round() as usize);
+        let at = |number: usize| start + (number as f64) * cell;
+        runs(
+            last - first,
+            |number| !is_in_room(first + number),
+            |from, to| {
+                let from = if from == 0 { start } else { at(from) - OVERSHOOT_CELLS * cell };
+                let to = if first + to == last { end } else { at(to) + OVERSHOOT_CELLS * cell };
+                found(from.max(start), to.min(end));
+            },
+        );
+    }
+
+    /// The stretches of a line that lie in its region; the whole of a line that has none.
     fn stretches(&self, line: &Line, cell: f64, mut push: impl FnMut(Point, Point)) {
         // Ends may have been found by cells: half a cell more reaches the boundary they stand at.
         const OVERSHOOT_CELLS: f64 = 0.5;
         let along = direction(line.orientation);
         let foot = Point::from(normal(line.orientation) * line.offset);
+        let hair = 2.0 * lattice::step_for(self.reach());
+        if line.region == RegionMap::NONE {
+            line.extents
+                .iter()
+                .for_each(|[start, end]| push(foot + along * (start - hair), foot + along * (end + hair)));
+            return;
+        }
         for &[start, end] in line.extents.iter().filter(|[start, end]| end - start >= cell) {
             let extent = [start - OVERSHOOT_CELLS * cell, end + OVERSHOOT_CELLS * cell];
             let cuts = self.cuts(foot, along, extent);
@@ -101,7 +154,6 @@ impl<'a> Tiles<'a> {
             };
             runs(cuts.len().saturating_sub(1), is_inside, |from, to| {
                 if cuts[to] - cuts[from] >= cell {
-                    let hair = 2.0 * lattice::step_for(self.reach());
                     push(foot + along * (cuts[from] - hair), foot + along * (cuts[to] + hair));
                 }
             });
@@ -192,7 +244,7 @@ mod tests {
             let SourceSegment { start, end, source } = segment;
             format!("({:.2}, {:.2}) - ({:.2}, {:.2}) {source:?}\n", start.x, start.y, end.x, end.y)
         };
-        expected.assert_eq(&source_segments(grid, regions, lines).iter().map(text).collect::<String>());
+        expected.assert_eq(&source_segments(grid, regions, lines, &[]).iter().map(text).collect::<String>());
     }
 
     #[test]
@@ -249,7 +301,8 @@ mod tests {
             0001
         ",
         );
-        let subdivision = arrange(&source_segments(&grid(8, 6), &regions, &[]), &Watch::unwatched()).expect("no stop");
+        let subdivision =
+            arrange(&source_segments(&grid(8, 6), &regions, &[], &[]), &Watch::unwatched()).expect("no stop");
         subdivision.check_invariants().expect("it is sound");
         let areas: Vec<f64> = subdivision.faces().map(|face| subdivision.area(face)).collect();
         assert_eq!(areas, [6.0, 6.0]);
@@ -300,7 +353,7 @@ mod tests {
             let parallel =
                 |angle: f64| (-9..9).map(move |offset| line(0, angle, f64::from(offset) * 0.7, [-20.0, 20.0]));
             let lines: Vec<Line> = parallel(orientation).chain(parallel(across)).collect();
-            let segments = source_segments(&grid(10, 8), &regions, &lines);
+            let segments = source_segments(&grid(10, 8), &regions, &lines, &[]);
             let subdivision = arrange(&segments, &Watch::unwatched()).expect("nobody stops it");
             subdivision.check_invariants().expect("it is sound");
             let covered: f64 = subdivision.faces().map(|face| subdivision.area(face)).sum();

@@ -2,7 +2,7 @@
 //!
 //! Source: the paper, section II-C and Fig. 7: C(e) from the labels of N(e), C(l) from C(D(l)).
 //! Departures: edges on the outer boundary are cogent and have no link; edges whose cogency contradicts the cells
-//! along them are flagged; faces of one label that are mutually open are merged into places.
+//! along them are flagged; rooms, and faces of one label that are mutually open, are merged into places.
 //! Cost: O(faces + edges), a few milliseconds for 7,000 faces. Limits: none beyond those of the analysis.
 
 use super::{Assignment, AssignmentProblem, Cogency, Connectivity, LabelId, Place, RuleSet, SemanticMap};
@@ -154,10 +154,12 @@ fn no_such(what: &str, id: u32, valid: std::ops::Range<usize>, pointer: String) 
     AssignmentProblem { pointer, message }
 }
 
-/// Joins faces of one label over connected links, and numbers the results by their smallest face.
+/// Joins faces into places, and numbers the results by their smallest face.
 ///
-/// What stands along an edge divides drivable places; between two storage faces it is the goods themselves, so a
-/// block of storage stays one. Unidentified faces are no place.
+/// A room is one place, whatever its faces are labelled: its walls and doors divide it from all others, and most of its
+/// area names it. Elsewhere faces of one label are joined over connected links; what stands along an edge divides
+/// drivable places, but between two storage faces it is the goods themselves, so a block of storage stays one.
+/// Unidentified faces outside rooms are no place.
 fn merge_places(
     analysis: &Analysis,
     rule_set: &RuleSet,
@@ -166,31 +168,50 @@ fn merge_places(
 ) -> (Vec<Option<u32>>, Vec<Place>) {
     let mut sets = DisjointSets::new(labels.len());
     for edge in analysis.subdivision.edges() {
-        let [left, right] = analysis.subdivision.sides(edge).map(FaceId::index);
+        let [left, right] = analysis.subdivision.sides(edge);
+        let rooms = [left, right].map(|face| analysis.rooms.room(face));
+        let [left, right] = [left, right].map(FaceId::index);
         let same = labels[left] == labels[right] && labels[left] != rule_set.unidentified();
         let undivided = rule_set.label(labels[left]).is_storage() || analysis.edges[edge.index()].support <= MAJORITY;
-        if same && undivided && connectivity[edge.index()] == Some(Connectivity::Connected) {
+        let is_open = same && undivided && connectivity[edge.index()] == Some(Connectivity::Connected);
+        if rooms[0] == rooms[1] && (rooms[0].is_some() || is_open) {
             sets.join(left, right);
         }
     }
     let mut face_places = vec![None; labels.len()];
     let mut places: Vec<Place> = Vec::new();
     for face in analysis.subdivision.faces() {
-        let label = labels[face.index()];
-        if label == rule_set.unidentified() {
+        let (label, room) = (labels[face.index()], analysis.rooms.room(face));
+        if label == rule_set.unidentified() && room.is_none() {
             continue;
         }
         // The root of a set is its smallest face, so it comes first.
         let root = sets.find(face.index());
         let place = face_places[root].unwrap_or(places.len() as u32);
         if place as usize == places.len() {
-            places.push(Place { label, faces: Vec::new(), area: 0.0 });
+            places.push(Place { label, room, faces: Vec::new(), area: 0.0 });
         }
         face_places[face.index()] = Some(place);
         places[place as usize].faces.push(face);
         places[place as usize].area += analysis.faces[face.index()].area;
     }
+    for place in places.iter_mut().filter(|place| place.room.is_some()) {
+        place.label = main_label(analysis, labels, &place.faces).unwrap_or(place.label);
+    }
     (face_places, places)
+}
+
+/// The label of most of the area of some faces; of equals the first one.
+fn main_label(analysis: &Analysis, labels: &[LabelId], faces: &[FaceId]) -> Option<LabelId> {
+    let mut areas: Vec<(LabelId, f64)> = Vec::new();
+    for face in faces.iter().map(|face| face.index()) {
+        let area = analysis.faces[face].area;
+        match areas.iter_mut().find(|(label, _)| *label == labels[face]) {
+            Some((_, sum)) => *sum += area,
+            None => areas.push((labels[face], area)),
+        }
+    }
+    areas.into_iter().reduce(|most, other| if other.1 > most.1 { other } else { most }).map(|(label, _)| label)
 }
 
 #[cfg(test)]

@@ -97,11 +97,13 @@ pub struct CategoryEvidence {
     pub rest_fraction: f64,
 }
 
-/// Faces of one label that are mutually open, merged: a corridor, a junction, an office, a block of storage.
+/// Merged faces: a room, or faces of one label that are mutually open (a corridor, a junction, a block of storage).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Place {
-    /// Its label.
+    /// Its label; for a room the label of most of its area.
     pub label: LabelId,
+    /// The room it is, if walls bound it.
+    pub room: Option<u32>,
     /// Its faces, ascending.
     pub faces: Vec<FaceId>,
     /// Area, square metres.
@@ -123,7 +125,7 @@ pub struct SemanticMap {
     pub connectivity: Vec<Option<Connectivity>>,
     /// Edges whose cogency and physical support disagree, by edge id.
     pub disagreements: Vec<bool>,
-    /// Place of each face, by face id (`None` for the unbounded and for unidentified faces).
+    /// Place of each face, by face id (`None` for the unbounded face and for unidentified faces outside rooms).
     pub face_places: Vec<Option<u32>>,
     /// Merged faces.
     pub places: Vec<Place>,

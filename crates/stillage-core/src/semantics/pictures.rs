@@ -11,6 +11,7 @@ use crate::geometry::{OrientedBox, Point};
 use crate::grid::{Occupancy, OccupancyGrid};
 use crate::layout::{self, Location};
 use crate::orientation::Orientations;
+use crate::rooms::RoomMap;
 use crate::routing::RoutingMap;
 use crate::segmentation::{Region, RegionMap};
 use crate::semantics::{Assignment, RuleSet, SemanticMap, apply};
@@ -87,6 +88,7 @@ impl DrawnMap {
             lines: Vec::new(),
             subdivision,
             graph,
+            rooms: RoomMap::default(),
             faces: annotations.faces,
             face_categories: annotations.categories,
             edges: annotations.edges,

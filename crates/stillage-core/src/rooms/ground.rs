@@ -1,0 +1,96 @@
+//! The ground that walls bound: free cells, and what stands on them alone.
+//!
+//! Table legs, chairs, bins and lone columns stand in a room and do not divide it: obstacles of small extent that touch
+//! nothing else count as ground here. (The map keeps them.) All that is not free bounds the ground, known or not:
+//! drawings show walls in any grey, and scanners see one side of them. Cost: O(cells).
+
+use crate::grid::{Occupancy, OccupancyGrid};
+use crate::watch::{Stopped, Watch};
+
+/// Obstacles up to this diagonal that stand alone are furniture, metres: a chair has 0.7, a bin 0.4; a piece of wall
+/// between two doors is longer.
+const FURNITURE_M: f64 = 1.0;
+
+/// Which cells are ground.
+pub(super) struct Ground {
+    pub width: usize,
+    pub height: usize,
+    /// Side of a cell, metres.
+    pub cell: f64,
+    /// Row-major. No cell of the border is ground, so that every cell of the ground has eight neighbours.
+    pub is_free: Vec<bool>,
+}
+
+impl Ground {
+    pub(super) fn of(grid: &OccupancyGrid, watch: &Watch<'_>) -> Result<Self, Stopped> {
+        let (width, height) = (grid.width(), grid.height());
+        let on_border = |cell: usize| {
+            let (column, row) = (cell % width, cell / width);
+            column == 0 || row == 0 || column + 1 == width || row + 1 == height
+        };
+        let cells = grid.cells().iter().enumerate();
+        let is_free = cells.map(|(cell, &occupancy)| occupancy == Occupancy::Free && !on_border(cell)).collect();
+        let mut ground = Self { width, height, cell: grid.resolution(), is_free };
+        ground.clear_furniture(watch)?;
+        Ok(ground)
+    }
+
+    /// Metres -> whole cells, at least one.
+    pub(super) fn cells_of(&self, metres: f64) -> usize {
+        ((metres / self.cell).round() as usize).max(1)
+    }
+
+    /// Whether a cell is ground; no cell outside the map is.
+    pub(super) fn holds(&self, column: i64, row: i64) -> bool {
+        (0..self.width as i64).contains(&column)
+            && (0..self.height as i64).contains(&row)
+            && self.is_free[row as usize * self.width + column as usize]
+    }
+
+    /// The eight cells around one of the ground.
+    pub(super) fn around(&self, cell: usize) -> [usize; 8] {
+        let (below, above) = (cell - self.width, cell + self.width);
+        [below - 1, below, below + 1, cell - 1, cell + 1, above - 1, above, above + 1]
+    }
+
+    /// Turns small obstacles that touch no other into ground.
+    fn clear_furniture(&mut self, watch: &Watch<'_>) -> Result<(), Stopped> {
+        let mut is_seen = vec![false; self.is_free.len()];
+        let (mut open, mut members) = (Vec::new(), Vec::new());
+        for first in 0..self.is_free.len() {
+            if first % self.width == 0 {
+                watch.check()?;
+            }
+            if is_seen[first] || self.is_free[first] {
+                continue;
+            }
+            is_seen[first] = true;
+            open.push(first);
+            members.clear();
+            let (mut low, mut high) = ([usize::MAX; 2], [0; 2]);
+            while let Some(cell) = open.pop() {
+                members.push(cell);
+                let (column, row) = (cell % self.width, cell / self.width);
+                low = [low[0].min(column), low[1].min(row)];
+                high = [high[0].max(column + 1), high[1].max(row + 1)];
+                for row in row.saturating_sub(1)..self.height.min(row + 2) {
+                    for column in column.saturating_sub(1)..self.width.min(column + 2) {
+                        let near = row * self.width + column;
+                        if !is_seen[near] && !self.is_free[near] {
+                            is_seen[near] = true;
+                            open.push(near);
+                        }
+                    }
+                }
+            }
+            let touches_border = low.contains(&0) || high[0] == self.width || high[1] == self.height;
+            let diagonal = ((high[0] - low[0]) as f64).hypot((high[1] - low[1]) as f64) * self.cell;
+            if diagonal < FURNITURE_M && !touches_border {
+                for &cell in &members {
+                    self.is_free[cell] = true;
+                }
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,200 @@
+//! Which ground is rooms and which is rows.
+//!
+//! The whole site is cut into rooms and, apart from that, into rows. Rooms that open widely into one another are one
+//! zone: goods come in through gates, not through doors. A large zone with places on a good part of it is a hall, laid
+//! out in rows as if the other zones did not exist; all others keep their rooms. So offices in the corner of a hall are
+//! offices, and a site without rows is rooms throughout.
+//!
+//! Cost: that of both cuts, and of the rows once more for each time that a zone turns out to have none.
+
+use super::Rooms;
+use super::flood::{self, Passage};
+use super::ground::Ground;
+use super::nearest::Nearest;
+use super::outline;
+use super::partition::Partition;
+use crate::decomposition::{self, Decomposition, PlotKind};
+use crate::geometry::{Point, direction, fold_half_turn, normal};
+use crate::grid::{Occupancy, OccupancyGrid};
+use crate::radiography::Line;
+use crate::segmentation::RegionMap;
+use crate::spec::DecompositionOptions;
+use crate::watch::{Stopped, Watch};
+
+/// Passages wider than a door join their rooms to one zone, metres: doors have 0.7 to 1.6.
+const DOOR_M: f64 = 1.6;
+
+/// A zone smaller than this is no hall beside a larger one, square metres: two rows and their aisles.
+const HALL_M2: f64 = 200.0;
+/// Share of the ground of a hall that is places at least; halls have 0.2 and more, a stray row of furniture less.
+const PLACES_SHARE: f64 = 0.1;
+
+/// The lines of a site, what they enclose, and its rooms.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct SitePlan {
+    /// Lines of rows and borders of rooms; the latter belong to no region and run wherever they run.
+    pub lines: Vec<Line>,
+    /// The parcels of rows.
+    pub plots: Vec<decomposition::Plot>,
+    /// The rooms.
+    pub rooms: Rooms,
+}
+
+/// Cuts a site into rows and rooms.
+///
+/// # Errors
+/// [`Stopped`] when the watch says so.
+pub fn plan(
+    grid: &OccupancyGrid,
+    regions: &RegionMap,
+    options: &DecompositionOptions,
+    watch: &Watch<'_>,
+) -> Result<SitePlan, Stopped> {
+    let ground = Ground::of(grid, watch)?;
+    let clearance = Nearest::of(ground.width, ground.is_free.len(), |cell| !ground.is_free[cell], watch)?;
+    let passages = flood::passages(&ground, &clearance, watch)?;
+    let partition = Partition::of(&ground, &passages, watch)?;
+    let zones = Zones::of(&ground, &partition, &passages);
+    let mut is_hall = vec![true; partition.count + 1];
+    let mut rooms = Rooms::default();
+    let rows = loop {
+        let rows = if is_hall.contains(&true) {
+            let grid = if rooms.count == 0 { grid } else { &without(grid, &rooms) };
+            decomposition::decompose(grid, regions, options, watch)?
+        } else {
+            Decomposition::default()
+        };
+        // Furniture that repeats by chance does so less when the rows of the next room are gone.
+        let halls = zones.halls(&ground, &partition, &rows);
+        let is_settled = halls.iter().zip(&is_hall).skip(1).all(|(is_still, was)| is_still == was);
+        is_hall.iter_mut().zip(halls).for_each(|(is_hall, is_still)| *is_hall &= is_still);
+        rooms = kept(&ground, &partition, &passages, &is_hall);
+        if is_settled {
+            break rows;
+        }
+    };
+    if rooms.count == 0 {
+        return Ok(SitePlan { lines: rows.lines, plots: rows.plots, rooms });
+    }
+    let borders = outline::segments(&rooms.cells, ground.width, ground.cell);
+    let Decomposition { mut lines, plots } = rows;
+    lines.extend(borders.into_iter().map(|ends| line(grid, ends)));
+    Ok(SitePlan { lines, plots, rooms })
+}
+
+/// The rooms on both sides of the middle of a passage, 0 where there is none.
+fn sides(ground: &Ground, partition: &Partition, passage: &Passage) -> [u32; 2] {
+    let [from, to] = passage.ends.map(|end| end.map(|place| place as f64));
+    let along = [to[0] - from[0], to[1] - from[1]];
+    let length = along[0].hypot(along[1]).max(1.0);
+    let middle = [f64::midpoint(from[0], to[0]), f64::midpoint(from[1], to[1])];
+    // Beyond the passage's own cells, which went to either room.
+    let step = ground.cells_of(DOOR_M / 8.0) as f64 + 1.0;
+    [1.0, -1.0].map(|side| {
+        let column = (middle[0] - side * step * along[1] / length).round() as i64;
+        let row = (middle[1] + side * step * along[0] / length).round() as i64;
+        if ground.holds(column, row) { partition.rooms[row as usize * ground.width + column as usize] } else { 0 }
+    })
+}
+
+/// Rooms that open widely into one another.
+struct Zones {
+    /// Zone of each room by its smallest room; entry 0 is for no room.
+    of: Vec<usize>,
+    /// Ground of each room, with its share of the walls, square metres.
+    areas: Vec<f64>,
+}
+
+impl Zones {
+    fn of(ground: &Ground, partition: &Partition, passages: &[Passage]) -> Self {
+        let mut areas = vec![0.0; partition.count + 1];
+        for &room in &partition.rooms {
+            areas[room as usize] += ground.cell * ground.cell;
+        }
+        let mut of: Vec<usize> = (0..=partition.count).collect();
+        // A neck without a wall at either end is a gap between goods, however narrow.
+        let is_gate = |passage: &&Passage| passage.wall_ends == 0 || passage.width(ground.cell) > DOOR_M;
+        for passage in passages.iter().filter(is_gate) {
+            let [one, other] = sides(ground, partition, passage).map(|room| of[room as usize]);
+            if one != 0 && other != 0 {
+                of.iter_mut().filter(|zone| **zone == one.max(other)).for_each(|zone| *zone = one.min(other));
+            }
+        }
+        Self { of, areas }
+    }
+
+    /// For every room whether its zone is a hall: large, and with places on a good part of it.
+    fn halls(&self, ground: &Ground, partition: &Partition, rows: &Decomposition) -> Vec<bool> {
+        let mut places = vec![0.0; self.of.len()];
+        for plot in rows.plots.iter().filter(|plot| plot.kind == PlotKind::Place) {
+            let [column, row] = [plot.bounds.center.x, plot.bounds.center.y].map(|side| (side / ground.cell) as usize);
+            if column < ground.width && row < ground.height {
+                let room = partition.nearest_room(row * ground.width + column) as usize;
+                let [along, across] = plot.bounds.half_extents;
+                places[self.of[room]] += 4.0 * along * across;
+            }
+        }
+        let mut areas = vec![0.0; self.of.len()];
+        for (room, area) in self.areas.iter().enumerate().skip(1) {
+            areas[self.of[room]] += area;
+        }
+        let largest = areas.iter().copied().fold(0.0, f64::max);
+        let is_hall = |zone: usize| areas[zone] >= largest.min(HALL_M2) && places[zone] > PLACES_SHARE * areas[zone];
+        self.of.iter().map(|&zone| zone != 0 && is_hall(zone)).collect()
+    }
+}
+
+/// The rooms that are no part of a hall, and the passages that lead into them.
+fn kept(ground: &Ground, partition: &Partition, passages: &[Passage], is_hall: &[bool]) -> Rooms {
+    let mut count = 0;
+    let numbers: Vec<u32> = (0..=partition.count)
+        .map(|room| {
+            if room == 0 || is_hall[room] {
+                return 0;
+            }
+            count += 1;
+            count
+        })
+        .collect();
+    if count == 0 {
+        return Rooms::default();
+    }
+    let leads_into_room = |passage: &&Passage| {
+        let [one, other] = sides(ground, partition, passage).map(|room| numbers[room as usize]);
+        one != other
+    };
+    let point = |[column, row]: [i64; 2]| Point::new(column as f64 + 0.5, row as f64 + 0.5) * ground.cell;
+    Rooms {
+        count: count as usize,
+        cells: partition.rooms.iter().map(|&room| numbers[room as usize]).collect(),
+        passages: passages.iter().filter(leads_into_room).map(|passage| passage.ends.map(point)).collect(),
+    }
+}
+
+/// A grid on which nobody has seen the rooms.
+fn without(grid: &OccupancyGrid, rooms: &Rooms) -> OccupancyGrid {
+    let cells = grid.cells().iter().zip(&rooms.cells);
+    let cells = cells.map(|(&cell, &room)| if room == 0 { cell } else { Occupancy::Unknown }).collect();
+    OccupancyGrid::new(grid.width(), grid.height(), *grid.frame(), cells)
+}
+
+/// A border as a line of no region.
+fn line(grid: &OccupancyGrid, [start, end]: [Point; 2]) -> Line {
+    let orientation = fold_half_turn((end.y - start.y).atan2(end.x - start.x));
+    let along = direction(orientation);
+    let mut extent = [along.dot(&start.coords), along.dot(&end.coords)];
+    extent.sort_by(f64::total_cmp);
+    let length = extent[1] - extent[0];
+    let steps = (length / grid.resolution()).ceil().max(1.0) as usize;
+    let is_occupied = |step: &usize| {
+        let place = start + (end - start) * ((*step as f64 + 0.5) / steps as f64);
+        grid.cell_at(place).is_some_and(|(column, row)| grid.row(row)[column] == Occupancy::Occupied)
+    };
+    Line {
+        region: RegionMap::NONE,
+        orientation,
+        offset: normal(orientation).dot(&start.coords),
+        support: length * (0..steps).filter(is_occupied).count() as f64 / steps as f64,
+        extents: vec![extent],
+    }
+}

@@ -1,0 +1,227 @@
+//! Offices drawn in characters, and which rooms and doors they have.
+
+use expect_test::{Expect, expect};
+use proptest::prelude::*;
+
+use super::*;
+use crate::decomposition::PlotKind;
+use crate::geometry::{OrientedBox, direction, normal};
+use crate::grid::{GridFrame, Occupancy, OccupancyGrid};
+use crate::segmentation::{Region, RegionMap};
+use crate::spec::{AnalysisOptions, DecompositionOptions};
+use crate::watch::Watch;
+use crate::{annotation, arrangement};
+
+/// Every character of a drawing is so many cells wide and high.
+const ENLARGED: usize = 4;
+/// Side of a cell, metres: a character is 0.2 m.
+const CELL: f64 = 0.05;
+
+fn drawn(picture: &str) -> OccupancyGrid {
+    let small = OccupancyGrid::from_ascii(picture, CELL * ENLARGED as f64);
+    let (width, height) = (small.width() * ENLARGED, small.height() * ENLARGED);
+    let cell = |index: usize| small.row(index / width / ENLARGED)[index % width / ENLARGED];
+    let frame = GridFrame { resolution: CELL, origin: Point::origin(), yaw: 0.0 };
+    OccupancyGrid::new(width, height, frame, (0..width * height).map(cell).collect())
+}
+
+/// The grid as one region of one direction.
+fn one_region(grid: &OccupancyGrid) -> RegionMap {
+    let tile_cells = grid.width().max(grid.height()).max(1);
+    let bounds = OrientedBox { center: Point::origin(), half_extents: [0.0; 2], angle: 0.0 };
+    let region = Region { orientations: vec![0.0], bounds, share: 1.0 };
+    RegionMap { tile_cells, columns: 1, rows: 1, tiles: vec![0], regions: vec![region] }
+}
+
+/// The plan of a grid, and the rooms and doors of its subdivision.
+fn planned(grid: &OccupancyGrid) -> (SitePlan, RoomMap, Subdivision) {
+    let (regions, watch) = (one_region(grid), Watch::unwatched());
+    let plan = plan(grid, &regions, &DecompositionOptions::default(), &watch).expect("nobody stops it");
+    let segments = arrangement::source_segments(grid, &regions, &plan.lines, &plan.rooms.cells);
+    let subdivision = arrangement::arrange(&segments, &watch).expect("nobody stops it");
+    subdivision.check_invariants().expect("it is sound");
+    let cut = annotation::Cut { plots: &plan.plots, rooms: &plan.rooms.of_faces(&subdivision, grid) };
+    let options = AnalysisOptions::default().annotation;
+    let subdivision = annotation::merge_alike(grid, &regions, subdivision, cut, &options, &watch).expect("no stop");
+    let rooms = RoomMap::of(&plan.rooms, &subdivision, grid);
+    (plan, rooms, subdivision)
+}
+
+/// The area and the faces of every room, and what the doors join.
+fn check(grid: &OccupancyGrid, expected: &Expect) {
+    let (_, rooms, subdivision) = planned(grid);
+    let mut lines = Vec::new();
+    for room in 0..rooms.faces.iter().flatten().max().map_or(0, |&last| last + 1) {
+        let faces: Vec<FaceId> = subdivision.faces().filter(|&face| rooms.room(face) == Some(room)).collect();
+        let area: f64 = faces.iter().map(|&face| subdivision.area(face)).sum();
+        lines.push(format!("room {room}: {area:.1} m2 in {} face", faces.len()));
+    }
+    for door in &rooms.doors {
+        let [one, other] =
+            door.faces.map(|face| rooms.room(face).map_or("outside".to_owned(), |room| room.to_string()));
+        let middle = nalgebra::center(&door.ends[0], &door.ends[1]);
+        lines.push(format!("door {one}|{other} of {:.2} m at ({:.1}, {:.1})", door.width(), middle.x, middle.y));
+    }
+    expected.assert_eq(&(lines.join("\n") + "\n"));
+}
+
+#[test]
+fn rooms_open_to_a_corridor_through_doors() {
+    check(
+        &drawn(
+            "
+            ########################################
+            #..................#...................#
+            #..................#...................#
+            #..................#...................#
+            #..................#...................#
+            #..................#...................#
+            #..................#...................#
+            #..................#...................#
+            #..................#...................#
+            #..................#...................#
+            #..................#...................#
+            #..................#...................#
+            ########....###############....#########
+            #......................................#
+            #......................................#
+            #......................................#
+            #......................................#
+            #......................................#
+            #......................................#
+            #......................................#
+            ########################################
+            ",
+        ),
+        &expect![[r#"
+            room 0: 13.6 m2 in 1 face
+            room 1: 9.8 m2 in 1 face
+            room 2: 10.2 m2 in 1 face
+            door 1|0 of 0.85 m at (2.0, 1.8)
+            door 2|0 of 0.85 m at (5.8, 1.8)
+        "#]],
+    );
+}
+
+#[test]
+fn furniture_divides_nothing() {
+    check(
+        &drawn(
+            "
+            ##############################
+            #............#...............#
+            #............#...............#
+            #...#..#.....#...####........#
+            #............#...####........#
+            #...#..#.....#...............#
+            #.................#..#..#....#
+            #............................#
+            #............................#
+            #............................#
+            #............#....#..#..#....#
+            #............#...............#
+            ######.......#...............#
+            ######.......#...............#
+            ##############################
+            ",
+        ),
+        &expect![[r#"
+            room 0: 7.7 m2 in 1 face
+            room 1: 9.9 m2 in 1 face
+            door 0|1 of 0.85 m at (2.8, 1.4)
+        "#]],
+    );
+}
+
+/// A square of 12 m, turned by 30 degrees, with a wall across it that has a door of 1 m.
+#[test]
+fn slanted_walls_are_as_good_as_any() {
+    let (side, turn) = (400_usize, 30_f64.to_radians());
+    let cell = |index: usize| {
+        let center = Point::new((index % side) as f64 + 0.5, (index / side) as f64 + 0.5) * CELL;
+        let offset = center - Point::new(10.0, 10.0);
+        let (along, across) = (direction(turn).dot(&offset), normal(turn).dot(&offset));
+        let is_wall = (along.abs().max(across.abs()) > 5.9) || (along - 1.0).abs() < 0.1 && (across - 2.0).abs() > 0.5;
+        match along.abs().max(across.abs()) {
+            far if far > 6.0 => Occupancy::Unknown,
+            _ if is_wall => Occupancy::Occupied,
+            _ => Occupancy::Free,
+        }
+    };
+    let frame = GridFrame { resolution: CELL, origin: Point::origin(), yaw: 0.0 };
+    let grid = OccupancyGrid::new(side, side, frame, (0..side * side).map(cell).collect());
+    check(
+        &grid,
+        &expect![[r#"
+        room 0: 88.0 m2 in 1 face
+        room 1: 63.3 m2 in 1 face
+        door 0|1 of 1.01 m at (9.9, 12.2)
+    "#]],
+    );
+}
+
+#[test]
+fn grids_without_ground_have_no_rooms() {
+    for picture in ["", "?", "#", ".", "...\n...", "##\n##", "????\n????"] {
+        let grid = OccupancyGrid::from_ascii(picture, 0.5);
+        let (plan, rooms, _) = planned(&grid);
+        assert_eq!((plan.rooms.count, rooms.doors.len()), (0, 0), "{picture}");
+    }
+}
+
+/// Pallets in rows stay rows behind the wall of an office.
+#[test]
+fn an_office_in_the_corner_of_a_hall_is_a_room() {
+    let at = |x: f64, y: f64| {
+        let is_wall = |x: f64, y: f64| x < 0.1 || y < 0.1 || x > 23.9 || y > 19.9;
+        let in_office = x < 5.0 && y < 4.0;
+        let is_partition = in_office && (x > 4.9 && !(1.0..2.0).contains(&y) || y > 3.9);
+        let (along, across) = (x - 3.0, (y - 7.0).rem_euclid(5.4));
+        let in_row = (0.0..18.0).contains(&along) && across < 2.4 && (7.0..18.0).contains(&y);
+        let is_block = |offset: f64| [0.1, 0.55, 1.0].iter().any(|&start| (start..start + 0.1).contains(&offset));
+        let is_pallet = in_row && is_block(along % 1.2) && is_block(across % 1.2);
+        if is_wall(x, y) || is_partition || is_pallet { Occupancy::Occupied } else { Occupancy::Free }
+    };
+    let (width, height) = (480, 400);
+    let cell =
+        |index: usize| at((index % width) as f64 * CELL + CELL / 2.0, (index / width) as f64 * CELL + CELL / 2.0);
+    let frame = GridFrame { resolution: CELL, origin: Point::origin(), yaw: 0.0 };
+    let grid = OccupancyGrid::new(width, height, frame, (0..width * height).map(cell).collect());
+    check(
+        &grid,
+        &expect![[r#"
+        room 0: 19.6 m2 in 1 face
+        door 0|outside of 1.05 m at (5.0, 1.5)
+    "#]],
+    );
+    let (plan, ..) = planned(&grid);
+    let places = plan.plots.iter().filter(|plot| plot.kind == PlotKind::Place);
+    assert!(places.clone().count() >= 50 && places.clone().all(|plot| plot.bounds.center.y > 6.0));
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(24))]
+    #[test]
+    fn every_room_is_a_union_of_faces(walls in proptest::collection::vec((0_usize..40, 0_usize..40, any::<bool>()), 0..8)) {
+        let side = 40;
+        let mut picture = vec![b'.'; side * side];
+        for (column, row, is_level) in walls {
+            for step in 0..side {
+                // A door of five characters.
+                if !(10..15).contains(&step) {
+                    picture[if is_level { row * side + step } else { step * side + column }] = b'#';
+                }
+            }
+        }
+        let rows: Vec<&str> = picture.chunks(side).map(|row| std::str::from_utf8(row).expect("it is ASCII")).collect();
+        let grid = drawn(&rows.join("\n"));
+        let (plan, rooms, subdivision) = planned(&grid);
+        let found = rooms.faces.iter().flatten().max().map_or(0, |&last| last as usize + 1);
+        prop_assert!(found <= plan.rooms.count);
+        for door in &rooms.doors {
+            let [one, other] = door.faces.map(|face| rooms.room(face));
+            prop_assert!(one != other && !door.edges.is_empty());
+            prop_assert_eq!(subdivision.sides(door.edges[0]), door.faces);
+        }
+    }
+}
