@@ -259,9 +259,9 @@ fn occupancy_is_compared_on_the_places_that_one_face_fits() {
     let evaluator = |truth: &GroundTruth| *Evaluator::new(&map.analysis, truth, &Watch::unwatched()).unwrap().geometry();
     let found = |truth: &GroundTruth| evaluator(truth).occupancy.map(|it| (it.places, it.occupied, it.empty));
     let mut truth = truth(&map);
-    expect![""].assert_eq(&format!("{:?}", found(&truth)));
+    expect!["Some((4, [4, 0, 0], [0, 0, 0]))"].assert_eq(&format!("{:?}", found(&truth)));
     truth.places.iter_mut().for_each(|place| place.occupied = !place.occupied);
-    expect![""].assert_eq(&format!("{:?}", found(&truth)));
+    expect!["Some((4, [0, 0, 0], [4, 0, 0]))"].assert_eq(&format!("{:?}", found(&truth)));
 }
 
 #[test]
