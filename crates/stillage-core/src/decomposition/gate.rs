@@ -13,7 +13,7 @@
 //! lower end with pitch and phase of each row its own and a third of the places empty.
 //!
 //! Cost: O(pitches x cells) of at most [`MOST_LENGTH_M`] of rows. Limits: furniture at a regular distance of 0.8 to 1.6 m
-//! along several walls is taken for places.
+//! along several walls is taken for places, and so may bare posts at any distances, which are little but borders.
 
 use rayon::prelude::*;
 
