@@ -244,28 +244,28 @@ impl Cutter<'_> {
         if low < high { low..high } else { run.clone() }
     }
 
-    /// Bands across the bodies that are clear in nearly all of them.
+    /// Bands across the bodies that are clear in nearly all of them. A thick body has no more say than two rows back to
+    /// back, so nothing that is clear in a wide hall runs through the rows at its end.
     fn crossings(&self, rect: &Rect, axis: Axis, bodies: &[Range<usize>]) -> Vec<Range<usize>> {
         let length = rect.range(axis).len();
-        let (mut drivable, mut ground) = (vec![0_u32; length], vec![0_u32; length]);
-        let thickness: usize = bodies.iter().map(ExactSizeIterator::len).sum();
-        if thickness < self.frame.cells_of(THIN_M) {
+        let (mut drivable, mut ground) = (vec![0.0; length], vec![0.0; length]);
+        let thin = self.frame.cells_of(THIN_M);
+        if bodies.iter().map(ExactSizeIterator::len).sum::<usize>() < thin {
             return Vec::new();
         }
         for body in bodies {
+            let say = (thin as f64 / body.len() as f64).min(1.0);
             let profile = Profile::of(self.frame, &rect.with(axis.other(), body.clone()), axis.other());
-            for (sum, value) in drivable.iter_mut().zip(&profile.drivable) {
-                *sum += value;
+            for (sum, &value) in drivable.iter_mut().zip(&profile.drivable) {
+                *sum += say * f64::from(value);
             }
-            for (sum, value) in ground.iter_mut().zip(&profile.ground) {
-                *sum += value;
+            for (sum, &value) in ground.iter_mut().zip(&profile.ground) {
+                *sum += say * f64::from(value);
             }
         }
-        let fullest = ground.iter().copied().max().unwrap_or(0);
+        let fullest = ground.iter().copied().fold(0.0, f64::max);
         let is_clear = |line: usize| {
-            f64::from(ground[line]) >= GROUND_SHARE * f64::from(fullest)
-                && ground[line] > 0
-                && f64::from(drivable[line]) >= CROSS_SHARE * f64::from(ground[line])
+            ground[line] > 0.0 && ground[line] >= GROUND_SHARE * fullest && drivable[line] >= CROSS_SHARE * ground[line]
         };
         let start = rect.range(axis).start;
         let width = self.frame.cells_of(CROSS_WIDTH_M);

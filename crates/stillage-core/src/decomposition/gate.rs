@@ -13,14 +13,13 @@
 //! lower end with pitch and phase of each row its own and a third of the places empty.
 //!
 //! Cost: O(pitches x cells) of at most [`MOST_LENGTH_M`] of rows. Limits: furniture at a regular distance of 0.8 to 1.6 m
-//! along several walls is taken for places.
+//! along several walls is taken for places, and so may bare posts at any distances, which are little but borders.
 
 use rayon::prelude::*;
 
-use super::comb;
 use super::evidence::Evidence;
 use super::frame::Patch;
-use super::pitch::PitchScores;
+use super::pitch::Guesses;
 
 /// Least excess of many rows, and what the excess of one row must be above it.
 const LEAST_EXCESS: f64 = 0.03;
@@ -68,8 +67,10 @@ pub(super) fn is_periodic(
 
 /// How well the comb fits at the best pitch: the score by which pitches are chosen, and what the comb earns per place.
 fn fit(row: &Evidence, pitches: [f64; 2]) -> [f64; 2] {
-    let best = PitchScores::of(&[row], pitches).best();
-    best.map_or([0.0; 2], |(pitch, score)| [score, comb::cut(row, pitch).score * pitch / row.length()])
+    let guesses = Guesses::of(&[row], pitches);
+    guesses
+        .best(&[row])
+        .map_or([0.0; 2], |(at, score)| [score, guesses.of_row[0][at].score * guesses.pitches[at] / row.length()])
 }
 
 /// A row with its columns in another order.

@@ -19,8 +19,10 @@ mod ends;
 mod evidence;
 mod frame;
 mod gate;
+mod goods;
 mod lines;
 mod pitch;
+mod reading;
 mod rows;
 mod site;
 

@@ -12,7 +12,8 @@ use super::depth::{self, Body};
 use super::evidence::Evidence;
 use super::frame::{Axis, Frame, Rect};
 use super::gate;
-use super::pitch::PitchScores;
+use super::pitch::Guesses;
+use super::reading::{Reading, Rows};
 use super::{Parcel, PlotKind};
 use crate::watch::{Stopped, Watch};
 
@@ -22,8 +23,6 @@ pub(super) const DEPTHS_M: [f64; 2] = [0.8, 1.45];
 pub(super) const PITCHES_M: [f64; 2] = [0.8, 1.6];
 /// Cells above this are too coarse for gaps and posts, metres.
 const COARSEST_CELL_M: f64 = 0.1;
-/// A row's own pitch must score so much better than that of the block (accuracy study).
-const OWN_PITCH_GAIN: f64 = 0.1;
 /// Pieces narrower than this are given to their neighbour, metres.
 const SLIVER_M: f64 = 0.4;
 /// An end piece that differs from the pitch by less than this share of it is a place.
@@ -109,20 +108,22 @@ fn comb_rows(
     watch: &Watch<'_>,
 ) -> Result<(), Stopped> {
     let all: Vec<&Evidence> = rows.iter().map(|row| &row.evidence).collect();
-    let Some((pitch, _)) = PitchScores::of(&all, hints.pitch).best() else { return Ok(()) };
-    for row in rows {
-        watch.check()?;
-        let own = PitchScores::of(&[&row.evidence], hints.pitch);
-        let own_best = own.best().filter(|&(_, score)| score > own.at(pitch) + OWN_PITCH_GAIN);
-        let pitch = own_best.map_or(pitch, |(pitch, _)| pitch);
-        comb_row(frame, row, pitch, parcels);
+    let guesses = Guesses::of(&all, hints.pitch);
+    watch.check()?;
+    let readings = Rows { rows: &all, guesses: &guesses }.read();
+    for (row, reading) in rows.iter().zip(readings) {
+        match reading {
+            Some(reading) => comb_row(frame, row, &reading, parcels),
+            None => parcels.push(Parcel::new(row.rect.clone(), PlotKind::Rest, Some(row.axis))),
+        }
     }
     Ok(())
 }
 
 /// Cuts a row into parcels.
-fn comb_row(frame: &Frame, row: &Row, pitch: f64, parcels: &mut Vec<Parcel>) {
-    let comb = comb::cut(&row.evidence, pitch);
+fn comb_row(frame: &Frame, row: &Row, reading: &Reading, parcels: &mut Vec<Parcel>) {
+    let comb = reading.cut(&row.evidence);
+    let pitch = reading.pitch;
     let along = row.rect.range(row.axis).clone();
     let mut pieces: Vec<(Range<usize>, PlotKind)> = Vec::new();
     let mut start = 0;
