@@ -10,6 +10,9 @@
 //! Source: the accuracy study behind this project for evidence and springs; slips and gaps are new. Cost: O(cells x
 //! widths) per row and pitch.
 
+use std::collections::VecDeque;
+use std::ops::Range;
+
 use super::evidence::Evidence;
 
 /// How much narrower and wider than the pitch a place may be, metres: drift, and an upright now and then.
@@ -27,8 +30,8 @@ const SLIP_M: f64 = 0.1;
 const SLIP_COST: f64 = 3.0;
 /// Shortest gap, metres, its cost, what a clear metre earns and what one that is not clear costs.
 const GAP_M: f64 = 1.2;
-const GAP_COST: f64 = 3.0;
-const CLEAR_GAIN: f64 = 0.8;
+const GAP_COST: f64 = 6.0;
+const CLEAR_GAIN: f64 = 1.6;
 const CONTENT_LOSS: f64 = 12.0;
 
 /// What lies between two borders.
@@ -55,6 +58,20 @@ pub(super) struct Comb {
     pub borders: usize,
 }
 
+/// What even goods earn.
+pub(super) fn even(evidence: &Evidence) -> impl Fn(usize, usize) -> f64 {
+    |start, width| UNEVEN_COST * (USUAL_UNEVENNESS - evidence.unevenness(start, width))
+}
+
+impl Comb {
+    /// The places, as ranges of cells.
+    pub(super) fn places(&self) -> impl Iterator<Item = Range<usize>> {
+        let starts = std::iter::once(0).chain(self.pieces.iter().map(|&(_, end)| end));
+        let ranges = starts.zip(&self.pieces).map(|(start, &(tooth, end))| (tooth, start..end));
+        ranges.filter(|(tooth, range)| *tooth == Tooth::Place && !range.is_empty()).map(|(_, range)| range)
+    }
+}
+
 /// Widths of the pieces in cells.
 struct Widths {
     pitch: f64,
@@ -65,7 +82,7 @@ struct Widths {
 }
 
 /// Cuts a row at a pitch, metres.
-pub(super) fn cut(evidence: &Evidence, pitch: f64) -> Comb {
+pub(super) fn cut(evidence: &Evidence, pitch: f64, place: impl Fn(usize, usize) -> f64) -> Comb {
     let cell = evidence.cell;
     let cells = |metres: f64| (metres / cell).round() as usize;
     let widths = Widths {
@@ -81,19 +98,29 @@ pub(super) fn cut(evidence: &Evidence, pitch: f64) -> Comb {
             Some(*sum)
         }))
         .collect();
-    let (best, from) = forward(evidence, &gain, &widths, SPRING_M / cell);
+    let (best, from) = forward(evidence, &gain, &widths, SPRING_M / cell, place);
     backward(&evidence.border, &gain, &widths, &best, &from)
 }
 
 /// Best score with a border at each cell, and the piece that leads there: its kind and start.
 type Step = (Tooth, usize);
 
-fn forward(evidence: &Evidence, gain: &[f64], widths: &Widths, spring: f64) -> (Vec<f64>, Vec<Step>) {
+fn forward(
+    evidence: &Evidence,
+    gain: &[f64],
+    widths: &Widths,
+    spring: f64,
+    place: impl Fn(usize, usize) -> f64,
+) -> (Vec<f64>, Vec<Step>) {
     let border = &evidence.border;
     let mut best = vec![f64::NEG_INFINITY; border.len()];
     let mut from = vec![(Tooth::End, 0); border.len()];
     // The best border to start a gap from, with the gain up to there taken off.
     let (mut gap_start, mut gap_score) = (0, f64::NEG_INFINITY);
+    // The borders that a slip may start from, best first; the rest of them are worse than one after them.
+    let mut slip_starts = VecDeque::new();
+    let stretches: Vec<f64> =
+        (widths.narrowest..=widths.widest).map(|width| ((width as f64 - widths.pitch) / spring).powi(2)).collect();
     for at in 0..border.len() {
         let mut offer = |score: f64, step: Step| {
             if score > best[at] {
@@ -107,19 +134,23 @@ fn forward(evidence: &Evidence, gain: &[f64], widths: &Widths, spring: f64) -> (
             offer(border[at] + gain[at] - GAP_COST / 2.0, (Tooth::Gap, usize::MAX));
         }
         let mut candidates = [(f64::NEG_INFINITY, 0, Tooth::Place); 2];
-        for width in widths.narrowest..=widths.widest.min(at) {
-            let stretch = (width as f64 - widths.pitch) / spring;
-            let uneven = UNEVEN_COST * (evidence.unevenness(at - width, width) - USUAL_UNEVENNESS);
-            let score = best[at - width] - stretch * stretch - uneven;
+        for (width, stretch) in (widths.narrowest..=at).zip(&stretches) {
+            let score = best[at - width] - stretch + place(at - width, width);
             if score > candidates[0].0 {
                 candidates[0] = (score, at - width, Tooth::Place);
             }
         }
-        for width in widths.slip..widths.narrowest.min(at + 1) {
-            let score = best[at - width] - SLIP_COST;
-            if score > candidates[1].0 {
-                candidates[1] = (score, at - width, Tooth::Slip);
+        if let Some(start) = at.checked_sub(widths.slip) {
+            while slip_starts.back().is_some_and(|&last| best[last] <= best[start]) {
+                slip_starts.pop_back();
             }
+            slip_starts.push_back(start);
+            while slip_starts.front().is_some_and(|&first| at - first >= widths.narrowest) {
+                slip_starts.pop_front();
+            }
+        }
+        if let Some(&start) = slip_starts.front() {
+            candidates[1] = (best[start] - SLIP_COST, start, Tooth::Slip);
         }
         if let Some(start) = at.checked_sub(widths.gap) {
             let score = best[start] - gain[start];

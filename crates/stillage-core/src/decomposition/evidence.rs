@@ -44,6 +44,8 @@ const LEAST_CONTENT: f64 = 0.5;
 const DETREND_WINDOW_M: f64 = 2.45;
 /// Smoothing of content before a row is compared with itself, metres.
 const REPEAT_SIGMA_M: f64 = 0.04;
+/// Known share of a column of cells below which nobody looked at it: sensors see the fronts at least.
+const LEAST_KNOWN: f64 = 0.04;
 /// Free share of a column of cells that is clear.
 const CLEAR_SHARE: f64 = 0.9;
 
@@ -54,8 +56,10 @@ pub(super) struct Evidence {
     pub border: Vec<f64>,
     /// Nothing stands here, in the whole depth.
     pub is_clear: Vec<bool>,
-    /// Share of the depth that is occupied or unknown.
-    content: Vec<f64>,
+    /// Share of the depth that is occupied or unknown; none where nobody looked.
+    pub content: Vec<f64>,
+    /// The same of the middle of the depth.
+    middle: Vec<f64>,
     /// How far the content of a place differs from its mirror image: by first cell, then by width from `least_width`.
     mirror: Vec<f32>,
     least_width: usize,
@@ -114,12 +118,29 @@ impl Evidence {
         let border = (0..row.width).map(|x| gap(x) + post_weight * (posts[x] - mean_posts[x])).collect();
         let free = share(0..height, super::frame::Cell::is_free);
         let all_occupied = share(0..height, super::frame::Cell::is_occupied);
+        let whole: Vec<f64> = free
+            .iter()
+            .zip(&all_occupied)
+            .map(|(free, occupied)| match free + occupied {
+                known if known < LEAST_KNOWN => 0.0,
+                known => occupied + UNKNOWN_CONTENT * (1.0 - known),
+            })
+            .collect();
         let is_clear =
             free.iter().zip(&all_occupied).map(|(free, occupied)| *occupied == 0.0 && *free >= CLEAR_SHARE).collect();
         let least_width = (widths[0] / cell).floor().max(1.0) as usize;
         let widths = ((widths[1] / cell).ceil() as usize).saturating_sub(least_width) + 1;
         let mirror = mirror_differences(&content, least_width, widths, cell);
-        Self { border, is_clear, content, mirror, least_width, widths, cell }
+        Self {
+            border,
+            is_clear,
+            content: gaussian(&whole, CONTENT_SIGMA_M / cell),
+            middle: content,
+            mirror,
+            least_width,
+            widths,
+            cell,
+        }
     }
 
     /// Number of cells along the row.
@@ -136,7 +157,7 @@ impl Evidence {
 
     /// Products of the content with itself at every lag up to `most` cells, and what they would be for a perfect repeat.
     pub(super) fn repeats(&self, most: usize) -> (Vec<f64>, Vec<f64>) {
-        let smooth = gaussian(&self.content, REPEAT_SIGMA_M / self.cell);
+        let smooth = gaussian(&self.middle, REPEAT_SIGMA_M / self.cell);
         let mean = mean_filter(&smooth, DETREND_WINDOW_M / self.cell);
         let values: Vec<f64> = smooth.iter().zip(&mean).map(|(value, mean)| value - mean).collect();
         (0..=most)

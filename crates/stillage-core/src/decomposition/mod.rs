@@ -18,8 +18,10 @@ mod drivable;
 mod ends;
 mod evidence;
 mod frame;
+mod goods;
 mod lines;
 mod pitch;
+mod reading;
 mod rows;
 mod site;
 

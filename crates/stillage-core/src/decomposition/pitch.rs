@@ -6,7 +6,9 @@
 //! the rows repeat themselves at the pitch, and at two of it, is added. Right for 64 of 68 generated regions, 53 without
 //! unevenness and repeats, 25 for repeats alone. Cost: O(candidates x cells).
 
-use super::comb;
+use rayon::prelude::*;
+
+use super::comb::{self, Comb};
 use super::evidence::Evidence;
 
 /// Step of the candidates, metres.
@@ -21,65 +23,55 @@ const REPEAT_REACH_M: f64 = 0.05;
 /// Rows shorter than this many places say nothing.
 const LEAST_PLACES: f64 = 2.2;
 
-/// The candidates and how well each fits.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct PitchScores {
+/// Rows cut at every candidate.
+#[derive(Debug, Clone)]
+pub(super) struct Guesses {
+    /// The candidates, metres.
     pub pitches: Vec<f64>,
-    pub scores: Vec<f64>,
+    /// Every row cut at every candidate.
+    pub of_row: Vec<Vec<Comb>>,
 }
 
-impl PitchScores {
-    /// Fits every candidate within `range` (metres) to the rows.
+impl Guesses {
+    /// Cuts the rows at every candidate within `range`, metres.
     pub(super) fn of(rows: &[&Evidence], range: [f64; 2]) -> Self {
         let count = ((range[1] - range[0]) / STEP_M).round() as usize + 1;
         let pitches: Vec<f64> = (0..count).map(|index| range[0] + index as f64 * STEP_M).collect();
-        let fits: Vec<[f64; 3]> = pitches
-            .iter()
-            .map(|&pitch| {
-                let mut fit = [0.0; 3];
-                for row in rows {
-                    let length = row.len() as f64 * row.cell;
-                    if length < LEAST_PLACES * pitch {
-                        continue;
-                    }
-                    let comb = comb::cut(row, pitch);
-                    fit[0] += comb.score;
-                    fit[1] += comb.borders as f64;
-                    fit[2] += length;
-                }
-                fit
-            })
-            .collect();
+        let cut = |row: &&Evidence| -> Vec<Comb> {
+            pitches.iter().map(|&pitch| comb::cut(row, pitch, comb::even(row))).collect()
+        };
+        let of_row = rows.par_iter().map(cut).collect();
+        Self { pitches, of_row }
+    }
+
+    /// Whether a row is long enough to tell whether it has a pitch.
+    pub(super) fn tells(row: &Evidence, pitch: f64) -> bool {
+        row.len() as f64 * row.cell >= LEAST_PLACES * pitch
+    }
+
+    /// How periodic the rows are: the score of the best candidate.
+    pub(super) fn periodicity(&self, rows: &[&Evidence]) -> f64 {
+        let fit = |at: usize| {
+            let mut fit = [0.0; 3];
+            for (row, combs) in rows.iter().zip(&self.of_row).filter(|(row, _)| Self::tells(row, self.pitches[at])) {
+                fit[0] += combs[at].score;
+                fit[1] += combs[at].borders as f64;
+                fit[2] += row.len() as f64 * row.cell;
+            }
+            fit
+        };
+        let fits: Vec<[f64; 3]> = (0..self.pitches.len()).map(fit).collect();
         let mut means: Vec<f64> = fits.iter().map(|[score, borders, _]| score / borders.max(1.0)).collect();
         means.sort_by(f64::total_cmp);
         let usual = means.get(means.len() / 2).copied().unwrap_or(0.0);
-        let repeats = Repeats::of(rows, 2.0 * range[1] + REPEAT_REACH_M);
-        let scores = fits
-            .iter()
-            .zip(&pitches)
-            .map(|([score, borders, length], &pitch)| {
-                let borders = borders.max(1.0);
-                let excess =
-                    (score - usual * borders) / borders.powf(BORDERS_POWER) / length.max(1e-3).powf(LENGTH_POWER);
-                excess + REPEAT_WEIGHTS[0] * repeats.at(pitch) + REPEAT_WEIGHTS[1] * repeats.at(2.0 * pitch)
-            })
-            .collect();
-        Self { pitches, scores }
-    }
-
-    /// The best pitch and its score.
-    pub(super) fn best(&self) -> Option<(f64, f64)> {
-        let best = (0..self.scores.len()).reduce(|a, b| if self.scores[b] > self.scores[a] { b } else { a })?;
-        Some((self.pitches[best], self.scores[best]))
-    }
-
-    /// Score of the candidate nearest to a pitch.
-    pub(super) fn at(&self, pitch: f64) -> f64 {
-        let near = |a: usize, b: usize| {
-            let distance = |index: usize| (self.pitches[index] - pitch).abs();
-            if distance(b) < distance(a) { b } else { a }
+        let widest = self.pitches.last().copied().unwrap_or(0.0);
+        let repeats = Repeats::of(rows, 2.0 * widest + REPEAT_REACH_M);
+        let score = |([score, borders, length], &pitch): (&[f64; 3], &f64)| {
+            let borders = borders.max(1.0);
+            let excess = (score - usual * borders) / borders.powf(BORDERS_POWER) / length.max(1e-3).powf(LENGTH_POWER);
+            excess + REPEAT_WEIGHTS[0] * repeats.at(pitch) + REPEAT_WEIGHTS[1] * repeats.at(2.0 * pitch)
         };
-        (0..self.scores.len()).reduce(near).map_or(f64::NEG_INFINITY, |index| self.scores[index])
+        fits.iter().zip(&self.pitches).map(score).fold(f64::NEG_INFINITY, f64::max)
     }
 }
 

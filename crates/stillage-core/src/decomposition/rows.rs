@@ -11,7 +11,8 @@ use super::comb::{self, Tooth};
 use super::depth::{self, Body};
 use super::evidence::Evidence;
 use super::frame::{Axis, Frame, Rect};
-use super::pitch::PitchScores;
+use super::pitch::Guesses;
+use super::reading::{Reading, Rows};
 use super::{Parcel, PlotKind};
 use crate::watch::{Stopped, Watch};
 
@@ -27,8 +28,6 @@ const PERIODIC_SCORE_OF_MANY: f64 = 0.045;
 const PERIODIC_SCORE_PER_ROW: f64 = 0.3;
 /// Cells above this are too coarse for gaps and posts, metres.
 const COARSEST_CELL_M: f64 = 0.1;
-/// A row's own pitch must score so much better than that of the block (accuracy study).
-const OWN_PITCH_GAIN: f64 = 0.1;
 /// Pieces narrower than this are given to their neighbour, metres.
 const SLIVER_M: f64 = 0.4;
 /// An end piece that differs from the pitch by less than this share of it is a place.
@@ -97,26 +96,28 @@ fn comb_rows(
     watch: &Watch<'_>,
 ) -> Result<(), Stopped> {
     let all: Vec<&Evidence> = rows.iter().map(|row| &row.evidence).collect();
-    let Some((pitch, score)) = PitchScores::of(&all, hints.pitch).best() else { return Ok(()) };
+    let guesses = Guesses::of(&all, hints.pitch);
     let least = PERIODIC_SCORE.max(PERIODIC_SCORE_OF_MANY + PERIODIC_SCORE_PER_ROW / rows.len().max(1) as f64);
-    if score < least || frame.cell > COARSEST_CELL_M {
+    if guesses.periodicity(&all) < least || frame.cell > COARSEST_CELL_M {
         let whole = |row: &&Row| Parcel::new(row.rect.clone(), PlotKind::Rest, Some(row.axis));
         parcels.extend(rows.iter().map(whole));
         return Ok(());
     }
-    for row in rows {
-        watch.check()?;
-        let own = PitchScores::of(&[&row.evidence], hints.pitch);
-        let own_best = own.best().filter(|&(_, score)| score > own.at(pitch) + OWN_PITCH_GAIN);
-        let pitch = own_best.map_or(pitch, |(pitch, _)| pitch);
-        comb_row(frame, row, pitch, parcels);
+    watch.check()?;
+    let readings = Rows { rows: &all, guesses: &guesses }.read();
+    for (row, reading) in rows.iter().zip(readings) {
+        match reading {
+            Some(reading) => comb_row(frame, row, &reading, parcels),
+            None => parcels.push(Parcel::new(row.rect.clone(), PlotKind::Rest, Some(row.axis))),
+        }
     }
     Ok(())
 }
 
 /// Cuts a row into parcels.
-fn comb_row(frame: &Frame, row: &Row, pitch: f64, parcels: &mut Vec<Parcel>) {
-    let comb = comb::cut(&row.evidence, pitch);
+fn comb_row(frame: &Frame, row: &Row, reading: &Reading, parcels: &mut Vec<Parcel>) {
+    let comb = reading.cut(&row.evidence);
+    let pitch = reading.pitch;
     let along = row.rect.range(row.axis).clone();
     let mut pieces: Vec<(Range<usize>, PlotKind)> = Vec::new();
     let mut start = 0;

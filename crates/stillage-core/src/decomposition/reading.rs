@@ -1,0 +1,241 @@
+//! How the rows of one direction are read: the pitch of their places and the shape of the goods in them.
+//!
+//! Every pitch is tried, with goods as a first guess has them and with goods half a place further, for a row of full
+//! places looks the same from both; where goods end, at posts and at uprights, only one of them is right. Goods and cuts
+//! are found by turns, as in expectation maximization, and the reading that explains the rows best for its number of
+//! places is taken: a likelihood with the remaining energy as its noise, and a price for each place (minimum description
+//! length, J. Rissanen 1978, doi 10.1016/0005-1098(78)90005-5).
+//!
+//! Rows that a reading of their own explains much better leave, and are read together in turn: one direction may hold
+//! racks and a staging area, or rows with another pitch.
+//!
+//! Cost: O(pitches x cells x widths of places). Limits: one shape of goods in each reading, so a row that mixes loads and
+//! legs is explained by what both have in common.
+
+use rayon::prelude::*;
+
+use super::comb::{self, Comb};
+use super::evidence::Evidence;
+use super::goods::{self, Goods};
+use super::pitch::Guesses;
+
+/// Length along which the noise of content is the same, metres: goods off their mark, and the smoothing.
+const CORRELATION_M: f64 = 0.2;
+/// Share of the energy that is noise even where goods explain all of it.
+const LEAST_NOISE: f64 = 0.15;
+/// Noise before anything is explained, as a share of the energy.
+const FIRST_NOISE: f64 = 0.4;
+/// Turns of cutting and learning; there is no change worth it afterwards.
+const TURNS: usize = 2;
+/// Price of a place: whether it is full and how wide it is, half a logarithm of its cells.
+const PLACE_PRICE: f64 = 1.5;
+/// Price of a shape of goods of a row's own: its dozen values, each half a logarithm of the cells of a row.
+const GOODS_PRICE: f64 = 25.0;
+/// Price of another reading that is there already, and of a pitch of a row's own.
+const READING_PRICE: f64 = 5.0;
+const PITCH_PRICE: f64 = 10.0;
+/// No direction of a region holds more sorts of storage.
+const MOST_READINGS: usize = 6;
+/// Rows of this length together are enough to learn from, metres: some 300 places.
+const ENOUGH_M: f64 = 400.0;
+/// The pitches are tried at every second candidate first.
+const STRIDE: usize = 2;
+
+/// A way to read rows.
+#[derive(Debug, Clone)]
+pub(super) struct Reading {
+    /// Metres.
+    pub pitch: f64,
+    goods: Goods,
+    /// Energy per cell that the goods leave unexplained.
+    noise: f64,
+}
+
+/// What a reading makes of rows.
+#[derive(Debug, Clone, Copy, Default)]
+struct Account {
+    explained: f64,
+    energy: f64,
+    cells: usize,
+    places: usize,
+    /// What borders and widths earn.
+    structure: f64,
+    /// Side of a cell, metres.
+    cell: f64,
+}
+
+impl Account {
+    fn add(&mut self, row: &Evidence, comb: &Comb, explained: &[f64], noise: f64) {
+        let mut of_row = 0.0;
+        for place in comb.places() {
+            of_row += explained[place.start + place.end];
+            self.energy += row.content[place.clone()].iter().map(|value| value * value).sum::<f64>();
+            self.cells += place.len();
+            self.places += 1;
+        }
+        self.explained += of_row;
+        self.structure += comb.score - of_row * weight(noise, row.cell);
+        self.cell = row.cell;
+    }
+
+    fn noise(&self) -> f64 {
+        let left = (self.energy - self.explained).max(LEAST_NOISE * self.energy);
+        (left / self.cells.max(1) as f64).max(f64::MIN_POSITIVE.sqrt())
+    }
+
+    fn score(&self, noise: f64) -> f64 {
+        self.explained * weight(noise, self.cell) + self.structure - PLACE_PRICE * self.places as f64
+    }
+}
+
+/// What energy counts in a logarithm of a likelihood.
+fn weight(noise: f64, cell: f64) -> f64 {
+    cell / (2.0 * CORRELATION_M * noise)
+}
+
+impl Reading {
+    /// Cuts a row.
+    pub(super) fn cut(&self, row: &Evidence) -> Comb {
+        self.cut_and_score(row, self.noise).0
+    }
+
+    fn score(&self, row: &Evidence, noise: f64) -> f64 {
+        self.cut_and_score(row, noise).1
+    }
+
+    fn cut_and_score(&self, row: &Evidence, noise: f64) -> (Comb, f64) {
+        let explained = self.goods.explained(row);
+        let comb = cut(row, self.pitch, &explained, noise);
+        let mut account = Account::default();
+        account.add(row, &comb, &explained, noise);
+        (comb, account.score(noise))
+    }
+
+    /// The same goods at another pitch.
+    fn at(&self, pitch: f64, cell: f64) -> Self {
+        Self { pitch, goods: self.goods.at(pitch, cell), noise: self.noise }
+    }
+}
+
+fn cut(row: &Evidence, pitch: f64, explained: &[f64], noise: f64) -> Comb {
+    let weight = weight(noise, row.cell);
+    comb::cut(row, pitch, |start, width| explained[2 * start + width] * weight)
+}
+
+/// Learns goods and cuts rows by turns.
+fn fit(rows: &[&Evidence], pitch: f64, mut goods: Goods) -> (Reading, Account) {
+    let energy: f64 = rows.iter().flat_map(|row| &row.content).map(|value| value * value).sum();
+    let cells: usize = rows.iter().map(|row| row.len()).sum();
+    let mut noise = (FIRST_NOISE * energy / cells.max(1) as f64).max(f64::MIN_POSITIVE.sqrt());
+    let mut turn = 1;
+    loop {
+        let mut account = Account::default();
+        let mut places = Vec::with_capacity(rows.len());
+        for row in rows {
+            let explained = goods.explained(row);
+            let comb = cut(row, pitch, &explained, noise);
+            account.add(row, &comb, &explained, noise);
+            let amplitude = |twice: usize| (twice, explained[twice].max(0.0).sqrt());
+            places.push(goods::middles(&comb).map(amplitude).collect::<Vec<_>>());
+        }
+        noise = account.noise();
+        if turn == TURNS {
+            return (Reading { pitch, goods, noise }, account);
+        }
+        goods = Goods::learn(rows.iter().copied().zip(places.iter().map(Vec::as_slice)), pitch);
+        turn += 1;
+    }
+}
+
+/// Rows of one direction with their first guesses.
+pub(super) struct Rows<'a> {
+    pub rows: &'a [&'a Evidence],
+    pub guesses: &'a Guesses,
+}
+
+impl Rows<'_> {
+    /// A reading for each row; none where rows are too short to tell.
+    pub(super) fn read(&self) -> Vec<Option<Reading>> {
+        let all: Vec<usize> = (0..self.rows.len()).collect();
+        let Some(first) = self.best(&self.sample(&all)) else { return vec![None; self.rows.len()] };
+        let noise = first.noise;
+        let own: Vec<Option<Reading>> = all.par_iter().map(|&row| self.best(&[row])).collect();
+        let mut readings = vec![first];
+        let mut group = all.clone();
+        while readings.len() < MOST_READINGS {
+            let current = &readings[readings.len() - 1];
+            let leaves = |&row: &usize| {
+                let score = |reading: &Reading| reading.score(self.rows[row], noise);
+                own[row].as_ref().is_some_and(|own| score(own) > score(current) + GOODS_PRICE)
+            };
+            let leaving: Vec<usize> = group.par_iter().copied().filter(leaves).collect();
+            if leaving.len() == group.len() && readings.len() > 1 {
+                break;
+            }
+            let Some(next) = self.best(&self.sample(&leaving)) else { break };
+            readings.push(next);
+            group = leaving;
+        }
+        all.par_iter().map(|&row| self.choose(row, &readings, noise)).collect()
+    }
+
+    /// Rows enough to learn from, evenly spread.
+    fn sample(&self, of: &[usize]) -> Vec<usize> {
+        let length: f64 = of.iter().map(|&row| self.rows[row].len() as f64 * self.rows[row].cell).sum();
+        of.iter().copied().step_by(((length / ENOUGH_M) as usize).max(1)).collect()
+    }
+
+    /// The reading that explains rows best.
+    fn best(&self, of: &[usize]) -> Option<Reading> {
+        let count = self.guesses.pitches.len();
+        let coarse: Vec<(usize, Reading, Account)> = (0..count)
+            .step_by(STRIDE)
+            .collect::<Vec<_>>()
+            .into_par_iter()
+            .flat_map_iter(|at| self.fits(of, at))
+            .collect();
+        let noise = coarse.iter().map(|(_, _, account)| account.noise()).fold(f64::INFINITY, f64::min);
+        let better = |one: (usize, Reading, Account), other: (usize, Reading, Account)| {
+            if other.2.score(noise) > one.2.score(noise) { other } else { one }
+        };
+        let best = coarse.into_iter().reduce(better)?;
+        let near = [best.0.checked_sub(1), Some(best.0 + 1).filter(|&next| next < count)];
+        let fine = near.into_iter().flatten().flat_map(|at| self.fits(of, at));
+        fine.fold(Some(best), |best, next| best.map(|best| better(best, next))).map(|(_, reading, _)| reading)
+    }
+
+    /// Rows read at a pitch, with goods as guessed and half a place further.
+    fn fits(&self, of: &[usize], at: usize) -> Vec<(usize, Reading, Account)> {
+        let pitch = self.guesses.pitches[at];
+        let of: Vec<usize> = of.iter().copied().filter(|&row| Guesses::tells(self.rows[row], pitch)).collect();
+        let rows: Vec<&Evidence> = of.iter().map(|&row| self.rows[row]).collect();
+        let Some(cell) = rows.first().map(|row| row.cell) else { return Vec::new() };
+        [0.0, 0.5, 1.0, 1.5]
+            .map(|s: f64| (s * pitch / cell).round() as usize)
+            .map(|shift| {
+                let places = of.iter().map(|&row| {
+                    let middles = goods::middles(&self.guesses.of_row[row][at]);
+                    middles.map(|twice| (twice + shift, 1.0)).collect::<Vec<_>>()
+                });
+                let places: Vec<_> = places.collect();
+                let goods = Goods::learn(rows.iter().copied().zip(places.iter().map(Vec::as_slice)), pitch);
+                let (reading, account) = fit(&rows, pitch, goods);
+                (at, reading, account)
+            })
+            .into()
+    }
+
+    /// The reading for a row: one of those found, at its pitch or another.
+    fn choose(&self, row: usize, readings: &[Reading], noise: f64) -> Option<Reading> {
+        let row = self.rows[row];
+        let scored = |reading: Reading, price: f64| (reading.score(row, noise) - price, reading);
+        let better = |one: (f64, Reading), other: (f64, Reading)| if other.0 > one.0 { other } else { one };
+        let price = |rank: usize| if rank == 0 { 0.0 } else { READING_PRICE };
+        let of_group =
+            readings.iter().enumerate().map(|(rank, reading)| scored(reading.clone(), price(rank))).reduce(better)?;
+        let reading = of_group.1.clone();
+        let others =
+            self.guesses.pitches.iter().map(|&pitch| scored(reading.at(pitch, row.cell), price(1) + PITCH_PRICE));
+        Some(others.fold(of_group, better).1)
+    }
+}
