@@ -196,8 +196,8 @@ pub struct RadiogramView {
 
 /// Signals and timings
 ///
-/// What was taken for clutter, the orientation histogram and its mixture, the radiograms, the time of each stage, and the remarks on the newest
-/// analysis.
+/// What was taken for clutter, the orientation histogram and its mixture, the radiograms, the time of each stage, and the
+/// remarks on the newest analysis.
 #[utoipa::path(get, path = "/v1/maps/{mapId}/diagnostics", tag = "maps", operation_id = "getDiagnostics",
     params(MapPath),
     responses((status = 200, description = "The diagnostics", body = Diagnostics,

@@ -256,7 +256,8 @@ fn the_decomposition_is_compared_whatever_the_labels() {
 #[test]
 fn occupancy_is_compared_on_the_places_that_one_face_fits() {
     let map = map();
-    let evaluator = |truth: &GroundTruth| *Evaluator::new(&map.analysis, truth, &Watch::unwatched()).unwrap().geometry();
+    let evaluator =
+        |truth: &GroundTruth| *Evaluator::new(&map.analysis, truth, &Watch::unwatched()).unwrap().geometry();
     let found = |truth: &GroundTruth| evaluator(truth).occupancy.map(|it| (it.places, it.occupied, it.empty));
     let mut truth = truth(&map);
     expect!["Some((4, [4, 0, 0], [0, 0, 0]))"].assert_eq(&format!("{:?}", found(&truth)));
