@@ -135,7 +135,9 @@ const fn describe(collection: Collection) -> (&'static str, &'static str) {
         Collection::Links => ("Links", "The links of the adjacency graph, with their connectivity"),
         Collection::Lines => ("Lines", "The straight alignments of obstacles behind the decomposition"),
         Collection::Regions => ("Regions", "Blocks of the map with a pattern of their own"),
-        Collection::Places => ("Places", "Rooms, and mutually open faces of one label, merged: corridors, junctions, blocks"),
+        Collection::Places => {
+            ("Places", "Rooms, and mutually open faces of one label, merged: corridors, junctions, blocks")
+        }
         Collection::Doors => ("Doors", "Narrow passages between two places, from jamb to jamb"),
         Collection::Locations => ("Locations", "Storage locations with code, aisle, bay, occupancy and approach"),
     }

@@ -9,7 +9,10 @@ use crate::geometry::{OrientedBox, direction, normal};
 use crate::grid::{GridFrame, Occupancy, OccupancyGrid};
 use crate::segmentation::{Region, RegionMap};
 use crate::spec::{AnalysisOptions, DecompositionOptions};
-use crate::test_maps::{self, real_maps::{Picture, find_folder}};
+use crate::test_maps::{
+    self,
+    real_maps::{Picture, find_folder},
+};
 use crate::watch::Watch;
 use crate::{annotation, arrangement};
 
