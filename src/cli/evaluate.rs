@@ -100,7 +100,7 @@ fn table(evaluation: &Evaluation) -> String {
     text
 }
 
-/// The decomposition in three sentences.
+/// The decomposition in a few sentences.
 fn head(geometry: &GeometryScores) -> String {
     let GeometryScores { faces, places, .. } = geometry;
     let each = geometry.faces_per_place.map(|ratio| format!(", {ratio:.1} for each")).unwrap_or_default();
@@ -114,6 +114,17 @@ fn head(geometry: &GeometryScores) -> String {
     if let (Some(error), Some(wrong)) = (geometry.orientation_error, geometry.false_orientations) {
         let degrees = error.to_degrees();
         let _ = writeln!(text, "Orientations: off by {degrees:.3} degrees at most, {wrong} of them false.");
+    }
+    if let Some(occupancy) = geometry.occupancy {
+        let ([_, missed, unseen], [false_goods, _, _]) = (occupancy.occupied, occupancy.empty);
+        let _ = writeln!(
+            text,
+            "Occupancy: {} of {} places right in per cent; goods missed on {}, unknown on {unseen}, seen on {false_goods} \
+             empty ones.",
+            percent(occupancy.accuracy),
+            occupancy.places,
+            missed,
+        );
     }
     text + "\n"
 }

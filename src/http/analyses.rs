@@ -10,6 +10,7 @@ use axum::response::{IntoResponse, Response};
 use jiff::Timestamp;
 use serde::Serialize;
 use stillage_core::AnalysisOptions;
+use stillage_core::declutter::Removed;
 use utoipa::ToSchema;
 
 use super::conditional::{EntityTag, IfNoneMatch};
@@ -107,6 +108,7 @@ pub async fn create(
 pub struct Diagnostics {
     analysis_id: Id,
     frame: FrameView,
+    clutter: ClutterView,
     orientations: OrientationsView,
     radiograms: Vec<RadiogramView>,
     /// What each stage cost.
@@ -129,6 +131,40 @@ pub struct FrameView {
     origin_m: [f64; 2],
     /// Counter-clockwise turn of the grid in the map frame, radians.
     yaw_rad: f64,
+}
+
+/// What was taken for clutter before the first stage, in runs of cells: the first one (row by row from the lower left
+/// corner of the grid) and their number.
+#[derive(Debug, Serialize, ToSchema)]
+#[serde(rename_all = "camelCase")]
+pub struct ClutterView {
+    /// Share of the floor's cells that carry a lone hit.
+    rate: f64,
+    /// Number of occupied cells taken for speckle.
+    occupied_cells: usize,
+    /// Number of unknown cells taken for holes in free space.
+    unknown_cells: usize,
+    /// Runs of occupied cells taken for speckle.
+    occupied_runs: Vec<[u32; 2]>,
+    /// Runs of unknown cells taken for holes in free space.
+    unknown_runs: Vec<[u32; 2]>,
+}
+
+impl From<&Removed> for ClutterView {
+    fn from(removed: &Removed) -> Self {
+        Self {
+            rate: removed.rate,
+            occupied_cells: removed.occupied.len(),
+            unknown_cells: removed.unknown.len(),
+            occupied_runs: runs(&removed.occupied),
+            unknown_runs: runs(&removed.unknown),
+        }
+    }
+}
+
+/// Ascending numbers as the first of each run and its length.
+fn runs(cells: &[u32]) -> Vec<[u32; 2]> {
+    cells.chunk_by(|one, next| one + 1 == *next).map(|run| [run[0], run.len() as u32]).collect()
 }
 
 /// The dominant orientations and the signals they were read from.
@@ -160,8 +196,8 @@ pub struct RadiogramView {
 
 /// Signals and timings
 ///
-/// The orientation histogram and its mixture, the radiograms, the time of each stage, and the remarks on the newest
-/// analysis.
+/// What was taken for clutter, the orientation histogram and its mixture, the radiograms, the time of each stage, and the
+/// remarks on the newest analysis.
 #[utoipa::path(get, path = "/v1/maps/{mapId}/diagnostics", tag = "maps", operation_id = "getDiagnostics",
     params(MapPath),
     responses((status = 200, description = "The diagnostics", body = Diagnostics,
@@ -198,6 +234,7 @@ impl Diagnostics {
                 origin_m: [analysis.frame.origin.x, analysis.frame.origin.y],
                 yaw_rad: analysis.frame.yaw,
             },
+            clutter: ClutterView::from(&analysis.clutter),
             orientations: OrientationsView {
                 angles_rad: analysis.orientations.angles.clone(),
                 histogram: analysis.orientations.histogram.clone(),

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use axum::Json;
 use axum::extract::State;
 use serde::Serialize;
-use stillage_core::evaluation::{Evaluation, GeometryScores, LabelScores, PlaceScores};
+use stillage_core::evaluation::{Evaluation, GeometryScores, LabelScores, OccupancyScores, PlaceScores};
 use utoipa::ToSchema;
 
 use super::extractors::{JsonBody, MapPath, Path};
@@ -48,6 +48,46 @@ pub struct GeometryScoresView {
     orientation_error_deg: Option<f64>,
     /// Orientations found that are 2 degrees or more from every true direction.
     false_orientations: Option<usize>,
+    /// Whether goods stand on places; null where no place is found.
+    occupancy: Option<OccupancyScoresView>,
+}
+
+/// How the occupancy of places agrees with the truth: over the places that count and that one face fits.
+#[derive(Debug, Serialize, ToSchema)]
+#[schema(as = OccupancyScores)]
+pub struct OccupancyScoresView {
+    /// Those places.
+    places: usize,
+    /// Share of them that were read right; not to know is wrong.
+    accuracy: f64,
+    /// How those that hold goods were read.
+    occupied: OccupancyCountsView,
+    /// How those that are empty were read.
+    empty: OccupancyCountsView,
+}
+
+/// Numbers of places.
+#[derive(Debug, Serialize, ToSchema)]
+#[schema(as = OccupancyCounts)]
+pub struct OccupancyCountsView {
+    /// Read as occupied.
+    occupied: usize,
+    /// Read as empty.
+    empty: usize,
+    /// Read as unknown.
+    unknown: usize,
+}
+
+impl From<&OccupancyScores> for OccupancyScoresView {
+    fn from(scores: &OccupancyScores) -> Self {
+        let counts = |[occupied, empty, unknown]: [usize; 3]| OccupancyCountsView { occupied, empty, unknown };
+        Self {
+            places: scores.places,
+            accuracy: rounded(scores.accuracy),
+            occupied: counts(scores.occupied),
+            empty: counts(scores.empty),
+        }
+    }
 }
 
 /// How well labels fit.
@@ -131,6 +171,7 @@ impl From<&GeometryScores> for GeometryScoresView {
             boundary_precision: scores.boundary_precision.map(rounded),
             orientation_error_deg: scores.orientation_error.map(|error| rounded(error.to_degrees())),
             false_orientations: scores.false_orientations,
+            occupancy: scores.occupancy.as_ref().map(Into::into),
         }
     }
 }

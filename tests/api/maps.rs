@@ -133,6 +133,7 @@ async fn diagnostics_hold_the_signals() {
     assert!(length("/orientations/histogram") > Some(0), "{:?}", diagnostics["orientations"]["histogram"]);
     assert!(length("/orientations/anglesRad") >= Some(2), "{:?}", diagnostics["orientations"]["anglesRad"]);
     assert!(length("/radiograms") >= Some(2));
+    assert_eq!(diagnostics["clutter"]["occupiedCells"], 0);
     assert_eq!(diagnostics["frame"], json!({"resolutionM": 0.25, "originM": [-2.0, -1.0], "yawRad": 0.0}));
     let stages: Vec<&str> =
         diagnostics["stages"].as_array().into_iter().flatten().filter_map(|stage| stage["name"].as_str()).collect();

@@ -103,12 +103,13 @@ fn faces(analysis: &Analysis, label: impl Fn(FaceId) -> String, place: impl Fn(F
             let _ = write!(
                 properties,
                 "\"id\":{face},\"category\":{},\"label\":\"{}\",\"free\":{:.3},\"occupied\":{:.3},\
-                 \"unknown\":{:.3},\"kind\":\"{}\",\"long\":{:.2},\"short\":{:.2}",
+                 \"unknown\":{:.3},\"inside\":{:.4},\"kind\":\"{}\",\"long\":{:.2},\"short\":{:.2}",
                 annotation.category,
                 label(face),
                 annotation.free_fraction,
                 annotation.occupied_fraction,
                 annotation.unknown_fraction,
+                annotation.inside_occupied_fraction,
                 annotation.kind.map_or(String::new(), |kind| format!("{kind:?}").to_lowercase()),
                 annotation.extent[0],
                 annotation.extent[1],

@@ -30,6 +30,8 @@ pub struct Analysis {
     pub height: usize,
     /// The options, whole.
     pub options: AnalysisOptions,
+    /// What was taken for clutter before the first stage.
+    pub clutter: declutter::Removed,
     /// Cell -> category.
     pub categories: CategoryMap,
     /// Dominant orientations of the whole map.
@@ -83,7 +85,7 @@ impl Diagnostic {
 /// [`Stopped`] when the watch says so.
 pub fn analyze(grid: &OccupancyGrid, spec: &AnalysisSpec, watch: &Watch<'_>) -> Result<Analysis, Stopped> {
     let options = spec.options();
-    let declutter::Decluttered { grid: clean, .. } = declutter::declutter(grid, watch)?;
+    let declutter::Decluttered { grid: clean, removed: clutter } = declutter::declutter(grid, watch)?;
     let grid = &clean;
     let categorization = categorization::categorize(grid, &options.categorization, options.seed, watch)?;
     let orientations =
@@ -123,6 +125,7 @@ pub fn analyze(grid: &OccupancyGrid, spec: &AnalysisSpec, watch: &Watch<'_>) -> 
         width: grid.width(),
         height: grid.height(),
         options: options.clone(),
+        clutter,
         categories: categorization.map,
         orientations,
         regions,
@@ -141,7 +144,7 @@ pub fn analyze(grid: &OccupancyGrid, spec: &AnalysisSpec, watch: &Watch<'_>) -> 
     Ok(analysis)
 }
 
-/// Says what a user should know about a degenerate map.
+/// Says what a user should know about a degenerate or cluttered map.
 fn diagnose(grid: &OccupancyGrid, analysis: &Analysis) -> Vec<Diagnostic> {
     use crate::grid::Occupancy::{Free, Occupied};
     let mut diagnostics = Vec::new();
@@ -158,6 +161,17 @@ fn diagnose(grid: &OccupancyGrid, analysis: &Analysis) -> Vec<Diagnostic> {
         say("no-orientation", "no dominant orientation stands out: the map is one face per region");
     } else if analysis.lines.is_empty() {
         say("no-lines", "no line stands out along the dominant orientations: the map is one face per region");
+    }
+    let declutter::Removed { occupied, unknown, rate } = &analysis.clutter;
+    if !occupied.is_empty() || !unknown.is_empty() {
+        let message = format!(
+            "{} occupied cells stand alone and were taken for speckle ({:.2} % of the floor), {} unknown ones for holes in \
+             free space; all stages but the upload see the map without them",
+            occupied.len(),
+            100.0 * rate,
+            unknown.len()
+        );
+        diagnostics.push(Diagnostic::new("decluttered", message));
     }
     diagnostics
 }

@@ -19,6 +19,11 @@ use crate::grid::{Occupancy, OccupancyGrid};
 use crate::segmentation::RegionMap;
 use crate::watch::{Stopped, Watch};
 
+/// What stands nearer than this to the border of a face may be a post of its rack or overhang of a neighbour, metres.
+const RIM_M: f64 = 0.1;
+/// Counts of cells: free, occupied, unknown, and occupied away from the border.
+const OCCUPANCY_SLOTS: usize = 4;
+
 /// Annotates every face; entry 0, the unbounded face, is empty.
 pub(super) fn annotate_faces(
     grid: &OccupancyGrid,
@@ -60,6 +65,8 @@ struct Tally {
     categories: Vec<u32>,
     /// Free, occupied, unknown.
     occupancy: [u32; 3],
+    /// Occupied, and away from the border.
+    inside: u32,
     /// By region, and outside all.
     regions: Vec<u32>,
 }
@@ -91,10 +98,11 @@ impl Tallies {
         watch: &Watch<'_>,
     ) -> Result<Self, Stopped> {
         let (category_count, region_count) = (categories.categories.len(), regions.regions.len() + 1);
-        let size = subdivision.face_count() * (category_count + 3 + region_count);
+        let size = subdivision.face_count() * (category_count + OCCUPANCY_SLOTS + region_count);
         let counts = std::iter::repeat_with(|| AtomicU32::new(0)).take(size).collect();
         let tallies = Self { counts, categories: category_count, regions: region_count };
         let width = grid.width();
+        let rim = (RIM_M / grid.resolution()).round() as usize;
         (0..grid.height()).into_par_iter().try_for_each(|row| {
             watch.check()?;
             let faces = &cells.as_slice()[row * width..(row + 1) * width];
@@ -107,6 +115,9 @@ impl Tallies {
                 if run[0] != FaceId::OUTER {
                     let votes = votes.get(columns.clone()).unwrap_or_default();
                     tallies.add_run(run[0], votes, &grid.row(row)[columns.clone()], &mut votes_by_category);
+                    let is_inside = |&column: &usize| cells.holds_around(run[0], column, row, rim);
+                    let occupied = columns.clone().filter(|&column| grid.row(row)[column] == Occupancy::Occupied);
+                    tallies.add(run[0], tallies.categories + 3, occupied.filter(is_inside).count() as u32);
                     tallies.add_regions(run[0], regions, row, columns);
                 }
             }
@@ -116,7 +127,7 @@ impl Tallies {
     }
 
     fn stride(&self) -> usize {
-        self.categories + 3 + self.regions
+        self.categories + OCCUPANCY_SLOTS + self.regions
     }
 
     fn add(&self, face: FaceId, slot: usize, count: u32) {
@@ -149,7 +160,7 @@ impl Tallies {
         while column < columns.end {
             let end = ((column / tile + 1) * tile).min(columns.end);
             let region = regions.region_of_cell(column, row).unwrap_or(RegionMap::NONE);
-            self.add(face, self.categories + 3 + region_slot(regions, region), (end - column) as u32);
+            self.add(face, self.categories + OCCUPANCY_SLOTS + region_slot(regions, region), (end - column) as u32);
             column = end;
         }
     }
@@ -158,10 +169,11 @@ impl Tallies {
         let counts = &self.counts[face.index() * self.stride()..][..self.stride()];
         let counts: Vec<u32> = counts.iter().map(|count| count.load(Ordering::Relaxed)).collect();
         let (categories, rest) = counts.split_at(self.categories);
-        let (occupancy, regions) = rest.split_at(3);
+        let (occupancy, regions) = rest.split_at(OCCUPANCY_SLOTS);
         Tally {
             categories: categories.to_vec(),
             occupancy: [occupancy[0], occupancy[1], occupancy[2]],
+            inside: occupancy[3],
             regions: regions.to_vec(),
         }
     }
@@ -196,6 +208,7 @@ fn face_annotation(tally: &Tally, rings: &[Vec<Point>], categories: &CategoryMap
         cells: total as usize,
         free_fraction: share(free, total),
         occupied_fraction: share(occupied, total),
+        inside_occupied_fraction: share(tally.inside, total),
         unknown_fraction: if total == 0 { 1.0 } else { share(unknown, total) },
         // Not `sum`, which makes nothing of it -0.
         area: rings.iter().fold(0.0, |area, ring| area + ring_area(ring)),

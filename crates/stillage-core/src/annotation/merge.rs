@@ -2,8 +2,8 @@
 //!
 //! The decomposition cuts from side to side, so open floor comes in pieces. Faces that were cut out for the same (never
 //! places: those are the cells asked for) are joined where nothing stands along their border and both sides look alike.
-//! A room is one face. What is too small for a face then joins the neighbour that it shares most of its border with (over-segmentation is
-//! undone, as in the author's later work: edges without support are pruned).
+//! A room is one face. What is too small for a face then joins the neighbour that it shares most of its border with
+//! (over-segmentation is undone, as in the author's later work: edges without support are pruned).
 //!
 //! Joining changes the subdivision only ([`Subdivision::dissolve`]); all that is known of faces is measured afterwards.
 //! Cost: O(cells along edges + faces + edges). Limits: faces of two regions stay two.

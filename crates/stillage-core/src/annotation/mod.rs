@@ -56,6 +56,8 @@ pub struct FaceAnnotation {
     pub free_fraction: f64,
     /// Share of its cells that are occupied.
     pub occupied_fraction: f64,
+    /// Share of its cells that are occupied and lie more than a rim of 0.1 m inside its border.
+    pub inside_occupied_fraction: f64,
     /// Share of its cells that are unknown (1 for a face without cells).
     pub unknown_fraction: f64,
     /// Area, square metres.

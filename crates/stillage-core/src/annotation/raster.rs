@@ -53,6 +53,19 @@ impl CellFaces {
         Self { width, faces: ids.into_iter().map(FaceId).collect() }
     }
 
+    /// Whether the cells `reach` away along both axes lie in a face, too.
+    pub(super) fn holds_around(&self, face: FaceId, column: usize, row: usize, reach: usize) -> bool {
+        let height = self.faces.len() / self.width.max(1);
+        column >= reach
+            && row >= reach
+            && column + reach < self.width
+            && row + reach < height
+            && self.at(column - reach, row) == face
+            && self.at(column + reach, row) == face
+            && self.at(column, row - reach) == face
+            && self.at(column, row + reach) == face
+    }
+
     /// The face of a cell; [`FaceId::OUTER`] outside the decomposed part of the map.
     #[must_use]
     pub fn at(&self, column: usize, row: usize) -> FaceId {

@@ -13,14 +13,15 @@
 //!   median place are slivers, counted apart. *F1* of strict recall and precision is the figure to go by.
 //! - Cogency is compared with what the true labels imply, by length of the edges.
 //!
-//! Areas are those of the polygons, not of cells. [`evaluate`] tells all; behind it, [`Evaluator`] compares the geometry once; [`Evaluator::score`] then
-//! reads any labels against it in milliseconds, and [`Evaluator::decision`] takes the one decision per category that a
+//! Areas are those of the polygons, not of cells. [`evaluate`] tells all; behind it, [`Evaluator`] compares the geometry
+//! once; [`Evaluator::score`] then reads any labels against it in milliseconds, and [`Evaluator::decision`] takes the one decision per category that a
 //! person who knows the truth would take.
 //!
 //! Cost: O(true areas x faces they meet), seconds for a site of 6,000 places. Limits: true areas of one label must not
 //! overlap.
 
 mod boundary;
+mod occupancy;
 mod overlap;
 mod truth;
 
@@ -32,6 +33,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use rayon::prelude::*;
 
+pub use occupancy::OccupancyScores;
 pub use truth::{GroundTruth, TrueArea, TruePlace, TrueRegion};
 
 use crate::analysis::Analysis;
@@ -39,12 +41,10 @@ use crate::arrangement::FaceId;
 use crate::geometry::{Point, line_angle_between};
 use crate::semantics::{self, Assignment, LabelId, RuleSet, SemanticMap};
 use crate::watch::{Stopped, Watch};
-use overlap::FaceAreas;
+use overlap::{FaceAreas, Match};
 
 /// A place counts when so much of its surroundings was seen.
 const OBSERVED: f64 = 0.5;
-/// Intersection over union above which a face is a place: at one half it can be at most one.
-const SAME: f64 = 0.5;
 /// Faces below this share of the median place are slivers.
 const SLIVER: f64 = 0.25;
 /// An orientation farther from every true one is false, radians.
@@ -133,6 +133,8 @@ pub struct GeometryScores {
     pub orientation_error: Option<f64>,
     /// Orientations found that are far from every true direction; `None` where the truth names no region.
     pub false_orientations: Option<usize>,
+    /// Whether goods stand on the places that one face fits; `None` when there is none.
+    pub occupancy: Option<OccupancyScores>,
 }
 
 /// How well an analysis fits the truth of its site, under labels of several origins.
@@ -200,16 +202,6 @@ pub fn check_rule_set(rule_set: &RuleSet) -> Result<(), MissingLabel> {
     Names::of(rule_set).map(|_| ())
 }
 
-/// One true place and the faces it lies in.
-#[derive(Debug)]
-struct Match {
-    area: f64,
-    /// The face that holds its centre.
-    holder: Option<u32>,
-    /// Faces with the area in common, ascending.
-    overlaps: Vec<(u32, f64)>,
-}
-
 /// An analysis compared with the truth; ready to score labels.
 #[derive(Debug)]
 pub struct Evaluator<'a> {
@@ -257,11 +249,17 @@ impl<'a> Evaluator<'a> {
             let holder = overlaps.iter().find(holds).map(|&(face, _)| face);
             Match { area: place.area.area(), holder, overlaps }
         });
-        let matches = matches.collect();
+        let matches: Vec<Match> = matches.collect();
         let rings: Vec<Vec<Vec<Point>>> = truth.places.iter().map(|place| place.area.in_grid(frame)).collect();
         let [boundary_recall, boundary_precision] = boundary::compare(&analysis.subdivision, &rings, watch)?;
         let (orientation_error, false_orientations) = orientations(analysis, truth);
         let count = analysis.subdivision.faces().len();
+        let counted = truth.places.iter().zip(&matches).filter(|(place, _)| place.observed >= OBSERVED);
+        let seen = counted.filter_map(|(place, found)| {
+            let face = found.fitting(&faces.areas)?;
+            Some((place.occupied, &analysis.faces[face as usize]))
+        });
+        let occupancy = OccupancyScores::of(seen);
         let geometry = GeometryScores {
             faces: count,
             places: truth.places.len(),
@@ -270,6 +268,7 @@ impl<'a> Evaluator<'a> {
             boundary_precision,
             orientation_error,
             false_orientations,
+            occupancy,
         };
         let true_areas = labels.map(|areas| areas.iter().map(|area| area.area()).sum());
         Ok(Self { analysis, truth, matches, face_areas: faces.areas, inside, true_areas, geometry })
@@ -321,13 +320,8 @@ impl<'a> Evaluator<'a> {
         Ok(LabelScores { places, regions, precision, f1, false_cells: wrong, slivers, overlap, cogency })
     }
 
-    fn intersection_over_union(&self, place: &Match, (face, common): (u32, f64)) -> f64 {
-        common / (self.face_areas[face as usize] + place.area - common)
-    }
-
     fn verdict(&self, place: &Match, is_cell: impl Fn(u32) -> bool) -> Verdict {
-        let fits = |&&overlap: &&(u32, f64)| self.intersection_over_union(place, overlap) > SAME;
-        let fitting = place.overlaps.iter().find(fits).map(|&(face, _)| face);
+        let fitting = place.fitting(&self.face_areas);
         let covered: f64 = place.overlaps.iter().filter(|(face, _)| is_cell(*face)).map(|(_, area)| area).sum();
         Verdict {
             strict: fitting.is_some_and(&is_cell),
@@ -364,7 +358,7 @@ impl<'a> Evaluator<'a> {
         let mut fits = vec![false; self.face_areas.len()];
         for place in &self.matches {
             for &overlap in &place.overlaps {
-                fits[overlap.0 as usize] |= self.intersection_over_union(place, overlap) > SAME;
+                fits[overlap.0 as usize] |= place.fits(overlap, &self.face_areas);
             }
         }
         let least = SLIVER * median(self.matches.iter().map(|place| place.area).collect()).unwrap_or(0.0);

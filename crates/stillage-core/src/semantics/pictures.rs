@@ -6,6 +6,7 @@ use crate::annotation::{self, CellFaces};
 use crate::arrangement::{self, EdgeSource, FaceId, SourceSegment};
 use crate::categorization::{Categorization, Category, CategoryMap};
 use crate::clustering::FitReport;
+use crate::declutter::Removed;
 use crate::geometry::{OrientedBox, Point};
 use crate::grid::{Occupancy, OccupancyGrid};
 use crate::layout::{self, Location};
@@ -79,6 +80,7 @@ impl DrawnMap {
             width: grid.width(),
             height: grid.height(),
             options,
+            clutter: Removed::default(),
             categories: categorization.map,
             orientations: Orientations::default(),
             regions,
