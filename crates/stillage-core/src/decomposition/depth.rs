@@ -28,6 +28,8 @@ const WIDEST_FLUE_M: f64 = 0.7;
 const THIN_SHARE: f64 = 0.6;
 /// A body must be so long to have a say about the depth, metres.
 const LEAST_LENGTH_M: f64 = 2.0;
+/// Most layers of block storage.
+const MOST_LAYERS: usize = 16;
 /// Where vehicles must find room before a front, from the border on, metres: borders may lie inside the goods.
 const FRONT_STRIP_M: [f64; 2] = [0.25, 0.7];
 /// Share of a side along which they must.
@@ -139,12 +141,12 @@ pub(super) struct Layers {
     pub rests: Vec<Range<usize>>,
 }
 
-/// Cuts a body into rows of about a depth, and a deep one into layers of theirs.
-pub(super) fn layers(frame: &Frame, body: &Body, [depth, deep_depth]: [f64; 2], range: [f64; 2]) -> Layers {
+/// Cuts a body into rows of about a depth.
+pub(super) fn layers(frame: &Frame, body: &Body, depth: f64, range: [f64; 2]) -> Layers {
     let across = body.across();
     let thickness = body.thickness(frame);
     if body.fronts == [true, false] || body.fronts == [false, true] {
-        return before_wall(frame, body, [depth, deep_depth], range);
+        return before_wall(frame, body, depth, range);
     }
     if thickness < THIN_SHARE * depth {
         return Layers { rows: Vec::new(), rests: vec![across] };
@@ -155,7 +157,7 @@ pub(super) fn layers(frame: &Frame, body: &Body, [depth, deep_depth]: [f64; 2], 
     if thickness < thickest_pair(range[1].min(1.15 * depth)) {
         return Layers { rows: equal_parts(&across, 2), rests: Vec::new() };
     }
-    Layers { rows: equal_parts(&across, layer_count(thickness, deep_depth)), rests: Vec::new() }
+    Layers { rows: deep_layers(frame, body, depth, range), rests: Vec::new() }
 }
 
 fn equal_parts(range: &Range<usize>, count: usize) -> Vec<Range<usize>> {
@@ -163,37 +165,26 @@ fn equal_parts(range: &Range<usize>, count: usize) -> Vec<Range<usize>> {
     (0..count).map(|part| at(part)..at(part + 1)).collect()
 }
 
-/// The depth of places in the deep bodies of a region, which share it. Both sides of a body are sides of places, so its
-/// layers are equally deep; how many there are is said by goods that are not cut in two, and by the usual depth.
-pub(super) fn of_deep(frame: &Frame, bodies: &[Body], depth: f64, range: [f64; 2]) -> f64 {
+/// The layers of a deep body. Both sides of it are sides of places, so the layers are equally deep; how many there are is
+/// said by goods that are not cut in two, and by the usual depth.
+fn deep_layers(frame: &Frame, body: &Body, depth: f64, range: [f64; 2]) -> Vec<Range<usize>> {
+    let across = body.across();
+    let thickness = body.thickness(frame);
     let widths = [range[0] - comb::NARROWER_M, range[1] + comb::WIDER_M];
-    let is_deep = |body: &&Body| {
-        body.fronts[0] == body.fronts[1] && body.thickness(frame) >= thickest_pair(range[1].min(1.15 * depth))
+    let evidence = Evidence::of(&frame.patch(&body.rect, body.axis.other()), frame.cell, widths);
+    let cost = |count: usize| {
+        let parts = equal_parts(&(0..across.len()), count);
+        let uneven: f64 = parts.iter().map(|part| evidence.unevenness(part.start, part.len())).sum();
+        uneven / count as f64 + DEEP_PRIOR * (thickness / count as f64 - depth).abs()
     };
-    let evidence = |body: &Body| Evidence::of(&frame.patch(&body.rect, body.axis.other()), frame.cell, widths);
-    let columns: Vec<Evidence> = bodies.iter().filter(is_deep).map(evidence).collect();
-    let cost = |wanted: f64| {
-        let (mut uneven, mut misfit, mut layers) = (0.0, 0.0, 0.0);
-        for column in &columns {
-            let count = layer_count(column.len() as f64 * frame.cell, wanted);
-            let parts = equal_parts(&(0..column.len()), count);
-            uneven += parts.iter().map(|part| column.unevenness(part.start, part.len())).sum::<f64>();
-            misfit += count as f64 * (column.len() as f64 * frame.cell / count as f64 - wanted).abs();
-            layers += count as f64;
-        }
-        (uneven + DEEP_PRIOR * misfit) / layers.max(1.0) + DEEP_PRIOR * (wanted - depth).abs()
-    };
-    let steps = ((range[1] - range[0]) / DEPTH_STEP_M).round() as usize;
-    let depths = (0..=steps).map(|step| range[0] + step as f64 * DEPTH_STEP_M);
-    depths.min_by(|&one, &other| cost(one).total_cmp(&cost(other))).unwrap_or(depth)
-}
-
-fn layer_count(thickness: f64, depth: f64) -> usize {
-    (thickness / depth).round().max(1.0) as usize
+    let most = ((thickness / range[0]) as usize).clamp(1, MOST_LAYERS);
+    let least = ((thickness / range[1]).ceil() as usize).clamp(1, most);
+    let count = (least..=most).min_by(|&one, &other| cost(one).total_cmp(&cost(other))).unwrap_or(1);
+    equal_parts(&across, count)
 }
 
 /// The row along the aisle on the one side of a body, before the wall on the other.
-fn before_wall(frame: &Frame, body: &Body, [depth, deep_depth]: [f64; 2], range: [f64; 2]) -> Layers {
+fn before_wall(frame: &Frame, body: &Body, depth: f64, range: [f64; 2]) -> Layers {
     let across = body.across();
     let low_front = body.fronts[0];
     let patch = frame.patch(&body.rect, body.axis);
@@ -214,8 +205,8 @@ fn before_wall(frame: &Frame, body: &Body, [depth, deep_depth]: [f64; 2], range:
     let shift = |part: Range<usize>| across.start + part.start..across.start + part.end;
     if room.len() as f64 * frame.cell >= thickest_pair(range[1]) {
         // Deep storage against a wall.
-        let thickness = room.len() as f64 * frame.cell;
-        let rows = equal_parts(&shift(room.clone()), layer_count(thickness, deep_depth));
+        let rect = body.rect.with(body.axis.other(), shift(room.clone()));
+        let rows = deep_layers(frame, &Body { rect, ..body.clone() }, depth, range);
         let rest = if low_front { room.end..patch.height } else { 0..room.start };
         return Layers { rows, rests: vec![shift(rest)].into_iter().filter(|rest| !rest.is_empty()).collect() };
     }

@@ -63,14 +63,13 @@ pub(super) fn lay_out(
             BlockKind::Body => bodies.push(Body::of(frame, block)),
         }
     }
-    let usual = depth::usual(frame, &bodies, hints.depth);
-    let depths = [usual, depth::of_deep(frame, &bodies, usual, hints.depth)];
+    let depth = depth::usual(frame, &bodies, hints.depth);
     let widths = [hints.pitch[0] - comb::NARROWER_M, hints.pitch[1] + comb::WIDER_M];
     let mut rows = Vec::new();
     for body in &bodies {
         watch.check()?;
         let across = body.axis.other();
-        let layers = depth::layers(frame, body, depths, hints.depth);
+        let layers = depth::layers(frame, body, depth, hints.depth);
         for layer in layers.rows {
             let rect = body.rect.with(across, layer);
             let evidence = Evidence::of(&frame.patch(&rect, body.axis), frame.cell, widths);
