@@ -7,7 +7,8 @@
 //! The paper (II-B) cuts a region by infinite lines through the peaks of its radiograms. That labels areas well and cuts
 //! few pallet cells right, since peaks sit on goods and racks drift. Here straight drivable bands are found first
 //! ([`blocks`]); what lies between two of them is a body of one or more rows ([`rows`]); the cells of a row come from the
-//! evidence for their borders ([`evidence`], [`comb`]), and every line ends where its evidence does ([`lines`]).
+//! evidence for their borders ([`evidence`], [`comb`]) and from the goods in them, which are alike ([`goods`],
+//! [`reading`]), and every line ends where its evidence does ([`lines`]).
 //!
 //! Everything is in metres; the result does not depend on the number of threads. Cost: O(cells + row cells x pitches).
 

@@ -1,10 +1,10 @@
-//! The pitch of the places of a block, from all of its rows together.
+//! First guesses of the pitch, and whether rows have one at all.
 //!
-//! Every candidate is fitted to every row; what the borders earn is compared with what borders earn on average. A sum
-//! would favour fractions of the pitch and a mean its multiples, so the excess is divided by powers of the number of
-//! borders and of the length in between. The comb alone still takes a half-open pallet for a place now and then; how well
-//! the rows repeat themselves at the pitch, and at two of it, is added. Right for 64 of 68 generated regions, 53 without
-//! unevenness and repeats, 25 for repeats alone. Cost: O(candidates x cells).
+//! Every candidate is fitted to every row by the borders and the evenness of its places alone; [`super::reading`] starts
+//! from there. Whether there is anything to read is said by the best candidate: what its borders earn is compared with
+//! what borders earn on average. A sum would favour fractions of the pitch and a mean its multiples, so the excess is
+//! divided by powers of the number of borders and of the length in between; how well the rows repeat themselves at the
+//! pitch, and at two of it, is added. Cost: O(candidates x cells).
 
 use rayon::prelude::*;
 

@@ -154,7 +154,7 @@ pub(super) struct Rows<'a> {
 }
 
 impl Rows<'_> {
-    /// A reading for each row; none where rows are too short to tell.
+    /// A reading for each row; none where rows are too short to tell or show nothing.
     pub(super) fn read(&self) -> Vec<Option<Reading>> {
         let all: Vec<usize> = (0..self.rows.len()).collect();
         let Some(first) = self.best(&self.sample(&all)) else { return vec![None; self.rows.len()] };
@@ -228,6 +228,9 @@ impl Rows<'_> {
     /// The reading for a row: one of those found, at its pitch or another.
     fn choose(&self, row: usize, readings: &[Reading], noise: f64) -> Option<Reading> {
         let row = self.rows[row];
+        if row.content.iter().all(|&content| content <= 0.0) {
+            return None;
+        }
         let scored = |reading: Reading, price: f64| (reading.score(row, noise) - price, reading);
         let better = |one: (f64, Reading), other: (f64, Reading)| if other.0 > one.0 { other } else { one };
         let price = |rank: usize| if rank == 0 { 0.0 } else { READING_PRICE };
@@ -237,5 +240,53 @@ impl Rows<'_> {
         let others =
             self.guesses.pitches.iter().map(|&pitch| scored(reading.at(pitch, row.cell), price(1) + PITCH_PRICE));
         Some(others.fold(of_group, better).1)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::frame::{Axis, Frame};
+    use super::super::site::Site;
+    use super::*;
+    use crate::geometry::{OrientedBox, Point};
+    use crate::grid::OccupancyGrid;
+    use crate::segmentation::{Region, RegionMap};
+    use crate::watch::Watch;
+
+    /// Borders of the places that a row drawn in cells of 5 cm is cut into.
+    fn check(row: &str, wanted: &expect_test::Expect) {
+        let grid = OccupancyGrid::from_ascii(&format!("{row}\n").repeat(20), 0.05);
+        let bounds = OrientedBox { center: Point::origin(), half_extents: [0.0; 2], angle: 0.0 };
+        let region = Region { orientations: vec![0.0], bounds, share: 1.0 };
+        let tile_cells = grid.width().max(grid.height());
+        let regions = RegionMap { tile_cells, columns: 1, rows: 1, tiles: vec![0], regions: vec![region] };
+        let watch = Watch::unwatched();
+        let site = Site::of(&grid, &watch).expect("nobody stops it");
+        let frame = Frame::new(&grid, &regions, 0, 0.0, &site, &watch).expect("nobody stops it");
+        let margin = frame.cells_of(-frame.start[0]);
+        let rect = frame.whole().with(Axis::U, margin..margin + grid.width()).with(Axis::V, margin..margin + 20);
+        let evidence = Evidence::of(&frame.patch(&rect, Axis::U), frame.cell, [0.7, 1.8]);
+        let rows = [&evidence];
+        let guesses = Guesses::of(&rows, [0.8, 1.6]);
+        let readings = Rows { rows: &rows, guesses: &guesses }.read();
+        let cut = readings[0].as_ref().map(|reading| reading.cut(&evidence));
+        let places = cut.iter().flat_map(Comb::places).map(|place| format!("{}..{}", place.start, place.end));
+        wanted.assert_eq(&places.collect::<Vec<_>>().join(" "));
+    }
+
+    /// Three stringers on a place of 1.1 m; the gap within a pallet is wider than that between two.
+    const FULL: &str = ".#.......##.......##..";
+    const EMPTY: &str = "......................";
+
+    #[test]
+    fn places_end_where_goods_end() {
+        let row = [FULL, FULL, EMPTY, FULL, FULL, FULL, EMPTY, FULL].concat();
+        check(&row, &expect_test::expect!["0..20 20..44 44..65 65..87 87..109 109..131 131..153 153..175"]);
+    }
+
+    #[test]
+    fn floor_that_nobody_saw_is_not_read() {
+        check(&"?".repeat(100), &expect_test::expect![""]);
+        check("..", &expect_test::expect![""]);
     }
 }

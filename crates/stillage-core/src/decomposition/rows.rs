@@ -1,7 +1,7 @@
 //! From the bodies between aisles to rows, from rows to places.
 //!
-//! The bodies are cut into rows by the depth of their places ([`super::depth`]), the rows into places by the comb. The
-//! pitch is that of all rows of one direction together, unless a row says otherwise clearly. Where it explains nothing,
+//! The bodies are cut into rows by the depth of their places ([`super::depth`]), the rows into places by the comb, with
+//! the pitch and the goods that [`super::reading`] finds in all rows of one direction together. Where nothing repeats,
 //! there is no comb: walls, shelves and furniture are not cut into places. Cost: O(cells x pitches).
 
 use std::ops::Range;
