@@ -3,6 +3,7 @@
 use serde_json::json;
 use stillage_core::geometry::{direction, normal};
 use stillage_core::radiography::Line;
+use stillage_core::segmentation::RegionMap;
 use stillage_core::{Point, Vector};
 
 use super::feature::{Feature, Geometry};
@@ -22,7 +23,7 @@ pub(super) fn lines(view: &MapView<'_>) -> Vec<Feature> {
             ("orientation", json!(orientation)),
             ("offset", json!(rounded(offset))),
             ("support", json!(rounded(line.support))),
-            ("region", json!(line.region)),
+            ("region", json!((line.region != RegionMap::NONE).then_some(line.region))),
         ]);
         let along = direction(line.orientation);
         let path =

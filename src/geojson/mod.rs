@@ -1,4 +1,4 @@
-//! Core types -> GeoJSON features of the nine collections.
+//! Core types -> GeoJSON features of the ten collections.
 //!
 //! A [`Feature`] carries its geometry in map-frame metres; a [`Transform`] writes it in the coordinates a client asked
 //! for. What all properties have in common: lengths are metres and areas square metres; orientations and headings are
@@ -45,15 +45,17 @@ pub enum Collection {
     Lines,
     /// Regions of one texture.
     Regions,
-    /// Mutually open faces of one label, merged.
+    /// Rooms, and mutually open faces of one label, merged.
     Places,
+    /// Narrow passages between places.
+    Doors,
     /// Storage locations.
     Locations,
 }
 
 impl Collection {
     /// All of them, in the order in which they are listed.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
         Self::Faces,
         Self::Edges,
         Self::Vertices,
@@ -62,6 +64,7 @@ impl Collection {
         Self::Lines,
         Self::Regions,
         Self::Places,
+        Self::Doors,
         Self::Locations,
     ];
 
@@ -77,6 +80,7 @@ impl Collection {
             Self::Lines => "lines",
             Self::Regions => "regions",
             Self::Places => "places",
+            Self::Doors => "doors",
             Self::Locations => "locations",
         }
     }
@@ -136,6 +140,7 @@ pub fn features(view: &MapView<'_>, collection: Collection) -> Vec<Feature> {
         Collection::Lines => decomposition::lines(view),
         Collection::Regions => decomposition::regions(view),
         Collection::Places => semantics::places(view),
+        Collection::Doors => semantics::doors(view),
         Collection::Locations => semantics::locations(view),
     }
 }

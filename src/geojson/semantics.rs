@@ -1,16 +1,17 @@
-//! Places and storage locations: the human level.
+//! Places, the doors between them, and storage locations: the human level.
 
 use std::collections::HashSet;
 
 use serde_json::{Map, Value, json};
-use stillage_core::arrangement::HalfEdgeId;
+use stillage_core::arrangement::{FaceId, HalfEdgeId};
 use stillage_core::layout::{ApproachPose, Location};
+use stillage_core::rooms::Door;
 use stillage_core::semantics::Place;
 
 use super::feature::{Feature, FeatureId, Geometry};
 use super::rings::{polygons, simple_rings};
 use super::subdivision::{
-    face_geometry, heading_value, label_values, map_position, number_id, position_value, properties,
+    face_geometry, has_link, heading_value, label_values, map_position, number_id, position_value, properties,
 };
 use super::{MapView, rounded};
 
@@ -24,11 +25,31 @@ pub(super) fn places(view: &MapView<'_>) -> Vec<Feature> {
             ("labelName", label_name),
             ("functionality", functionality),
             ("areaM2", json!(rounded(place.area))),
+            ("room", json!(place.room)),
             ("faces", json!(faces)),
         ]);
         Feature::new(number_id(index), place_geometry(view, index as u32, place), properties)
     };
     view.semantic.places.iter().enumerate().map(feature).collect()
+}
+
+/// Doors run from jamb to jamb.
+pub(super) fn doors(view: &MapView<'_>) -> Vec<Feature> {
+    let place = |face: FaceId| view.semantic.face_places[face.index()];
+    let feature = |(index, door): (usize, &Door)| {
+        let [from, to] = door.faces.map(place);
+        let links: Vec<u32> = door.edges.iter().filter(|&&edge| has_link(view, edge)).map(|edge| edge.0).collect();
+        let properties = properties([
+            ("id", json!(index)),
+            ("widthM", json!(rounded(door.width()))),
+            ("from", json!(from)),
+            ("to", json!(to)),
+            ("links", json!(links)),
+        ]);
+        let path = door.ends.map(|end| map_position(view, end)).to_vec();
+        Feature::new(number_id(index), Geometry::LineString(path), properties)
+    };
+    view.analysis.rooms.doors.iter().enumerate().map(feature).collect()
 }
 
 /// The union of the faces of a place: the edges that have it on the left only, walked around.

@@ -136,7 +136,7 @@ pub(super) fn edges(view: &MapView<'_>) -> Vec<Feature> {
 }
 
 /// Whether an edge has a dual: edges on the outer boundary have none.
-fn has_link(view: &MapView<'_>, edge: EdgeId) -> bool {
+pub(super) fn has_link(view: &MapView<'_>, edge: EdgeId) -> bool {
     view.semantic.connectivity[edge.index()].is_some()
 }
 

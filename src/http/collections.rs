@@ -135,7 +135,10 @@ const fn describe(collection: Collection) -> (&'static str, &'static str) {
         Collection::Links => ("Links", "The links of the adjacency graph, with their connectivity"),
         Collection::Lines => ("Lines", "The straight alignments of obstacles behind the decomposition"),
         Collection::Regions => ("Regions", "Blocks of the map with a pattern of their own"),
-        Collection::Places => ("Places", "Mutually open faces of one label, merged: corridors, junctions, blocks"),
+        Collection::Places => {
+            ("Places", "Rooms, and mutually open faces of one label, merged: corridors, junctions, blocks")
+        }
+        Collection::Doors => ("Doors", "Narrow passages between two places, from jamb to jamb"),
         Collection::Locations => ("Locations", "Storage locations with code, aisle, bay, occupancy and approach"),
     }
 }
@@ -181,7 +184,7 @@ pub async fn off_the_runtime<T: Send + 'static>(
 
 /// List collections
 ///
-/// The nine collections of an analysed map.
+/// The ten collections of an analysed map.
 #[utoipa::path(get, path = "/v1/maps/{mapId}/collections", tag = "features", operation_id = "listCollections",
     params(MapPath),
     responses((status = 200, description = "The collections", body = CollectionList,

@@ -10,7 +10,7 @@
 //! are the lines of the subdivision ([`outline`]), so every room is a union of faces. [`plan`] says which ground is rooms
 //! and which is rows.
 //!
-//! Cost: O(cells). Limits: openings as wide as the room behind them part nothing.
+//! Cost: O(cells log cells). Limits: openings as wide as the room behind them part nothing.
 
 mod doors;
 mod flood;
@@ -96,13 +96,15 @@ impl Rooms {
             return Vec::new();
         }
         let cells = CellFaces::rasterize(subdivision, grid.width(), grid.height(), grid.resolution());
-        let mut pairs: Vec<(FaceId, u32)> = cells.as_slice().iter().copied().zip(self.cells.iter().copied()).collect();
-        pairs.retain(|&(face, _)| face != FaceId::OUTER);
-        pairs.sort_unstable();
+        let pairs: Vec<(FaceId, u32)> = cells.as_slice().iter().copied().zip(self.cells.iter().copied()).collect();
+        let mut runs: Vec<(FaceId, u32, usize)> =
+            pairs.chunk_by(PartialEq::eq).map(|run| (run[0].0, run[0].1, run.len())).collect();
+        runs.sort_unstable();
         let mut room_of = vec![0; subdivision.face_count()];
-        for cells in pairs.chunk_by(|one, other| one.0 == other.0) {
-            let most = cells.chunk_by(PartialEq::eq).max_by_key(|cells| cells.len());
-            room_of[cells[0].0.index()] = most.map_or(0, |cells| cells[0].1);
+        for runs in runs.chunk_by(|one, other| one.0 == other.0).filter(|runs| runs[0].0 != FaceId::OUTER) {
+            let cells = |runs: &&[(FaceId, u32, usize)]| runs.iter().map(|run| run.2).sum::<usize>();
+            let most = runs.chunk_by(|one, other| one.1 == other.1).max_by_key(cells);
+            room_of[runs[0].0.index()] = most.map_or(0, |runs| runs[0].1);
         }
         let mut numbers = vec![None; self.count + 1];
         let mut next = 0;
