@@ -10,7 +10,7 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use super::frame::{Axis, Frame, Rect};
+use super::frame::{Axis, Cell, Frame, Rect};
 use super::{Parcel, PlotKind};
 
 /// What reaches this far into a piece from its inner neighbour is the neighbour's: overhang and drift, metres.
@@ -85,9 +85,9 @@ fn is_bare(frame: &Frame, piece: &Parcel, axis: Axis, is_low: bool) -> bool {
         along.start + overhang..(along.end + reach).min(most)
     };
     let patch = frame.patch(&piece.rect.with(axis, seen), axis);
-    let count = |is: fn(super::frame::Cell) -> bool| patch.cells.iter().filter(|&&cell| is(cell)).count() as f64;
-    let occupied = count(|cell| cell.is_occupied()) * frame.cell * frame.cell;
-    let unknown = count(|cell| cell.is_unknown());
+    let count = |is: fn(Cell) -> bool| patch.cells.iter().filter(|&&cell| is(cell)).count() as f64;
+    let occupied = count(Cell::is_occupied) * frame.cell * frame.cell;
+    let unknown = count(Cell::is_unknown);
     occupied < LEAST_POST_M2 && unknown <= UNSEEN_SHARE * patch.cells.len() as f64
 }
 
@@ -102,7 +102,9 @@ fn end_bands(frame: &Frame, parcels: Vec<Parcel>) -> Vec<Parcel> {
         let first = block.iter().filter_map(|band| band.served().position(|here| here)).min();
         let last = block.iter().filter_map(|band| band.served().rposition(|here| here)).max();
         if let (Some(first), Some(last)) = (first, last) {
-            block.iter_mut().for_each(|band| band.reach = first..last + 1);
+            for band in block {
+                band.reach = first..last + 1;
+            }
         }
     }
     let stretches: Vec<Stretch> = bands.iter().flat_map(|band| band.stretches(frame)).collect();
@@ -179,7 +181,9 @@ fn close_gaps(served: &mut [bool], least: usize) {
         }
         start += run.len();
     }
-    gaps.into_iter().for_each(|gap| served[gap].fill(true));
+    for gap in gaps {
+        served[gap].fill(true);
+    }
 }
 
 /// A stretch of a band, and whether places lie along its low and its high side.

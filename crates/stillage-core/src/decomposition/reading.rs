@@ -201,7 +201,8 @@ impl Rows<'_> {
         let best = coarse.into_iter().reduce(better)?;
         let near = [best.0.checked_sub(1), Some(best.0 + 1).filter(|&next| next < count)];
         let fine = near.into_iter().flatten().flat_map(|at| self.fits(of, at));
-        fine.fold(Some(best), |best, next| best.map(|best| better(best, next))).map(|(_, reading, _)| reading)
+        let (_, reading, _) = fine.fold(best, better);
+        Some(reading)
     }
 
     /// Rows read at a pitch, with goods as guessed and half a place further.

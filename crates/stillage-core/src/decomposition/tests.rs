@@ -94,10 +94,10 @@ fn empty_places_are_places_too() {
 fn racks(distance: usize) -> OccupancyGrid {
     let (columns, rows) = (600, 480);
     let mut cells = vec![Occupancy::Free; columns * rows];
-    for index in 0..columns * rows {
+    for (index, cell) in cells.iter_mut().enumerate() {
         let (column, row) = (index % columns, index / columns);
         if column < 2 || row < 2 || column + 2 >= columns || row + 2 >= rows {
-            cells[index] = Occupancy::Occupied;
+            *cell = Occupancy::Occupied;
         }
     }
     for row in 0..8 {
@@ -121,7 +121,7 @@ fn bare_racks_are_combed_by_their_posts() {
 #[test]
 fn a_row_ends_with_its_last_goods() {
     // The first row is two places shorter than the others: floor, and the aisles run on along the others.
-    let ragged = PalletHall { places: 10, double_rows: 2, is_empty: |place| place < 10 && place >= 8 };
+    let ragged = PalletHall { places: 10, double_rows: 2, is_empty: |place| (8..10).contains(&place) };
     check(&ragged.grid(), &expect!["38 Place, 3 Aisle, 4 Lane, 0 Gap, 4 Rest of 1.20 x 1.10 m"]);
 }
 

@@ -100,11 +100,16 @@ impl Ground {
             let diagonal = ((high[0] - low[0]) as f64).hypot((high[1] - low[1]) as f64) * self.cell;
             if touches_border {
                 continue;
-            } else if diagonal < FURNITURE_M {
-                members.iter().for_each(|&cell| self.is_free[cell] = true);
+            }
+            if diagonal < FURNITURE_M {
+                for &cell in &members {
+                    self.is_free[cell] = true;
+                }
             } else if self.is_stack(&members) {
                 stacks += 1;
-                members.iter().for_each(|&cell| self.stacks[cell] = stacks);
+                for &cell in &members {
+                    self.stacks[cell] = stacks;
+                }
             }
         }
         Ok(())

@@ -223,13 +223,15 @@ fn true_rooms(picture: &OccupancyGrid) -> Vec<u32> {
             next += 1;
         } else {
             // Too small for a room, and not looked at again.
-            members.into_iter().for_each(|cell| rooms[cell] = u32::MAX);
+            for cell in members {
+                rooms[cell] = u32::MAX;
+            }
         }
     }
     rooms.into_iter().map(|room| if room == u32::MAX { 0 } else { room }).collect()
 }
 
-/// Panoptic quality (A. Kirillov et al. 2019): the overlaps of rooms with IoU above one half, over the mean number of
+/// Panoptic quality (A. Kirillov et al. 2019): the overlaps of rooms above one half, over the mean number of
 /// rooms.
 fn panoptic_quality(found: &[u32], truth: &[u32]) -> f64 {
     use std::collections::BTreeMap;
