@@ -118,8 +118,12 @@ fn components(is_in: &[bool], width: usize) -> Vec<usize> {
 /// Segments of more than [`SMALLEST`] cells.
 fn without_small(mut labels: Vec<usize>) -> Vec<usize> {
     let mut sizes = vec![0; labels.iter().max().map_or(1, |&last| last + 1)];
-    labels.iter().for_each(|&label| sizes[label] += 1);
-    labels.iter_mut().filter(|label| sizes[**label] <= SMALLEST).for_each(|label| *label = 0);
+    for &label in &labels {
+        sizes[label] += 1;
+    }
+    for label in labels.iter_mut().filter(|label| sizes[**label] <= SMALLEST) {
+        *label = 0;
+    }
     labels
 }
 
