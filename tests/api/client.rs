@@ -183,6 +183,13 @@ impl Api {
         format!("/v1/maps/{}", job["mapId"].as_str().expect("an id"))
     }
 
+    /// An assignment that gives every category of a map one label.
+    pub async fn all_labelled(&self, map: &str, label: &str) -> Value {
+        let list = self.get(&format!("{map}/categories")).await.json();
+        let count = list["categories"].as_array().map_or(0, Vec::len);
+        (0..count).map(|category| (category.to_string(), Value::from(label))).collect()
+    }
+
     /// Uploads the hall and analyses it; its path.
     pub async fn hall(&self) -> String {
         self.analysed(&pgm(HALL)).await

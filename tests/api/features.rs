@@ -201,8 +201,8 @@ async fn media_types_of_items() {
 async fn locations_are_a_table_too() {
     let api = Api::new().await;
     let map = api.hall().await;
-    // Every face a pallet cell but the first, so that there are locations for sure.
-    let all: serde_json::Map<String, Value> = (0..8).map(|category| (category.to_string(), json!("pc"))).collect();
+    // Every face a pallet cell, so that there are locations for sure.
+    let all = api.all_labelled(&map, "pc").await;
     let answer = api
         .send_json(Method::PUT, &format!("{map}/semantics"), &[("if-match", "*")], &json!({"assignment": all}))
         .await;

@@ -1,14 +1,14 @@
 //! Routes through a map.
 
 use axum::http::Method;
-use serde_json::{Value, json};
+use serde_json::json;
 
 use crate::client::Api;
 
 /// A hall in which every place is a corridor: robots may drive wherever cells are free.
 async fn drivable_hall(api: &Api) -> String {
     let map = api.hall().await;
-    let all: serde_json::Map<String, Value> = (0..8).map(|category| (category.to_string(), json!("co"))).collect();
+    let all = api.all_labelled(&map, "co").await;
     let body = json!({"ruleSet": "warehouse", "assignment": all});
     let answer = api.send_json(Method::PUT, &format!("{map}/semantics"), &[("if-match", "*")], &body).await;
     assert_eq!(answer.status, 200, "{}", answer.text());

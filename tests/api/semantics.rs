@@ -138,8 +138,7 @@ async fn labels_are_assigned_in_versions_without_a_job() {
     let tag = suggested.header("etag").to_owned();
     let faces_before = api.get(&format!("{map}/collections/faces/items")).await;
 
-    let all_corridor: serde_json::Map<String, Value> =
-        (0..8).map(|category| (category.to_string(), json!("co"))).collect();
+    let all_corridor = api.all_labelled(&map, "co").await;
     let body = json!({"ruleSet": "warehouse", "assignment": all_corridor, "overrides": [{"face": 1, "label": "ju"}]});
     api.send_json(Method::PUT, &path, &[], &body).await.problem(428, "precondition-required");
     let assigned = put(&api, &path, &tag, &body).await;
