@@ -38,6 +38,10 @@ const FRONT_SHARE: f64 = 0.5;
 const TURN_FACTOR: f64 = 1.5;
 /// Occupied share of a line of cells that makes it a wall.
 const WALL_SHARE: f64 = 0.5;
+/// Where one sees between goods, behind their fronts, metres, and the share of the front along which one does: nothing is
+/// seen behind a wall, and all of it where there is another room.
+const BEHIND_M: [f64; 2] = [0.2, 0.5];
+const SEEN_BETWEEN_GOODS: [f64; 2] = [0.04, 0.7];
 /// Room for more than this many rows before a wall is more than one row.
 const DEEP_ROOM: f64 = 1.5;
 /// What a metre off the usual depth costs beside the unevenness of layers.
@@ -188,16 +192,26 @@ fn before_wall(frame: &Frame, body: &Body, depth: f64, range: [f64; 2]) -> Layer
     let across = body.across();
     let low_front = body.fronts[0];
     let patch = frame.patch(&body.rect, body.axis);
-    let share =
-        |y: usize| patch.row(y).iter().filter(|cell| cell.is_occupied()).count() as f64 / patch.width.max(1) as f64;
-    let is_wall = |&y: &usize| share(y) >= WALL_SHARE;
+    let row_depth = frame.cells_of(depth).max(1);
+    let [near, far] = BEHIND_M.map(|metres| frame.cells_of(metres));
+    // Nearer to the front than a place is deep, a line may be the front of goods: those let the robot see between them.
+    let is_wall = |&y: &usize| {
+        let from_front = if low_front { y } else { patch.height - 1 - y };
+        if from_front as f64 >= THIN_SHARE * row_depth as f64 {
+            patch.occupied_share(y..y + 1) >= WALL_SHARE
+        } else {
+            let behind = if low_front { y + near..y + far } else { y.saturating_sub(far)..y.saturating_sub(near) };
+            let seen = patch.known_share(behind.start.min(patch.height)..behind.end.min(patch.height));
+            patch.occupied_share(y..y + 1) >= WALL_SHARE
+                && !(SEEN_BETWEEN_GOODS[0]..SEEN_BETWEEN_GOODS[1]).contains(&seen)
+        }
+    };
     let wall = if low_front { (0..patch.height).rev().find(is_wall) } else { (0..patch.height).find(is_wall) };
     let room = match wall {
         Some(wall) if low_front => 0..wall,
         Some(wall) => wall + 1..patch.height,
         None => 0..patch.height,
     };
-    let row_depth = frame.cells_of(depth).max(1);
     let rows = room.len() as f64 / row_depth as f64;
     if rows < THIN_SHARE {
         return Layers { rows: Vec::new(), rests: vec![across] };

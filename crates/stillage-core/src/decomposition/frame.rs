@@ -220,4 +220,16 @@ impl Patch {
     pub fn row(&self, row: usize) -> &[Cell] {
         &self.cells[row * self.width..(row + 1) * self.width]
     }
+
+    /// Share of the columns of which somebody saw a cell in any of some rows.
+    pub fn known_share(&self, rows: std::ops::Range<usize>) -> f64 {
+        let is_known = |column: &usize| rows.clone().any(|row| !self.row(row)[*column].is_unknown());
+        (0..self.width).filter(is_known).count() as f64 / self.width.max(1) as f64
+    }
+
+    /// Share of the columns that are occupied in any of some rows.
+    pub fn occupied_share(&self, rows: std::ops::Range<usize>) -> f64 {
+        let is_occupied = |column: &usize| rows.clone().any(|row| self.row(row)[*column].is_occupied());
+        (0..self.width).filter(is_occupied).count() as f64 / self.width.max(1) as f64
+    }
 }

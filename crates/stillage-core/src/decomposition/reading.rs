@@ -1,7 +1,8 @@
 //! How the rows of one direction are read: the pitch of their places and the shape of the goods in them.
 //!
-//! Every pitch is tried, with goods as a first guess has them and with goods half a place further, for a row of full
-//! places looks the same from both; where goods end, at posts and at uprights, only one of them is right. Goods and cuts
+//! Every pitch is tried, with goods as a first guess has them and with goods a quarter, a half and three quarters of a
+//! place further, for a row of full places looks the same from all; where goods end, at posts and at uprights, only one
+//! of them is right. Goods and cuts
 //! are found by turns, as in expectation maximization, and the reading that explains the rows best for its number of
 //! places is taken: a likelihood with the remaining energy as its noise, and a price for each place (minimum description
 //! length, J. Rissanen 1978, doi 10.1016/0005-1098(78)90005-5).
@@ -205,14 +206,15 @@ impl Rows<'_> {
         Some(reading)
     }
 
-    /// Rows read at a pitch, with goods as guessed and half a place further.
+    /// Rows read at a pitch, with goods as guessed and by quarters of a place further.
     fn fits(&self, of: &[usize], at: usize) -> Vec<(usize, Reading, Account)> {
         let pitch = self.guesses.pitches[at];
         let of: Vec<usize> = of.iter().copied().filter(|&row| Guesses::tells(self.rows[row], pitch)).collect();
         let rows: Vec<&Evidence> = of.iter().map(|&row| self.rows[row]).collect();
         let Some(cell) = rows.first().map(|row| row.cell) else { return Vec::new() };
+        // Middles are doubled, so half a pitch is a quarter of a place.
         [0.0, 0.5, 1.0, 1.5]
-            .map(|s: f64| (s * pitch / cell).round() as usize)
+            .map(|quarters: f64| (quarters * pitch / cell).round() as usize)
             .map(|shift| {
                 let places = of.iter().map(|&row| {
                     let middles = goods::middles(&self.guesses.of_row[row][at]);
