@@ -4,22 +4,22 @@
 //! Panoptic quality (A. Kirillov et al., CVPR 2019): the mean intersection over union of the pairs above one half, times
 //! their F1. Strict MCC (after M. Mielle et al., ICRA 2018): rooms are paired one to one, the largest overlap first; the
 //! Matthews correlation of each pair over all cells of either side, 0 for what is left alone. Places count where the map
-//! is free; segments of a hundred cells or fewer are dropped on both sides, as the field does.
+//! is white; segments of a hundred cells or fewer are dropped on both sides, as the field does.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::path::Path;
 
 use rayon::prelude::*;
+use stillage_core::AnalysisSpec;
 use stillage_core::annotation::CellFaces;
 use stillage_core::semantics::{self, Assignment, RuleSet};
-use stillage_core::{AnalysisSpec, Occupancy};
 
 use crate::{Outcome, sites};
 
 /// Segments of so many cells or fewer are none.
 const SMALLEST: usize = 100;
-/// Grey levels above this are rooms in a truth.
+/// From this grey level on, a map is free and a truth is room; these drawings have walls in light grey.
 const WHITE: u8 = 250;
 const SETS: [(&str, &str); 2] = [("plain", "map.png"), ("furnished", "map_furnished.png")];
 
@@ -73,18 +73,20 @@ fn score(folder: &Path, image: &str) -> Outcome<Scores> {
     let semantic = semantics::apply(&analysis, &rules, &assignment).map_err(|problems| problems[0].to_string())?;
     let (width, height) = (analysis.width, analysis.height);
     let faces = CellFaces::rasterize(&analysis.subdivision, width, height, site.grid.resolution());
+    let map = image::open(folder.join(image))?.into_luma8();
+    let is_white: Vec<bool> = map.rows().rev().flatten().map(|pixel| pixel.0[0] >= WHITE).collect();
     let place = |cell: usize| {
         let (column, row) = (cell % width, cell / width);
-        let is_free = site.grid.row(row)[column] == Occupancy::Free;
+        let is_free = is_white[cell];
         let place = semantic.face_places[faces.at(column, row).index()].filter(|_| is_free);
         place.map_or(0, |place| place as usize + 1)
     };
-    let places = without_small((0..width * height).map(place).collect());
     let truth = image::open(folder.join("gt_segmentation.png"))?.into_luma8();
-    let is_room: Vec<bool> = truth.rows().rev().flatten().map(|pixel| pixel.0[0] > WHITE).collect();
-    if is_room.len() != places.len() {
+    if truth.dimensions() != map.dimensions() {
         return Err(format!("{}: map and truth differ in size", folder.display()).into());
     }
+    let places = without_small((0..width * height).map(place).collect());
+    let is_room: Vec<bool> = truth.rows().rev().flatten().map(|pixel| pixel.0[0] >= WHITE).collect();
     let rooms = without_small(components(&is_room, width));
     Ok(Contingency::of(&places, &rooms).scores())
 }
