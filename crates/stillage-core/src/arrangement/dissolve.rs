@@ -2,7 +2,7 @@
 //!
 //! What is left of the edges is noded already, so the half-edges are linked anew and all invariants hold by
 //! construction; an edge that then has one face on both sides goes as well. Vertices, edges and faces are numbered anew
-//! in the same canonical order. Cost: that of [`builder`](super::builder).
+//! in the same canonical order. Cost: that of [`builder`].
 
 use super::builder;
 use super::ids::EdgeId;
