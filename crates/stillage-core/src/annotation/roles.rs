@@ -10,6 +10,7 @@ use crate::geometry::{Point, direction, normal};
 
 /// Side of a bucket of plots, metres: about a place.
 const BUCKET_M: f64 = 2.0;
+
 /// What every face was cut out for, by face id; `None` where no plot lies.
 pub(super) fn kinds(graph: &AdjacencyGraph, faces: &[FaceAnnotation], plots: &[Plot]) -> Vec<Option<PlotKind>> {
     let index = PlotIndex::new(plots);

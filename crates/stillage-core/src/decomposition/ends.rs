@@ -2,7 +2,8 @@
 //!
 //! The comb fills a row from side to side, but the row of goods ends where its last sign does: free pieces beyond it are
 //! open floor. A band serves a row along its places only: where it runs on without any, and where there is room for
-//! a further aisle beside that of the row, it is open floor as well. Open floor is a [`PlotKind::Lane`], whatever band it was found in.
+//! a further aisle beside that of the row, it is open floor as well. Open floor is a [`PlotKind::Lane`], whatever band it
+//! was found in.
 //!
 //! Cost: O(cells of the pieces at the ends + bands x places). Limits: an empty place at the end of a row without a post
 //! is given up, since nothing tells it from floor.
@@ -27,6 +28,7 @@ const CONTACT_M: f64 = 0.3;
 const OPEN_STRETCH_M: f64 = 1.9;
 /// The same at the ends of a block, metres.
 const OPEN_END_M: f64 = 0.5;
+
 /// Ends rows and bands where their signs end.
 pub(super) fn end(frame: &Frame, parcels: Vec<Parcel>) -> Vec<Parcel> {
     let parcels = end_rows(frame, parcels);
