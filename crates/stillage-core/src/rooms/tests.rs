@@ -29,6 +29,13 @@ fn drawn(picture: &str) -> OccupancyGrid {
     OccupancyGrid::new(width, height, frame, (0..width * height).map(cell).collect())
 }
 
+/// A grid of so many columns and rows, told by the centres of its cells, metres.
+fn told(columns: usize, rows: usize, at: impl Fn(Point) -> Occupancy) -> OccupancyGrid {
+    let center = |index: usize| Point::new((index % columns) as f64 + 0.5, (index / columns) as f64 + 0.5) * CELL;
+    let frame = GridFrame { resolution: CELL, origin: Point::origin(), yaw: 0.0 };
+    OccupancyGrid::new(columns, rows, frame, (0..columns * rows).map(|index| at(center(index))).collect())
+}
+
 /// The grid as one region of one direction.
 fn one_region(grid: &OccupancyGrid) -> RegionMap {
     let tile_cells = grid.width().max(grid.height()).max(1);
@@ -140,9 +147,8 @@ fn furniture_divides_nothing() {
 /// A square of 12 m, turned by 30 degrees, with a wall across it that has a door of 1 m.
 #[test]
 fn slanted_walls_are_as_good_as_any() {
-    let (side, turn) = (400_usize, 30_f64.to_radians());
-    let cell = |index: usize| {
-        let center = Point::new((index % side) as f64 + 0.5, (index / side) as f64 + 0.5) * CELL;
+    let turn = 30_f64.to_radians();
+    let grid = told(400, 400, |center| {
         let offset = center - Point::new(10.0, 10.0);
         let (along, across) = (direction(turn).dot(&offset), normal(turn).dot(&offset));
         let is_wall = (along.abs().max(across.abs()) > 5.9) || (along - 1.0).abs() < 0.1 && (across - 2.0).abs() > 0.5;
@@ -151,9 +157,7 @@ fn slanted_walls_are_as_good_as_any() {
             _ if is_wall => Occupancy::Occupied,
             _ => Occupancy::Free,
         }
-    };
-    let frame = GridFrame { resolution: CELL, origin: Point::origin(), yaw: 0.0 };
-    let grid = OccupancyGrid::new(side, side, frame, (0..side * side).map(cell).collect());
+    });
     check(
         &grid,
         &expect![[r#"
@@ -176,7 +180,8 @@ fn grids_without_ground_have_no_rooms() {
 /// Pallets in rows stay rows behind the wall of an office.
 #[test]
 fn an_office_in_the_corner_of_a_hall_is_a_room() {
-    let at = |x: f64, y: f64| {
+    let grid = told(480, 400, |Point { coords }| {
+        let (x, y) = (coords.x, coords.y);
         let is_wall = |x: f64, y: f64| x < 0.1 || y < 0.1 || x > 23.9 || y > 19.9;
         let in_office = x < 5.0 && y < 4.0;
         let is_partition = in_office && (x > 4.9 && !(1.0..2.0).contains(&y) || y > 3.9);
@@ -185,12 +190,7 @@ fn an_office_in_the_corner_of_a_hall_is_a_room() {
         let is_block = |offset: f64| [0.1, 0.55, 1.0].iter().any(|&start| (start..start + 0.1).contains(&offset));
         let is_pallet = in_row && is_block(along % 1.2) && is_block(across % 1.2);
         if is_wall(x, y) || is_partition || is_pallet { Occupancy::Occupied } else { Occupancy::Free }
-    };
-    let (width, height) = (480, 400);
-    let cell =
-        |index: usize| at((index % width) as f64 * CELL + CELL / 2.0, (index / width) as f64 * CELL + CELL / 2.0);
-    let frame = GridFrame { resolution: CELL, origin: Point::origin(), yaw: 0.0 };
-    let grid = OccupancyGrid::new(width, height, frame, (0..width * height).map(cell).collect());
+    });
     check(
         &grid,
         &expect![[r#"
