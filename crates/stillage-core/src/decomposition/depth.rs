@@ -10,8 +10,6 @@
 use std::ops::Range;
 
 use super::blocks::Block;
-use super::comb;
-use super::evidence::Evidence;
 use super::frame::{Axis, Frame, Rect};
 
 /// The depth that a place has when nothing else is known, metres (a 1.2 m pallet), and what a metre of deviation costs.
@@ -25,27 +23,15 @@ const MISSING_DEPTH_COST: f64 = 1.0;
 /// Widest flue, metres: building columns stand in it.
 const WIDEST_FLUE_M: f64 = 0.7;
 /// A body thinner than this share of the depth holds no row.
-const THIN_SHARE: f64 = 0.6;
+pub(super) const THIN_SHARE: f64 = 0.6;
 /// A body must be so long to have a say about the depth, metres.
 const LEAST_LENGTH_M: f64 = 2.0;
-/// Most layers of block storage.
-const MOST_LAYERS: usize = 16;
 /// Where vehicles must find room before a front, from the border on, metres: borders may lie inside the goods.
 const FRONT_STRIP_M: [f64; 2] = [0.25, 0.7];
 /// Share of a side along which they must.
 const FRONT_SHARE: f64 = 0.5;
 /// The direction of the aisles holds unless the other one has so many times more front.
 const TURN_FACTOR: f64 = 1.5;
-/// Occupied share of a line of cells that makes it a wall.
-const WALL_SHARE: f64 = 0.5;
-/// Where one sees between goods, behind their fronts, metres, and the share of the front along which one does: nothing is
-/// seen behind a wall, and all of it where there is another room.
-const BEHIND_M: [f64; 2] = [0.2, 0.5];
-const SEEN_BETWEEN_GOODS: [f64; 2] = [0.04, 0.7];
-/// Room for more than this many rows before a wall is more than one row.
-const DEEP_ROOM: f64 = 1.5;
-/// What a metre off the usual depth costs beside the unevenness of layers.
-const DEEP_PRIOR: f64 = 0.5;
 
 /// A body with the direction of its rows and the sides they are reached from.
 #[derive(Debug, Clone)]
@@ -74,7 +60,8 @@ impl Body {
         }
     }
 
-    fn across(&self) -> Range<usize> {
+    /// Its range across the rows.
+    pub(super) fn across(&self) -> Range<usize> {
         self.rect.range(self.axis.other()).clone()
     }
 
@@ -125,7 +112,7 @@ pub(super) fn usual(frame: &Frame, bodies: &[Body], range: [f64; 2]) -> f64 {
 }
 
 /// Two rows back to back cannot be thicker, metres.
-fn thickest_pair(deepest: f64) -> f64 {
+pub(super) fn thickest_pair(deepest: f64) -> f64 {
     2.0 * deepest + WIDEST_FLUE_M
 }
 
@@ -136,96 +123,4 @@ fn misfit_of_pair(thickness: f64, depth: f64) -> f64 {
     } else {
         WIDE_FLUE_COST * (flue - FLUE_M[1]).max(0.0)
     }
-}
-
-/// The rows of a body and what is left beside them, as ranges across its rows.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub(super) struct Layers {
-    pub rows: Vec<Range<usize>>,
-    pub rests: Vec<Range<usize>>,
-}
-
-/// Cuts a body into rows of about a depth.
-pub(super) fn layers(frame: &Frame, body: &Body, depth: f64, range: [f64; 2]) -> Layers {
-    let across = body.across();
-    let thickness = body.thickness(frame);
-    if body.fronts == [true, false] || body.fronts == [false, true] {
-        return before_wall(frame, body, depth, range);
-    }
-    if thickness < THIN_SHARE * depth {
-        return Layers { rows: Vec::new(), rests: vec![across] };
-    }
-    if thickness < DEEP_ROOM * depth {
-        return Layers { rows: vec![across], rests: Vec::new() };
-    }
-    if thickness < thickest_pair(range[1].min(1.15 * depth)) {
-        return Layers { rows: equal_parts(&across, 2), rests: Vec::new() };
-    }
-    Layers { rows: deep_layers(frame, body, depth, range), rests: Vec::new() }
-}
-
-fn equal_parts(range: &Range<usize>, count: usize) -> Vec<Range<usize>> {
-    let at = |part: usize| range.start + (range.len() * part + count / 2) / count;
-    (0..count).map(|part| at(part)..at(part + 1)).collect()
-}
-
-/// The layers of a deep body. Both sides of it are sides of places, so the layers are equally deep; how many there are is
-/// said by goods that are not cut in two, and by the usual depth.
-fn deep_layers(frame: &Frame, body: &Body, depth: f64, range: [f64; 2]) -> Vec<Range<usize>> {
-    let across = body.across();
-    let thickness = body.thickness(frame);
-    let widths = [range[0] - comb::NARROWER_M, range[1] + comb::WIDER_M];
-    let evidence = Evidence::of(&frame.patch(&body.rect, body.axis.other()), frame.cell, widths);
-    let cost = |count: usize| {
-        let parts = equal_parts(&(0..across.len()), count);
-        let uneven: f64 = parts.iter().map(|part| evidence.unevenness(part.start, part.len())).sum();
-        uneven / count as f64 + DEEP_PRIOR * (thickness / count as f64 - depth).abs()
-    };
-    let most = ((thickness / range[0]) as usize).clamp(1, MOST_LAYERS);
-    let least = ((thickness / range[1]).ceil() as usize).clamp(1, most);
-    let count = (least..=most).min_by(|&one, &other| cost(one).total_cmp(&cost(other))).unwrap_or(1);
-    equal_parts(&across, count)
-}
-
-/// The row along the aisle on the one side of a body, before the wall on the other.
-fn before_wall(frame: &Frame, body: &Body, depth: f64, range: [f64; 2]) -> Layers {
-    let across = body.across();
-    let low_front = body.fronts[0];
-    let patch = frame.patch(&body.rect, body.axis);
-    let row_depth = frame.cells_of(depth).max(1);
-    let [near, far] = BEHIND_M.map(|metres| frame.cells_of(metres));
-    // Nearer to the front than a place is deep, a line may be the front of goods: those let the robot see between them.
-    let is_wall = |&y: &usize| {
-        let from_front = if low_front { y } else { patch.height - 1 - y };
-        if from_front as f64 >= THIN_SHARE * row_depth as f64 {
-            patch.occupied_share(y..y + 1) >= WALL_SHARE
-        } else {
-            let behind = if low_front { y + near..y + far } else { y.saturating_sub(far)..y.saturating_sub(near) };
-            let seen = patch.known_share(behind.start.min(patch.height)..behind.end.min(patch.height));
-            patch.occupied_share(y..y + 1) >= WALL_SHARE
-                && !(SEEN_BETWEEN_GOODS[0]..SEEN_BETWEEN_GOODS[1]).contains(&seen)
-        }
-    };
-    let wall = if low_front { (0..patch.height).rev().find(is_wall) } else { (0..patch.height).find(is_wall) };
-    let room = match wall {
-        Some(wall) if low_front => 0..wall,
-        Some(wall) => wall + 1..patch.height,
-        None => 0..patch.height,
-    };
-    let rows = room.len() as f64 / row_depth as f64;
-    if rows < THIN_SHARE {
-        return Layers { rows: Vec::new(), rests: vec![across] };
-    }
-    let shift = |part: Range<usize>| across.start + part.start..across.start + part.end;
-    if room.len() as f64 * frame.cell >= thickest_pair(range[1]) {
-        // Deep storage against a wall.
-        let rect = body.rect.with(body.axis.other(), shift(room.clone()));
-        let rows = deep_layers(frame, &Body { rect, ..body.clone() }, depth, range);
-        let rest = if low_front { room.end..patch.height } else { 0..room.start };
-        return Layers { rows, rests: vec![shift(rest)].into_iter().filter(|rest| !rest.is_empty()).collect() };
-    }
-    let row_depth = if rows > DEEP_ROOM { row_depth } else { room.len() };
-    let row = if low_front { room.start..room.start + row_depth } else { room.end - row_depth..room.end };
-    let rest = if low_front { row.end..patch.height } else { 0..row.start };
-    Layers { rows: vec![shift(row)], rests: vec![shift(rest)].into_iter().filter(|rest| !rest.is_empty()).collect() }
 }

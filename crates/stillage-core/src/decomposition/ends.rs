@@ -42,8 +42,7 @@ fn end_rows(frame: &Frame, parcels: Vec<Parcel>) -> Vec<Parcel> {
     for parcel in parcels {
         match parcel.axis {
             Some(axis) if parcel.kind != PlotKind::Aisle && parcel.kind != PlotKind::Lane => {
-                let across = parcel.rect.range(axis.other());
-                rows.entry((across.start, across.end, axis == Axis::V)).or_default().push(parcel);
+                rows.entry((parcel.stack.start, parcel.stack.end, axis == Axis::V)).or_default().push(parcel);
             }
             _ => ended.push(parcel),
         }
@@ -51,7 +50,8 @@ fn end_rows(frame: &Frame, parcels: Vec<Parcel>) -> Vec<Parcel> {
     for ((_, _, is_upright), mut pieces) in rows {
         let axis = if is_upright { Axis::V } else { Axis::U };
         pieces.sort_by_key(|piece| piece.rect.range(axis).start);
-        for row in pieces.chunk_by(|one, next| one.rect.range(axis).end == next.rect.range(axis).start) {
+        let along = |piece: &Parcel| piece.rect.range(axis).clone();
+        for row in pieces.chunk_by(|one, next| along(one) == along(next) || along(one).end == along(next).start) {
             end_row(frame, row, axis, &mut ended);
         }
     }
@@ -71,7 +71,8 @@ fn end_row(frame: &Frame, row: &[Parcel], axis: Axis, ended: &mut Vec<Parcel>) {
     for floor in [before, after] {
         if let [first, .., last] | [first @ last] = floor {
             let along = first.rect.range(axis).start..last.rect.range(axis).end;
-            ended.push(Parcel::new(first.rect.with(axis, along), PlotKind::Lane, Some(axis.other())));
+            let rect = first.rect.with(axis, along).with(axis.other(), first.stack.clone());
+            ended.push(Parcel::new(rect, PlotKind::Lane, Some(axis.other())));
         }
     }
 }
@@ -86,7 +87,7 @@ fn is_bare(frame: &Frame, piece: &Parcel, axis: Axis, is_low: bool) -> bool {
     } else {
         along.start + overhang..(along.end + reach).min(most)
     };
-    let patch = frame.patch(&piece.rect.with(axis, seen), axis);
+    let patch = frame.patch(&piece.rect.with(axis, seen).with(axis.other(), piece.stack.clone()), axis);
     let count = |is: fn(Cell) -> bool| patch.cells.iter().filter(|&&cell| is(cell)).count() as f64;
     let occupied = count(Cell::is_occupied) * frame.cell * frame.cell;
     let unknown = count(Cell::is_unknown);

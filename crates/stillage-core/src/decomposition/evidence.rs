@@ -50,7 +50,7 @@ const LEAST_KNOWN: f64 = 0.04;
 const CLEAR_SHARE: f64 = 0.9;
 
 /// Evidence along a row, one number per cell.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct Evidence {
     /// How much the cells speak for a border here: about 1 at a gap with posts, below 0 within goods.
     pub border: Vec<f64>,
@@ -141,6 +141,27 @@ impl Evidence {
             widths,
             cell,
         }
+    }
+
+    /// The mean of rows of one length that are cut alike.
+    pub(super) fn mean(rows: impl IntoIterator<Item = Self>) -> Self {
+        let mut rows = rows.into_iter();
+        let mut mean = rows.next().unwrap_or_default();
+        let mut count = 1.0;
+        for row in rows {
+            let add = |sum: &mut [f64], values: &[f64]| sum.iter_mut().zip(values).for_each(|(sum, value)| *sum += value);
+            add(&mut mean.border, &row.border);
+            add(&mut mean.content, &row.content);
+            add(&mut mean.middle, &row.middle);
+            mean.mirror.iter_mut().zip(&row.mirror).for_each(|(sum, value)| *sum += value);
+            mean.is_clear.iter_mut().zip(&row.is_clear).for_each(|(all, is_clear)| *all &= is_clear);
+            count += 1.0;
+        }
+        for values in [&mut mean.border, &mut mean.content, &mut mean.middle] {
+            values.iter_mut().for_each(|value| *value /= count);
+        }
+        mean.mirror.iter_mut().for_each(|value| *value /= count as f32);
+        mean
     }
 
     /// Number of cells along the row.

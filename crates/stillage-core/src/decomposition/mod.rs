@@ -21,7 +21,9 @@ mod evidence;
 mod frame;
 mod gate;
 mod goods;
+mod layers;
 mod lines;
+mod pieces;
 mod pitch;
 mod reading;
 mod rows;
@@ -29,6 +31,8 @@ mod site;
 
 #[cfg(test)]
 mod tests;
+
+use std::ops::Range;
 
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -66,11 +70,14 @@ struct Parcel {
     rect: Rect,
     kind: PlotKind,
     axis: Option<Axis>,
+    /// The layers that it is one of, as a range across them: its own, unless it is a piece of a stack.
+    stack: Range<usize>,
 }
 
 impl Parcel {
     fn new(rect: Rect, kind: PlotKind, axis: Option<Axis>) -> Self {
-        Self { rect, kind, axis }
+        let stack = rect.range(axis.unwrap_or(Axis::U).other()).clone();
+        Self { rect, kind, axis, stack }
     }
 }
 

@@ -7,11 +7,13 @@
 use std::ops::Range;
 
 use super::blocks::{Block, BlockKind};
-use super::comb::{self, Tooth};
+use super::comb;
 use super::depth::{self, Body};
 use super::evidence::Evidence;
 use super::frame::{Axis, Frame, Rect};
 use super::gate;
+use super::layers::{self, Stack};
+use super::pieces;
 use super::pitch::Guesses;
 use super::reading::{Reading, Rows};
 use super::{Parcel, PlotKind};
@@ -23,10 +25,6 @@ pub(super) const DEPTHS_M: [f64; 2] = [0.8, 1.45];
 pub(super) const PITCHES_M: [f64; 2] = [0.8, 1.6];
 /// Cells above this are too coarse for gaps and posts, metres.
 const COARSEST_CELL_M: f64 = 0.1;
-/// Pieces narrower than this are given to their neighbour, metres.
-const SLIVER_M: f64 = 0.4;
-/// An end piece that differs from the pitch by less than this share of it is a place.
-const END_SHARE: f64 = 0.3;
 
 /// Hints of the user, metres.
 #[derive(Debug, Clone, Copy)]
@@ -42,11 +40,29 @@ impl Hints {
     }
 }
 
-/// One row of places.
+/// One row of places, or several that are reached from one side, one behind the other: their lanes run through.
 struct Row {
+    /// All layers together.
     rect: Rect,
     axis: Axis,
+    /// Ranges across the row.
+    layers: Stack,
+    /// The mean of the layers.
     evidence: Evidence,
+}
+
+impl Row {
+    fn of(frame: &Frame, body: &Body, layers: Stack, hints: &Hints) -> Self {
+        let axis = body.axis;
+        let of_layer = |layer: &Range<usize>| {
+            let rect = body.rect.with(axis.other(), layer.clone());
+            Evidence::of(&frame.patch(&rect, axis), frame.cell, hints.widths())
+        };
+        let evidence = Evidence::mean(layers.iter().map(of_layer));
+        let start = layers.iter().map(|layer| layer.start).min().unwrap_or(0);
+        let end = layers.iter().map(|layer| layer.end).max().unwrap_or(start);
+        Self { rect: body.rect.with(axis.other(), start..end), axis, layers, evidence }
+    }
 }
 
 /// Lays the blocks of a region out.
@@ -69,16 +85,11 @@ pub(super) fn lay_out(
     for axis in Axis::BOTH {
         let bodies: Vec<&Body> = bodies.iter().filter(|body| body.axis == axis).collect();
         let (mut rows, mut rests) = (Vec::new(), Vec::new());
-        for body in &bodies {
+        for (body, layers) in bodies.iter().zip(layers::cut(frame, &bodies, depth, hints.depth)) {
             watch.check()?;
-            let layers = depth::layers(frame, body, depth, hints.depth);
             let rest_of = |rest| Parcel::new(body.rect.with(axis.other(), rest), PlotKind::Rest, Some(axis));
             rests.extend(layers.rests.into_iter().map(rest_of));
-            rows.extend(layers.rows.into_iter().map(|layer| {
-                let rect = body.rect.with(axis.other(), layer);
-                let evidence = Evidence::of(&frame.patch(&rect, axis), frame.cell, hints.widths());
-                Row { rect, axis, evidence }
-            }));
+            rows.extend(layers.stacks.into_iter().map(|stack| Row::of(frame, body, stack, hints)));
         }
         watch.check()?;
         if is_periodic(frame, &rows, hints) {
@@ -120,46 +131,16 @@ fn comb_rows(
     Ok(())
 }
 
-/// Cuts a row into parcels.
+/// Cuts a row into parcels, the same in each of its layers.
 fn comb_row(frame: &Frame, row: &Row, reading: &Reading, parcels: &mut Vec<Parcel>) {
-    let comb = reading.cut(&row.evidence);
-    let pitch = reading.pitch;
-    let along = row.rect.range(row.axis).clone();
-    let mut pieces: Vec<(Range<usize>, PlotKind)> = Vec::new();
-    let mut start = 0;
-    for &(tooth, end) in &comb.pieces {
-        if end <= start {
-            continue;
-        }
-        let width = (end - start) as f64 * frame.cell;
-        let kind = match tooth {
-            Tooth::Place => PlotKind::Place,
-            Tooth::Gap => PlotKind::Gap,
-            Tooth::End if (width - pitch).abs() < END_SHARE * pitch => PlotKind::Place,
-            Tooth::Slip | Tooth::End => PlotKind::Rest,
-        };
-        pieces.push((start..end, kind));
-        start = end;
-    }
-    absorb_slivers(&mut pieces, frame.cells_of(SLIVER_M));
+    let pieces = pieces::of_comb(&reading.cut(&row.evidence), reading.pitch, frame);
+    let start = row.rect.range(row.axis).start;
+    let stack = row.rect.range(row.axis.other());
     for (piece, kind) in pieces {
-        let range = along.start + piece.start..along.start + piece.end;
-        parcels.push(Parcel::new(row.rect.with(row.axis, range), kind, Some(row.axis)));
-    }
-}
-
-/// Gives pieces too narrow for anything to the narrower of their neighbours.
-fn absorb_slivers(pieces: &mut Vec<(Range<usize>, PlotKind)>, least: usize) {
-    while let Some(index) =
-        pieces.iter().position(|(range, kind)| *kind == PlotKind::Rest && range.len() < least && pieces.len() > 1)
-    {
-        let (range, _) = pieces.remove(index);
-        let before = index.checked_sub(1).map(|before| pieces[before].0.len());
-        let after = pieces.get(index).map(|(range, _)| range.len());
-        match (before, after) {
-            (Some(before), Some(after)) if after < before => pieces[index].0.start = range.start,
-            (Some(_), _) => pieces[index - 1].0.end = range.end,
-            (None, _) => pieces[index].0.start = range.start,
+        let range = start + piece.start..start + piece.end;
+        for layer in &row.layers {
+            let rect = row.rect.with(row.axis, range.clone()).with(row.axis.other(), layer.clone());
+            parcels.push(Parcel { rect, kind, axis: Some(row.axis), stack: stack.clone() });
         }
     }
 }

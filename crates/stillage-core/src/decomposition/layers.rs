@@ -1,0 +1,162 @@
+//! How the bodies between aisles are cut into rows, one behind the other.
+//!
+//! Every place of a rack must be reached, so what is thin enough between two aisles is one row, or two back to back. What
+//! is deeper - double-deep racks, block storage, marked floors - and what stands before a wall is read across its rows
+//! as rows are read along them: the layers come from the borders between goods and from goods, which are alike and not
+//! cut in two, in all deep bodies of one direction together ([`super::reading`]). Layers that are reached from one side
+//! form a stack: their lanes run through all of them.
+//!
+//! Cost: that of reading rows as long as bodies are deep. Limits: where goods hide what is behind them, the usual depth
+//! of a pallet decides.
+
+use std::ops::Range;
+
+use super::PlotKind;
+use super::comb;
+use super::depth::{Body, THIN_SHARE, thickest_pair};
+use super::evidence::Evidence;
+use super::frame::{Frame, Patch};
+use super::pieces;
+use super::pitch::Guesses;
+use super::reading::Rows;
+
+/// A body with room for more than this many rows is more than one row.
+const DEEP_ROOM: f64 = 1.5;
+/// A pair of rows is not thicker than two that are so many times as deep as usual, and a flue.
+const DEEPER_PAIR: f64 = 1.15;
+/// Occupied share of a line of cells that makes it a wall.
+const WALL_SHARE: f64 = 0.5;
+/// Where one sees between goods, behind their fronts, metres, and the share of the front along which one does: nothing is
+/// seen behind a wall, and all of it where there is another room.
+const BEHIND_M: [f64; 2] = [0.2, 0.5];
+const SEEN_BETWEEN_GOODS: [f64; 2] = [0.04, 0.7];
+
+/// The layers of a body that are reached from one side, as ranges across its rows.
+pub(super) type Stack = Vec<Range<usize>>;
+
+/// The rows of a body and what is left beside them.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(super) struct Layers {
+    pub stacks: Vec<Stack>,
+    pub rests: Vec<Range<usize>>,
+}
+
+/// Cuts the bodies of one direction into rows of about a depth, metres, within a range.
+pub(super) fn cut(frame: &Frame, bodies: &[&Body], depth: f64, range: [f64; 2]) -> Vec<Layers> {
+    let rooms: Vec<Range<usize>> = bodies.iter().map(|body| room(frame, body, depth)).collect();
+    let is_deep = |body: &Body, room: &Range<usize>| {
+        let thickness = room.len() as f64 * frame.cell;
+        let is_single_front = body.fronts[0] != body.fronts[1];
+        thickness >= if is_single_front { DEEP_ROOM * depth } else { thickest_pair(range[1].min(DEEPER_PAIR * depth)) }
+    };
+    let deep: Vec<usize> = (0..bodies.len()).filter(|&body| is_deep(bodies[body], &rooms[body])).collect();
+    let widths = [range[0] - comb::NARROWER_M, range[1] + comb::WIDER_M];
+    let across = |&body: &usize| {
+        let Body { rect, axis, .. } = bodies[body];
+        let rect = rect.with(axis.other(), rooms[body].clone());
+        Evidence::of(&frame.patch(&rect, axis.other()), frame.cell, widths)
+    };
+    let evidence: Vec<Evidence> = deep.iter().map(across).collect();
+    let evidence: Vec<&Evidence> = evidence.iter().collect();
+    let guesses = Guesses::of(&evidence, range);
+    let readings = Rows { rows: &evidence, guesses: &guesses }.read();
+    let mut read = deep.iter().zip(evidence.into_iter().zip(readings)).peekable();
+    let cut = |(index, (body, room)): (usize, (&&Body, Range<usize>))| match read.next_if(|&(&deep, _)| deep == index) {
+        Some((_, (evidence, Some(reading)))) => {
+            let pieces = pieces::of_comb(&reading.cut(evidence), reading.pitch, frame);
+            deep_layers(body, &room, pieces)
+        }
+        _ => shallow_layers(frame, body, room, depth),
+    };
+    bodies.iter().zip(rooms).enumerate().map(cut).collect()
+}
+
+/// One row or two back to back; before a wall, the row along the aisle.
+fn shallow_layers(frame: &Frame, body: &Body, room: Range<usize>, depth: f64) -> Layers {
+    let across = body.across();
+    let rows = room.len() as f64 * frame.cell / depth;
+    if rows < THIN_SHARE {
+        return Layers { stacks: Vec::new(), rests: vec![across] };
+    }
+    if rows < DEEP_ROOM {
+        return Layers { rests: beside(&across, &room), stacks: vec![vec![room]] };
+    }
+    if body.fronts[0] == body.fronts[1] {
+        let stacks = equal_parts(&across, 2).into_iter().map(|row| vec![row]).collect();
+        return Layers { stacks, rests: Vec::new() };
+    }
+    let row_depth = frame.cells_of(depth).max(1);
+    let row =
+        if body.fronts[0] { room.start..room.start + row_depth } else { room.end - row_depth..room.end };
+    Layers { rests: beside(&across, &row), stacks: vec![vec![row]] }
+}
+
+/// What is left of a range on both sides of a part.
+fn beside(range: &Range<usize>, part: &Range<usize>) -> Vec<Range<usize>> {
+    [range.start..part.start, part.end..range.end].into_iter().filter(|rest| !rest.is_empty()).collect()
+}
+
+fn equal_parts(range: &Range<usize>, count: usize) -> Vec<Range<usize>> {
+    let at = |part: usize| range.start + (range.len() * part + count / 2) / count;
+    (0..count).map(|part| at(part)..at(part + 1)).collect()
+}
+
+/// The layers of a deep body from the pieces that its room was cut into.
+fn deep_layers(body: &Body, room: &Range<usize>, pieces: Vec<(Range<usize>, PlotKind)>) -> Layers {
+    let mut rests = beside(&body.across(), room);
+    let mut stacks: Vec<Stack> = vec![Vec::new()];
+    for (piece, kind) in pieces {
+        let piece = room.start + piece.start..room.start + piece.end;
+        if kind == PlotKind::Place {
+            stacks.last_mut().expect("there is a stack from the start on").push(piece);
+        } else {
+            rests.push(piece);
+            stacks.push(Vec::new());
+        }
+    }
+    stacks.retain(|stack| !stack.is_empty());
+    if body.fronts[0] == body.fronts[1] {
+        stacks = stacks.into_iter().flat_map(halves).collect();
+    }
+    Layers { stacks, rests }
+}
+
+/// Layers between two aisles are reached from the nearer one.
+fn halves(mut stack: Stack) -> Vec<Stack> {
+    if stack.len() % 2 == 1 {
+        return vec![stack];
+    }
+    let far = stack.split_off(stack.len() / 2);
+    vec![stack, far]
+}
+
+/// The part of a body that may hold goods: all of it, or what lies before the wall on the side without an aisle.
+fn room(frame: &Frame, body: &Body, depth: f64) -> Range<usize> {
+    let across = body.across();
+    if body.fronts[0] == body.fronts[1] {
+        return across;
+    }
+    let low_front = body.fronts[0];
+    let patch = frame.patch(&body.rect, body.axis);
+    let is_wall = |y: &usize| {
+        let from_front = if low_front { *y } else { patch.height - 1 - y };
+        let is_full = patch.occupied_share(*y..y + 1) >= WALL_SHARE;
+        // Nearer to the front than a place is deep, a line may be the front of goods: those let the robot see between them.
+        let is_beyond_goods = from_front as f64 * frame.cell >= THIN_SHARE * depth;
+        is_full && (is_beyond_goods || !sees_between_goods(frame, &patch, *y, low_front))
+    };
+    match if low_front { (0..patch.height).rev().find(is_wall) } else { (0..patch.height).find(is_wall) } {
+        Some(wall) if low_front => across.start..across.start + wall,
+        Some(wall) => across.start + wall + 1..across.end,
+        None => across,
+    }
+}
+
+/// Whether the robot sees some of what is behind a line that may be the fronts of goods.
+fn sees_between_goods(frame: &Frame, patch: &Patch, line: usize, low_front: bool) -> bool {
+    let [near, far] = BEHIND_M.map(|metres| frame.cells_of(metres));
+    let behind =
+        if low_front { line + near..line + far } else { line.saturating_sub(far)..line.saturating_sub(near) };
+    let seen = patch.known_share(behind.start.min(patch.height)..behind.end.min(patch.height));
+    (SEEN_BETWEEN_GOODS[0]..SEEN_BETWEEN_GOODS[1]).contains(&seen)
+}
