@@ -56,7 +56,7 @@ pub(super) struct Evidence {
     pub border: Vec<f64>,
     /// Nothing stands here, in the whole depth.
     pub is_clear: Vec<bool>,
-    /// Share of the depth that is occupied or unknown; none where nobody looked.
+    /// Share of the depth that is occupied or unknown, none where nobody looked: of each row of a bundle in turn.
     pub content: Vec<f64>,
     /// The same of the middle of the depth.
     middle: Vec<f64>,
@@ -143,25 +143,30 @@ impl Evidence {
         }
     }
 
-    /// The mean of rows of one length that are cut alike.
-    pub(super) fn mean(rows: impl IntoIterator<Item = Self>) -> Self {
+    /// Rows of one length that are cut alike, as one row: the mean of what speaks for borders, and the content of each.
+    pub(super) fn bundle(rows: impl IntoIterator<Item = Self>) -> Self {
         let mut rows = rows.into_iter();
-        let mut mean = rows.next().unwrap_or_default();
+        let mut bundle = rows.next().unwrap_or_default();
         let mut count = 1.0;
         for row in rows {
             let add = |sum: &mut [f64], values: &[f64]| sum.iter_mut().zip(values).for_each(|(sum, value)| *sum += value);
-            add(&mut mean.border, &row.border);
-            add(&mut mean.content, &row.content);
-            add(&mut mean.middle, &row.middle);
-            mean.mirror.iter_mut().zip(&row.mirror).for_each(|(sum, value)| *sum += value);
-            mean.is_clear.iter_mut().zip(&row.is_clear).for_each(|(all, is_clear)| *all &= is_clear);
+            add(&mut bundle.border, &row.border);
+            add(&mut bundle.middle, &row.middle);
+            bundle.mirror.iter_mut().zip(&row.mirror).for_each(|(sum, value)| *sum += value);
+            bundle.is_clear.iter_mut().zip(&row.is_clear).for_each(|(all, is_clear)| *all &= is_clear);
+            bundle.content.extend(row.content);
             count += 1.0;
         }
-        for values in [&mut mean.border, &mut mean.content, &mut mean.middle] {
+        for values in [&mut bundle.border, &mut bundle.middle] {
             values.iter_mut().for_each(|value| *value /= count);
         }
-        mean.mirror.iter_mut().for_each(|value| *value /= count as f32);
-        mean
+        bundle.mirror.iter_mut().for_each(|value| *value /= count as f32);
+        bundle
+    }
+
+    /// The content of each row of a bundle.
+    pub(super) fn contents(&self) -> impl Iterator<Item = &[f64]> {
+        self.content.chunks(self.len().max(1))
     }
 
     /// Number of cells along the row.

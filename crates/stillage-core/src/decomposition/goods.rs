@@ -30,11 +30,12 @@ impl Goods {
         let mut half = Vec::new();
         for (row, places) in rows {
             half.resize(((pitch - comb::NARROWER_M) / row.cell / 2.0) as usize, 0.0);
-            for &(twice, weight) in places {
+            let places = row.contents().flat_map(|content| places.iter().map(move |place| (content, place)));
+            for (content, &(twice, weight)) in places {
                 for middle in [twice / 2, twice.div_ceil(2)] {
                     for (distance, sum) in half.iter_mut().enumerate() {
-                        let after = row.content.get(middle + distance).copied().unwrap_or(0.0);
-                        let before = middle.checked_sub(distance + 1).and_then(|at| row.content.get(at));
+                        let after = content.get(middle + distance).copied().unwrap_or(0.0);
+                        let before = middle.checked_sub(distance + 1).and_then(|at| content.get(at));
                         *sum += weight * (after + before.copied().unwrap_or(0.0));
                     }
                 }
@@ -54,8 +55,10 @@ impl Goods {
     /// their place, cells.
     pub(super) fn explained(&self, row: &Evidence) -> Vec<f64> {
         let reach = self.half.len();
+        let mut sum = vec![0.0; row.len() + 1];
+        for of_row in row.contents() {
         let mut content = vec![0.0; row.len() + 2 * reach];
-        content[reach..reach + row.len()].copy_from_slice(&row.content);
+        content[reach..reach + row.len()].copy_from_slice(of_row);
         let square = (2.0 * self.half.iter().map(|value| value * value).sum::<f64>()).max(f64::MIN_POSITIVE);
         let at_middle = |middle: usize| {
             let (before, after) = content[middle..middle + 2 * reach].split_at(reach);
@@ -67,7 +70,9 @@ impl Goods {
             let explained = product * product / square;
             explained - MISFIT_COST * (energy - explained).max(0.0)
         };
-        let whole: Vec<f64> = (0..=row.len()).map(at_middle).collect();
+            sum.iter_mut().enumerate().for_each(|(middle, sum)| *sum += at_middle(middle));
+        }
+        let whole = sum;
         (0..=2 * row.len()).map(|twice| f64::midpoint(whole[twice / 2], whole[twice.div_ceil(2)])).collect()
     }
 }

@@ -24,6 +24,8 @@ use super::reading::Rows;
 const DEEP_ROOM: f64 = 1.5;
 /// A pair of rows is not thicker than two that are so many times as deep as usual, and a flue.
 const DEEPER_PAIR: f64 = 1.15;
+/// Width of the strips along which a body is read across its rows, metres: goods show in every one, and few lanes lie in it.
+const STRIP_M: f64 = 0.5;
 /// Occupied share of a line of cells that makes it a wall.
 const WALL_SHARE: f64 = 0.5;
 /// Where one sees between goods, behind their fronts, metres, and the share of the front along which one does: nothing is
@@ -51,12 +53,7 @@ pub(super) fn cut(frame: &Frame, bodies: &[&Body], depth: f64, range: [f64; 2]) 
     };
     let deep: Vec<usize> = (0..bodies.len()).filter(|&body| is_deep(bodies[body], &rooms[body])).collect();
     let widths = [range[0] - comb::NARROWER_M, range[1] + comb::WIDER_M];
-    let across = |&body: &usize| {
-        let Body { rect, axis, .. } = bodies[body];
-        let rect = rect.with(axis.other(), rooms[body].clone());
-        Evidence::of(&frame.patch(&rect, axis.other()), frame.cell, widths)
-    };
-    let evidence: Vec<Evidence> = deep.iter().map(across).collect();
+    let evidence: Vec<Evidence> = deep.iter().map(|&body| across(frame, bodies[body], &rooms[body], widths)).collect();
     let evidence: Vec<&Evidence> = evidence.iter().collect();
     let guesses = Guesses::of(&evidence, range);
     let readings = Rows { rows: &evidence, guesses: &guesses }.read();
@@ -69,6 +66,18 @@ pub(super) fn cut(frame: &Frame, bodies: &[&Body], depth: f64, range: [f64; 2]) 
         _ => shallow_layers(frame, body, room, depth),
     };
     bodies.iter().zip(rooms).enumerate().map(cut).collect()
+}
+
+/// Evidence across a body, strip by strip: goods end at one layer in one lane and at another in the next.
+fn across(frame: &Frame, body: &Body, room: &Range<usize>, widths: [f64; 2]) -> Evidence {
+    let axis = body.axis.other();
+    let along = body.rect.range(body.axis);
+    let count = along.len().div_ceil(frame.cells_of(STRIP_M).max(1));
+    let strips = equal_parts(along, count).into_iter().map(|strip| {
+        let rect = body.rect.with(axis, room.clone()).with(body.axis, strip);
+        Evidence::of(&frame.patch(&rect, axis), frame.cell, widths)
+    });
+    Evidence::bundle(strips)
 }
 
 /// One row or two back to back; before a wall, the row along the aisle.

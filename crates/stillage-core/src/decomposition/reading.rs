@@ -70,8 +70,9 @@ impl Account {
         let mut of_row = 0.0;
         for place in comb.places() {
             of_row += explained[place.start + place.end];
-            self.energy += row.content[place.clone()].iter().map(|value| value * value).sum::<f64>();
-            self.cells += place.len();
+            let energy = |content: &[f64]| content[place.clone()].iter().map(|value| value * value).sum::<f64>();
+            self.energy += row.contents().map(energy).sum::<f64>();
+            self.cells += place.len() * row.contents().count();
             self.places += 1;
         }
         self.explained += of_row;
@@ -126,7 +127,7 @@ fn cut(row: &Evidence, pitch: f64, explained: &[f64], noise: f64) -> Comb {
 /// Learns goods and cuts rows by turns.
 fn fit(rows: &[&Evidence], pitch: f64, mut goods: Goods) -> (Reading, Account) {
     let energy: f64 = rows.iter().flat_map(|row| &row.content).map(|value| value * value).sum();
-    let cells: usize = rows.iter().map(|row| row.len()).sum();
+    let cells: usize = rows.iter().map(|row| row.content.len()).sum();
     let mut noise = (FIRST_NOISE * energy / cells.max(1) as f64).max(f64::MIN_POSITIVE.sqrt());
     let mut turn = 1;
     loop {
@@ -199,6 +200,10 @@ impl Rows<'_> {
         let better = |one: (usize, Reading, Account), other: (usize, Reading, Account)| {
             if other.2.score(noise) > one.2.score(noise) { other } else { one }
         };
+        if std::env::var("DBG").is_ok() { let mut v: Vec<_> = coarse.iter().collect(); v.sort_by(|a,b| b.2.score(noise).total_cmp(&a.2.score(noise)));
+            eprintln!("rows {} lens {:?}", of.len(), of.iter().map(|&r| self.rows[r].len()).collect::<Vec<_>>());
+            for (_, r, a) in v.iter().take(14) { eprintln!("  pitch {:.3} score {:.2} expl {:.3} energy {:.3} cells {} places {} struct {:.2} w {:.1} | {:?}", r.pitch, a.score(noise), a.explained*weight(noise,a.cell), a.energy*weight(noise,a.cell), a.cells, a.places, a.structure, weight(noise,a.cell),
+               of.iter().map(|&row| r.cut(self.rows[row]).pieces.iter().map(|p| p.1).collect::<Vec<_>>()).take(2).collect::<Vec<_>>()); } }
         let best = coarse.into_iter().reduce(better)?;
         let near = [best.0.checked_sub(1), Some(best.0 + 1).filter(|&next| next < count)];
         let fine = near.into_iter().flatten().flat_map(|at| self.fits(of, at));

@@ -47,7 +47,7 @@ struct Row {
     axis: Axis,
     /// Ranges across the row.
     layers: Stack,
-    /// The mean of the layers.
+    /// Of the layers together.
     evidence: Evidence,
 }
 
@@ -58,7 +58,7 @@ impl Row {
             let rect = body.rect.with(axis.other(), layer.clone());
             Evidence::of(&frame.patch(&rect, axis), frame.cell, hints.widths())
         };
-        let evidence = Evidence::mean(layers.iter().map(of_layer));
+        let evidence = Evidence::bundle(layers.iter().map(of_layer));
         let start = layers.iter().map(|layer| layer.start).min().unwrap_or(0);
         let end = layers.iter().map(|layer| layer.end).max().unwrap_or(start);
         Self { rect: body.rect.with(axis.other(), start..end), axis, layers, evidence }
