@@ -77,7 +77,9 @@ fn across(frame: &Frame, body: &Body, room: &Range<usize>, widths: [f64; 2]) -> 
         let rect = body.rect.with(axis, room.clone()).with(body.axis, strip);
         Evidence::of(&frame.patch(&rect, axis), frame.cell, widths)
     });
-    Evidence::bundle(strips)
+    let mut evidence = Evidence::bundle(strips);
+    evidence.is_all_goods = true;
+    evidence
 }
 
 /// One row or two back to back; before a wall, the row along the aisle.
