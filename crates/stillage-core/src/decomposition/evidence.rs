@@ -66,8 +66,6 @@ pub(super) struct Evidence {
     widths: usize,
     /// Side of a cell, metres.
     pub cell: f64,
-    /// Whether all content is that of goods: then what is left beside the places costs as much as what is within them.
-    pub is_all_goods: bool,
 }
 
 impl Evidence {
@@ -142,7 +140,6 @@ impl Evidence {
             least_width,
             widths,
             cell,
-            is_all_goods: false,
         }
     }
 

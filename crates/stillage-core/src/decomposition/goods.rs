@@ -55,7 +55,6 @@ impl Goods {
     /// their place, cells.
     pub(super) fn explained(&self, row: &Evidence) -> Vec<f64> {
         let reach = self.half.len();
-        let misfit_cost = if row.is_all_goods { 0.0 } else { MISFIT_COST };
         let mut sum = vec![0.0; row.len() + 1];
         for of_row in row.contents() {
         let mut content = vec![0.0; row.len() + 2 * reach];
@@ -69,7 +68,7 @@ impl Goods {
                 energy += before * before + after * after;
             }
             let explained = product * product / square;
-            explained - misfit_cost * (energy - explained).max(0.0)
+            explained - MISFIT_COST * (energy - explained).max(0.0)
         };
             sum.iter_mut().enumerate().for_each(|(middle, sum)| *sum += at_middle(middle));
         }

@@ -11,21 +11,17 @@
 
 use std::ops::Range;
 
-use super::PlotKind;
-use super::comb;
+use super::across::{self, Strips};
+use super::blocks::Profile;
 use super::depth::{Body, THIN_SHARE, thickest_pair};
-use super::evidence::Evidence;
 use super::frame::{Frame, Patch};
-use super::pieces;
-use super::pitch::Guesses;
-use super::reading::Rows;
 
 /// A body with room for more than this many rows is more than one row.
 const DEEP_ROOM: f64 = 1.5;
 /// A pair of rows is not thicker than two that are so many times as deep as usual, and a flue.
 const DEEPER_PAIR: f64 = 1.15;
-/// Width of the strips along which a body is read across its rows, metres: goods show in every one, and few lanes lie in it.
-const STRIP_M: f64 = 0.5;
+/// Share of a line of cells that lies in the site where there is room for goods.
+const GROUND_SHARE: f64 = 0.5;
 /// Occupied share of a line of cells that makes it a wall.
 const WALL_SHARE: f64 = 0.5;
 /// Where one sees between goods, behind their fronts, metres, and the share of the front along which one does: nothing is
@@ -52,34 +48,17 @@ pub(super) fn cut(frame: &Frame, bodies: &[&Body], depth: f64, range: [f64; 2]) 
         thickness >= if is_single_front { DEEP_ROOM * depth } else { thickest_pair(range[1].min(DEEPER_PAIR * depth)) }
     };
     let deep: Vec<usize> = (0..bodies.len()).filter(|&body| is_deep(bodies[body], &rooms[body])).collect();
-    let widths = [range[0] - comb::NARROWER_M, range[1] + comb::WIDER_M];
-    let evidence: Vec<Evidence> = deep.iter().map(|&body| across(frame, bodies[body], &rooms[body], widths)).collect();
-    let evidence: Vec<&Evidence> = evidence.iter().collect();
-    let guesses = Guesses::of(&evidence, range);
-    let readings = Rows { rows: &evidence, guesses: &guesses }.read();
-    let mut read = deep.iter().zip(evidence.into_iter().zip(readings)).peekable();
+    let strips = |&body: &usize| {
+        let Body { rect, axis, fronts } = bodies[body];
+        Strips::of(frame, &rect.with(axis.other(), rooms[body].clone()), *axis, *fronts)
+    };
+    let strips: Vec<Strips> = deep.iter().map(strips).collect();
+    let mut read = deep.iter().zip(across::layers(&strips, range)).peekable();
     let cut = |(index, (body, room)): (usize, (&&Body, Range<usize>))| match read.next_if(|&(&deep, _)| deep == index) {
-        Some((_, (evidence, Some(reading)))) => {
-            let pieces = pieces::of_comb(&reading.cut(evidence), reading.pitch, frame);
-            deep_layers(body, &room, pieces)
-        }
+        Some((_, layers)) if !layers.is_empty() => deep_layers(body, &room, layers),
         _ => shallow_layers(frame, body, room, depth),
     };
     bodies.iter().zip(rooms).enumerate().map(cut).collect()
-}
-
-/// Evidence across a body, strip by strip: goods end at one layer in one lane and at another in the next.
-fn across(frame: &Frame, body: &Body, room: &Range<usize>, widths: [f64; 2]) -> Evidence {
-    let axis = body.axis.other();
-    let along = body.rect.range(body.axis);
-    let count = along.len().div_ceil(frame.cells_of(STRIP_M).max(1));
-    let strips = equal_parts(along, count).into_iter().map(|strip| {
-        let rect = body.rect.with(axis, room.clone()).with(body.axis, strip);
-        Evidence::of(&frame.patch(&rect, axis), frame.cell, widths)
-    });
-    let mut evidence = Evidence::bundle(strips);
-    evidence.is_all_goods = true;
-    evidence
 }
 
 /// One row or two back to back; before a wall, the row along the aisle.
@@ -93,8 +72,8 @@ fn shallow_layers(frame: &Frame, body: &Body, room: Range<usize>, depth: f64) ->
         return Layers { rests: beside(&across, &room), stacks: vec![vec![room]] };
     }
     if body.fronts[0] == body.fronts[1] {
-        let stacks = equal_parts(&across, 2).into_iter().map(|row| vec![row]).collect();
-        return Layers { stacks, rests: Vec::new() };
+        let stacks = equal_parts(&room, 2).into_iter().map(|row| vec![row]).collect();
+        return Layers { stacks, rests: beside(&across, &room) };
     }
     let row_depth = frame.cells_of(depth).max(1);
     let row =
@@ -112,23 +91,12 @@ fn equal_parts(range: &Range<usize>, count: usize) -> Vec<Range<usize>> {
     (0..count).map(|part| at(part)..at(part + 1)).collect()
 }
 
-/// The layers of a deep body from the pieces that its room was cut into.
-fn deep_layers(body: &Body, room: &Range<usize>, pieces: Vec<(Range<usize>, PlotKind)>) -> Layers {
-    let mut rests = beside(&body.across(), room);
-    let mut stacks: Vec<Stack> = vec![Vec::new()];
-    for (piece, kind) in pieces {
-        let piece = room.start + piece.start..room.start + piece.end;
-        if kind == PlotKind::Place {
-            stacks.last_mut().expect("there is a stack from the start on").push(piece);
-        } else {
-            rests.push(piece);
-            stacks.push(Vec::new());
-        }
-    }
-    stacks.retain(|stack| !stack.is_empty());
-    if body.fronts[0] == body.fronts[1] {
-        stacks = stacks.into_iter().flat_map(halves).collect();
-    }
+/// The layers of a deep body, given as lines of its room.
+fn deep_layers(body: &Body, room: &Range<usize>, layers: Vec<Range<usize>>) -> Layers {
+    let stack: Stack = layers.into_iter().map(|layer| room.start + layer.start..room.start + layer.end).collect();
+    let (first, last) = (&stack[0], &stack[stack.len() - 1]);
+    let rests = beside(&body.across(), &(first.start..last.end));
+    let stacks = if body.fronts[0] == body.fronts[1] { halves(stack) } else { vec![stack] };
     Layers { stacks, rests }
 }
 
@@ -141,14 +109,21 @@ fn halves(mut stack: Stack) -> Vec<Stack> {
     vec![stack, far]
 }
 
-/// The part of a body that may hold goods: all of it, or what lies before the wall on the side without an aisle.
+/// The part of a body that may hold goods: all of it that lies in the site, or what lies before the wall on the side
+/// without an aisle.
 fn room(frame: &Frame, body: &Body, depth: f64) -> Range<usize> {
-    let across = body.across();
+    let ground = Profile::of(frame, &body.rect, body.axis).ground;
+    let is_ground = |&ground: &u32| f64::from(ground) >= GROUND_SHARE * body.rect.range(body.axis).len() as f64;
+    let start = body.across().start;
+    let across = match (ground.iter().position(is_ground), ground.iter().rposition(is_ground)) {
+        (Some(first), Some(last)) => start + first..start + last + 1,
+        _ => start..start,
+    };
     if body.fronts[0] == body.fronts[1] {
         return across;
     }
     let low_front = body.fronts[0];
-    let patch = frame.patch(&body.rect, body.axis);
+    let patch = frame.patch(&body.rect.with(body.axis.other(), across.clone()), body.axis);
     let is_wall = |y: &usize| {
         let from_front = if low_front { *y } else { patch.height - 1 - y };
         let is_full = patch.occupied_share(*y..y + 1) >= WALL_SHARE;

@@ -12,6 +12,7 @@
 //!
 //! Everything is in metres; the result does not depend on the number of threads. Cost: O(cells + row cells x pitches).
 
+mod across;
 mod blocks;
 mod comb;
 mod depth;

@@ -73,7 +73,7 @@ impl Account {
             let energy = |content: &[f64]| content[place.clone()].iter().map(|value| value * value).sum::<f64>();
             self.energy += row.contents().map(energy).sum::<f64>();
             self.cells += place.len() * row.contents().count();
-            self.places += 1;
+            self.places += row.contents().count();
         }
         self.explained += of_row;
         self.structure += comb.score - of_row * weight(noise, row.cell);
@@ -200,10 +200,6 @@ impl Rows<'_> {
         let better = |one: (usize, Reading, Account), other: (usize, Reading, Account)| {
             if other.2.score(noise) > one.2.score(noise) { other } else { one }
         };
-        if std::env::var("DBG").is_ok() { let mut v: Vec<_> = coarse.iter().collect(); v.sort_by(|a,b| b.2.score(noise).total_cmp(&a.2.score(noise)));
-            eprintln!("rows {} lens {:?}", of.len(), of.iter().map(|&r| self.rows[r].len()).collect::<Vec<_>>());
-            for (_, r, a) in v.iter().take(14) { eprintln!("  pitch {:.3} score {:.2} expl {:.3} energy {:.3} cells {} places {} struct {:.2} w {:.1} | {:?}", r.pitch, a.score(noise), a.explained*weight(noise,a.cell), a.energy*weight(noise,a.cell), a.cells, a.places, a.structure, weight(noise,a.cell),
-               of.iter().map(|&row| r.cut(self.rows[row]).pieces.iter().map(|p| p.1).collect::<Vec<_>>()).take(2).collect::<Vec<_>>()); } }
         let best = coarse.into_iter().reduce(better)?;
         let near = [best.0.checked_sub(1), Some(best.0 + 1).filter(|&next| next < count)];
         let fine = near.into_iter().flatten().flat_map(|at| self.fits(of, at));
