@@ -13,7 +13,7 @@
 
 use std::ops::Range;
 
-use super::frame::{Cell, Frame, Patch, Rect, Axis};
+use super::frame::{Axis, Cell, Frame, Patch, Rect};
 
 /// Width of a strip, metres: goods show in every one, and few lanes lie in it.
 const STRIP_M: f64 = 0.5;
@@ -106,7 +106,12 @@ impl Strips {
                 let most = (room * self.cell / range[0]).floor() as usize;
                 let least = ((room * self.cell / range[1]).ceil() as usize).max(1);
                 let counts = (least..=most).filter(|count| flue == 0.0 || count % 2 == 0);
-                lattices.extend(counts.map(|count| Lattice { depth: room / count as f64, count, flue, from_high: false }));
+                lattices.extend(counts.map(|count| Lattice {
+                    depth: room / count as f64,
+                    count,
+                    flue,
+                    from_high: false,
+                }));
             }
         } else {
             let steps = ((range[1] - range[0]) / DEPTH_STEP_M).round() as usize;
@@ -175,7 +180,8 @@ impl Strips {
 /// Share of a line of a strip that is occupied or unknown; none where nobody looked.
 fn content(patch: &Patch, line: usize, columns: &Range<usize>) -> f64 {
     let cells = &patch.row(line)[columns.clone()];
-    let share = |is: fn(Cell) -> bool| cells.iter().filter(|&&cell| is(cell)).count() as f64 / cells.len().max(1) as f64;
+    let share =
+        |is: fn(Cell) -> bool| cells.iter().filter(|&&cell| is(cell)).count() as f64 / cells.len().max(1) as f64;
     let unknown = share(Cell::is_unknown);
     if 1.0 - unknown < LEAST_KNOWN { 0.0 } else { share(Cell::is_occupied) + UNKNOWN_CONTENT * unknown }
 }
@@ -199,7 +205,8 @@ pub(super) fn layers(bodies: &[Strips], range: [f64; 2]) -> Vec<Vec<Range<usize>
         (0..bodies.len()).map(of_body).sum::<f64>()
     };
     let depths = (0..=steps).map(|step| range[0] + step as f64 * DEPTH_STEP_M);
-    let usual = depths.map(|depth| (total(depth), depth)).reduce(|best, other| if other.0 > best.0 { other } else { best });
+    let usual =
+        depths.map(|depth| (total(depth), depth)).reduce(|best, other| if other.0 > best.0 { other } else { best });
     let chosen = |body: usize| {
         let alike = usual.and_then(|(_, depth)| best(body, &near(depth)));
         match (alike, own[body]) {
@@ -207,5 +214,7 @@ pub(super) fn layers(bodies: &[Strips], range: [f64; 2]) -> Vec<Vec<Range<usize>
             (_, own) => own.map(|own| own.1),
         }
     };
-    (0..bodies.len()).map(|body| chosen(body).map_or_else(Vec::new, |lattice| lattice.ranges(bodies[body].lines))).collect()
+    (0..bodies.len())
+        .map(|body| chosen(body).map_or_else(Vec::new, |lattice| lattice.ranges(bodies[body].lines)))
+        .collect()
 }

@@ -149,7 +149,8 @@ impl Evidence {
         let mut bundle = rows.next().unwrap_or_default();
         let mut count = 1.0;
         for row in rows {
-            let add = |sum: &mut [f64], values: &[f64]| sum.iter_mut().zip(values).for_each(|(sum, value)| *sum += value);
+            let add =
+                |sum: &mut [f64], values: &[f64]| sum.iter_mut().zip(values).for_each(|(sum, value)| *sum += value);
             add(&mut bundle.border, &row.border);
             add(&mut bundle.middle, &row.middle);
             bundle.mirror.iter_mut().zip(&row.mirror).for_each(|(sum, value)| *sum += value);

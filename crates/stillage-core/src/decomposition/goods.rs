@@ -57,19 +57,19 @@ impl Goods {
         let reach = self.half.len();
         let mut sum = vec![0.0; row.len() + 1];
         for of_row in row.contents() {
-        let mut content = vec![0.0; row.len() + 2 * reach];
-        content[reach..reach + row.len()].copy_from_slice(of_row);
-        let square = (2.0 * self.half.iter().map(|value| value * value).sum::<f64>()).max(f64::MIN_POSITIVE);
-        let at_middle = |middle: usize| {
-            let (before, after) = content[middle..middle + 2 * reach].split_at(reach);
-            let (mut product, mut energy) = (0.0, 0.0);
-            for ((before, after), value) in before.iter().rev().zip(after).zip(&self.half) {
-                product += value * (before + after);
-                energy += before * before + after * after;
-            }
-            let explained = product * product / square;
-            explained - MISFIT_COST * (energy - explained).max(0.0)
-        };
+            let mut content = vec![0.0; row.len() + 2 * reach];
+            content[reach..reach + row.len()].copy_from_slice(of_row);
+            let square = (2.0 * self.half.iter().map(|value| value * value).sum::<f64>()).max(f64::MIN_POSITIVE);
+            let at_middle = |middle: usize| {
+                let (before, after) = content[middle..middle + 2 * reach].split_at(reach);
+                let (mut product, mut energy) = (0.0, 0.0);
+                for ((before, after), value) in before.iter().rev().zip(after).zip(&self.half) {
+                    product += value * (before + after);
+                    energy += before * before + after * after;
+                }
+                let explained = product * product / square;
+                explained - MISFIT_COST * (energy - explained).max(0.0)
+            };
             sum.iter_mut().enumerate().for_each(|(middle, sum)| *sum += at_middle(middle));
         }
         let whole = sum;

@@ -18,12 +18,15 @@ use super::frame::{Frame, Patch};
 
 /// A body with room for more than this many rows is more than one row.
 const DEEP_ROOM: f64 = 1.5;
-/// A pair of rows is not thicker than two that are so many times as deep as usual, and a flue.
-const DEEPER_PAIR: f64 = 1.15;
-/// Share of a line of cells that lies in the site where there is room for goods.
+/// Rows are at most so many times as deep as usual.
+const DEEPER: f64 = 1.15;
+/// Share of the fullest line of a body that lies in the site where there is room for goods.
 const GROUND_SHARE: f64 = 0.5;
 /// Occupied share of a line of cells that makes it a wall.
 const WALL_SHARE: f64 = 0.5;
+/// How far in front of a wall hits are scattered, metres, and the share of a line that they take at least.
+const SCATTER_M: f64 = 0.2;
+const SCATTER_SHARE: f64 = 0.08;
 /// Where one sees between goods, behind their fronts, metres, and the share of the front along which one does: nothing is
 /// seen behind a wall, and all of it where there is another room.
 const BEHIND_M: [f64; 2] = [0.2, 0.5];
@@ -45,7 +48,7 @@ pub(super) fn cut(frame: &Frame, bodies: &[&Body], depth: f64, range: [f64; 2]) 
     let is_deep = |body: &Body, room: &Range<usize>| {
         let thickness = room.len() as f64 * frame.cell;
         let is_single_front = body.fronts[0] != body.fronts[1];
-        thickness >= if is_single_front { DEEP_ROOM * depth } else { thickest_pair(range[1].min(DEEPER_PAIR * depth)) }
+        thickness >= if is_single_front { DEEP_ROOM * depth } else { thickest_pair(range[1].min(DEEPER * depth)) }
     };
     let deep: Vec<usize> = (0..bodies.len()).filter(|&body| is_deep(bodies[body], &rooms[body])).collect();
     let strips = |&body: &usize| {
@@ -68,16 +71,15 @@ fn shallow_layers(frame: &Frame, body: &Body, room: Range<usize>, depth: f64) ->
     if rows < THIN_SHARE {
         return Layers { stacks: Vec::new(), rests: vec![across] };
     }
-    if rows < DEEP_ROOM {
-        return Layers { rests: beside(&across, &room), stacks: vec![vec![room]] };
-    }
     if body.fronts[0] == body.fronts[1] {
+        if rows < DEEP_ROOM {
+            return Layers { rests: beside(&across, &room), stacks: vec![vec![room]] };
+        }
         let stacks = equal_parts(&room, 2).into_iter().map(|row| vec![row]).collect();
         return Layers { stacks, rests: beside(&across, &room) };
     }
-    let row_depth = frame.cells_of(depth).max(1);
-    let row =
-        if body.fronts[0] { room.start..room.start + row_depth } else { room.end - row_depth..room.end };
+    let row_depth = frame.cells_of(DEEPER * depth).clamp(1, room.len());
+    let row = if body.fronts[0] { room.start..room.start + row_depth } else { room.end - row_depth..room.end };
     Layers { rests: beside(&across, &row), stacks: vec![vec![row]] }
 }
 
@@ -113,7 +115,8 @@ fn halves(mut stack: Stack) -> Vec<Stack> {
 /// without an aisle.
 fn room(frame: &Frame, body: &Body, depth: f64) -> Range<usize> {
     let ground = Profile::of(frame, &body.rect, body.axis).ground;
-    let is_ground = |&ground: &u32| f64::from(ground) >= GROUND_SHARE * body.rect.range(body.axis).len() as f64;
+    let fullest = f64::from(ground.iter().copied().max().unwrap_or(0));
+    let is_ground = |&ground: &u32| ground > 0 && f64::from(ground) >= GROUND_SHARE * fullest;
     let start = body.across().start;
     let across = match (ground.iter().position(is_ground), ground.iter().rposition(is_ground)) {
         (Some(first), Some(last)) => start + first..start + last + 1,
@@ -131,18 +134,24 @@ fn room(frame: &Frame, body: &Body, depth: f64) -> Range<usize> {
         let is_beyond_goods = from_front as f64 * frame.cell >= THIN_SHARE * depth;
         is_full && (is_beyond_goods || !sees_between_goods(frame, &patch, *y, low_front))
     };
-    match if low_front { (0..patch.height).rev().find(is_wall) } else { (0..patch.height).find(is_wall) } {
-        Some(wall) if low_front => across.start..across.start + wall,
-        Some(wall) => across.start + wall + 1..across.end,
-        None => across,
+    // Rays scatter at a wall.
+    let reach = frame.cells_of(SCATTER_M);
+    let is_scatter = |y: &usize| patch.occupied_share(*y..y + 1) >= SCATTER_SHARE;
+    if low_front {
+        let Some(wall) = (0..patch.height).rev().find(is_wall) else { return across };
+        let scatter = (wall.saturating_sub(reach)..wall).rev().take_while(is_scatter).count();
+        across.start..across.start + wall - scatter
+    } else {
+        let Some(wall) = (0..patch.height).find(is_wall) else { return across };
+        let scatter = (wall + 1..(wall + 1 + reach).min(patch.height)).take_while(is_scatter).count();
+        across.start + wall + 1 + scatter..across.end
     }
 }
 
 /// Whether the robot sees some of what is behind a line that may be the fronts of goods.
 fn sees_between_goods(frame: &Frame, patch: &Patch, line: usize, low_front: bool) -> bool {
     let [near, far] = BEHIND_M.map(|metres| frame.cells_of(metres));
-    let behind =
-        if low_front { line + near..line + far } else { line.saturating_sub(far)..line.saturating_sub(near) };
+    let behind = if low_front { line + near..line + far } else { line.saturating_sub(far)..line.saturating_sub(near) };
     let seen = patch.known_share(behind.start.min(patch.height)..behind.end.min(patch.height));
     (SEEN_BETWEEN_GOODS[0]..SEEN_BETWEEN_GOODS[1]).contains(&seen)
 }

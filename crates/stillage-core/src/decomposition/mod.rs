@@ -150,7 +150,7 @@ fn decompose_region(
 
 fn plot(frame: &Frame, region: u8, parcel: &Parcel) -> Plot {
     let axis = parcel.axis.unwrap_or(Axis::U);
-    let middle = |range: &std::ops::Range<usize>| (range.start + range.end) as f64 / 2.0 * frame.cell;
+    let middle = |range: &Range<usize>| (range.start + range.end) as f64 / 2.0 * frame.cell;
     let (u, v) = (frame.start[0] + middle(&parcel.rect.u), frame.start[1] + middle(&parcel.rect.v));
     let half = |axis: Axis| parcel.rect.range(axis).len() as f64 * frame.cell / 2.0;
     let bounds = OrientedBox {

@@ -15,7 +15,7 @@ use super::gate;
 use super::layers::{self, Stack};
 use super::pieces;
 use super::pitch::Guesses;
-use super::reading::{Reading, Rows};
+use super::reading::Rows;
 use super::{Parcel, PlotKind};
 use crate::watch::{Stopped, Watch};
 
@@ -45,23 +45,22 @@ struct Row {
     /// All layers together.
     rect: Rect,
     axis: Axis,
-    /// Ranges across the row.
-    layers: Stack,
-    /// Of the layers together.
-    evidence: Evidence,
+    layers: Vec<Rect>,
 }
 
 impl Row {
-    fn of(frame: &Frame, body: &Body, layers: Stack, hints: &Hints) -> Self {
-        let axis = body.axis;
-        let of_layer = |layer: &Range<usize>| {
-            let rect = body.rect.with(axis.other(), layer.clone());
-            Evidence::of(&frame.patch(&rect, axis), frame.cell, hints.widths())
-        };
-        let evidence = Evidence::bundle(layers.iter().map(of_layer));
-        let start = layers.iter().map(|layer| layer.start).min().unwrap_or(0);
-        let end = layers.iter().map(|layer| layer.end).max().unwrap_or(start);
-        Self { rect: body.rect.with(axis.other(), start..end), axis, layers, evidence }
+    fn of(body: &Body, stack: Stack) -> Self {
+        let across = body.axis.other();
+        let start = stack.iter().map(|layer| layer.start).min().unwrap_or(0);
+        let end = stack.iter().map(|layer| layer.end).max().unwrap_or(start);
+        let layers = stack.into_iter().map(|layer| body.rect.with(across, layer)).collect();
+        Self { rect: body.rect.with(across, start..end), axis: body.axis, layers }
+    }
+
+    /// What the cells of the layers say together.
+    fn evidence(&self, frame: &Frame, hints: &Hints) -> Evidence {
+        let of_layer = |layer| Evidence::of(&frame.patch(layer, self.axis), frame.cell, hints.widths());
+        Evidence::bundle(self.layers.iter().map(of_layer))
     }
 }
 
@@ -89,7 +88,7 @@ pub(super) fn lay_out(
             watch.check()?;
             let rest_of = |rest| Parcel::new(body.rect.with(axis.other(), rest), PlotKind::Rest, Some(axis));
             rests.extend(layers.rests.into_iter().map(rest_of));
-            rows.extend(layers.stacks.into_iter().map(|stack| Row::of(frame, body, stack, hints)));
+            rows.extend(layers.stacks.into_iter().map(|stack| Row::of(body, stack)));
         }
         watch.check()?;
         if is_periodic(frame, &rows, hints) {
@@ -105,8 +104,11 @@ pub(super) fn lay_out(
 
 /// Whether these are rows of places, or walls and furniture, which are not cut.
 fn is_periodic(frame: &Frame, rows: &[Row], hints: &Hints) -> bool {
-    let evidence: Vec<&Evidence> = rows.iter().map(|row| &row.evidence).collect();
     let patch = |row: usize| frame.patch(&rows[row].rect, rows[row].axis);
+    // A stack speaks as a whole: each of its layers by itself may be too empty to tell.
+    let evidence: Vec<Evidence> =
+        (0..rows.len()).map(|row| Evidence::of(&patch(row), frame.cell, hints.widths())).collect();
+    let evidence: Vec<&Evidence> = evidence.iter().collect();
     frame.cell <= COARSEST_CELL_M && gate::is_periodic(&evidence, patch, hints.widths(), hints.pitch)
 }
 
@@ -118,29 +120,28 @@ fn comb_rows(
     parcels: &mut Vec<Parcel>,
     watch: &Watch<'_>,
 ) -> Result<(), Stopped> {
-    let all: Vec<&Evidence> = rows.iter().map(|row| &row.evidence).collect();
+    let evidence: Vec<Evidence> = rows.iter().map(|row| row.evidence(frame, hints)).collect();
+    let all: Vec<&Evidence> = evidence.iter().collect();
     let guesses = Guesses::of(&all, hints.pitch);
     watch.check()?;
     let readings = Rows { rows: &all, guesses: &guesses }.read();
-    for (row, reading) in rows.iter().zip(readings) {
+    for ((row, evidence), reading) in rows.iter().zip(&evidence).zip(readings) {
         match reading {
-            Some(reading) => comb_row(frame, row, &reading, parcels),
+            Some(reading) => comb_row(row, pieces::of_comb(&reading.cut(evidence), reading.pitch, frame), parcels),
             None => parcels.push(Parcel::new(row.rect.clone(), PlotKind::Rest, Some(row.axis))),
         }
     }
     Ok(())
 }
 
-/// Cuts a row into parcels, the same in each of its layers.
-fn comb_row(frame: &Frame, row: &Row, reading: &Reading, parcels: &mut Vec<Parcel>) {
-    let pieces = pieces::of_comb(&reading.cut(&row.evidence), reading.pitch, frame);
+/// The pieces of a row as parcels, the same in each of its layers.
+fn comb_row(row: &Row, pieces: Vec<(Range<usize>, PlotKind)>, parcels: &mut Vec<Parcel>) {
     let start = row.rect.range(row.axis).start;
-    let stack = row.rect.range(row.axis.other());
     for (piece, kind) in pieces {
         let range = start + piece.start..start + piece.end;
         for layer in &row.layers {
-            let rect = row.rect.with(row.axis, range.clone()).with(row.axis.other(), layer.clone());
-            parcels.push(Parcel { rect, kind, axis: Some(row.axis), stack: stack.clone() });
+            let rect = layer.with(row.axis, range.clone());
+            parcels.push(Parcel { rect, kind, axis: Some(row.axis), stack: row.rect.range(row.axis.other()).clone() });
         }
     }
 }
