@@ -27,6 +27,8 @@ const ALIKE_M: f64 = 0.04;
 /// Widest flue between layers that are reached from two sides, and its step, metres.
 const FLUE_M: f64 = 0.4;
 const FLUE_STEP_M: f64 = 0.05;
+/// Share of the last layer before a wall that may lie in what stands behind it.
+const BEHIND_SHARE: f64 = 0.1;
 /// Length along which the noise of content is the same, metres: goods off their mark.
 const CORRELATION_M: f64 = 0.2;
 /// Share of the energy that is noise even where goods explain all of it.
@@ -116,12 +118,13 @@ impl Strips {
         } else {
             let steps = ((range[1] - range[0]) / DEPTH_STEP_M).round() as usize;
             let depths = (0..=steps).map(|step| (range[0] + step as f64 * DEPTH_STEP_M) / self.cell);
-            let lattice = |depth: f64| {
-                // The last layer may reach a little into what stands behind it.
-                let count = ((lines / depth + 0.1) as usize).max(1);
-                Lattice { depth, count, flue: 0.0, from_high: self.fronts[1] }
+            // The last layer may reach a little into what stands behind it, or be bare floor.
+            let most = |depth: f64| (lines / depth + BEHIND_SHARE) as usize;
+            let counts = |depth: f64| most(depth).saturating_sub(1).max(1)..=most(depth).max(1);
+            let of_depth = |depth: f64| {
+                counts(depth).map(move |count| Lattice { depth, count, flue: 0.0, from_high: self.fronts[1] })
             };
-            lattices.extend(depths.map(lattice));
+            lattices.extend(depths.flat_map(of_depth));
         }
         lattices
     }

@@ -37,10 +37,11 @@ const LEAST_LENGTH_M: f64 = 2.6;
 /// So many metres of rows settle the question.
 const MOST_LENGTH_M: f64 = 1000.0;
 
-/// Whether rows repeat themselves. `row` gives the cells of a row by number, `widths` are those that its evidence is
-/// asked about and `pitches` the range of the pitch, metres.
+/// Whether rows repeat themselves. `layers` and `row` give the number of layers and the cells of a row by its number,
+/// `widths` are those that its evidence is asked about and `pitches` the range of the pitch, metres.
 pub(super) fn is_periodic(
     rows: &[&Evidence],
+    layers: impl Fn(usize) -> usize,
     patch: impl Fn(usize) -> Patch + Sync,
     widths: [f64; 2],
     pitches: [f64; 2],
@@ -63,7 +64,8 @@ pub(super) fn is_periodic(
     let length: f64 = voters.iter().map(|&row| rows[row].length()).sum();
     let [score, earned] = [0, 1].map(|at| of_rows.iter().map(|excess| excess[at]).sum::<f64>() / length);
     let excess = score + EARNED_WEIGHT * earned.max(0.0);
-    !voters.is_empty() && excess >= LEAST_EXCESS + LEAST_EXCESS_OF_ONE / voters.len() as f64
+    let votes: usize = voters.iter().map(|&row| layers(row)).sum();
+    votes > 0 && excess >= LEAST_EXCESS + LEAST_EXCESS_OF_ONE / votes as f64
 }
 
 /// How well the comb fits at the best pitch: the score by which pitches are chosen, and what the comb earns per place.

@@ -58,7 +58,7 @@ pub(super) fn cut(frame: &Frame, bodies: &[&Body], depth: f64, range: [f64; 2]) 
     let strips: Vec<Strips> = deep.iter().map(strips).collect();
     let mut read = deep.iter().zip(across::layers(&strips, range)).peekable();
     let cut = |(index, (body, room)): (usize, (&&Body, Range<usize>))| match read.next_if(|&(&deep, _)| deep == index) {
-        Some((_, layers)) if !layers.is_empty() => deep_layers(body, &room, layers),
+        Some((_, layers)) if layers.len() > 1 => deep_layers(body, &room, layers),
         _ => shallow_layers(frame, body, room, depth),
     };
     bodies.iter().zip(rooms).enumerate().map(cut).collect()

@@ -109,7 +109,8 @@ fn is_periodic(frame: &Frame, rows: &[Row], hints: &Hints) -> bool {
     let evidence: Vec<Evidence> =
         (0..rows.len()).map(|row| Evidence::of(&patch(row), frame.cell, hints.widths())).collect();
     let evidence: Vec<&Evidence> = evidence.iter().collect();
-    frame.cell <= COARSEST_CELL_M && gate::is_periodic(&evidence, patch, hints.widths(), hints.pitch)
+    frame.cell <= COARSEST_CELL_M
+        && gate::is_periodic(&evidence, |row| rows[row].layers.len(), patch, hints.widths(), hints.pitch)
 }
 
 /// Cuts the rows of one direction.
