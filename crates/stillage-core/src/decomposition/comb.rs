@@ -140,13 +140,15 @@ impl<'a, const N: usize, P: Fn(usize, usize) -> Lanes<N>> Cutter<'a, P> {
         let length = self.border.len();
         let mut table = Table { best: Vec::with_capacity(length), cleared: Vec::with_capacity(length) };
         let mut most = [f32::NEG_INFINITY; N];
+        let mut slips = SlidingMaximum::new(self.narrowest.saturating_sub(self.slip));
         for at in 0..length {
             let mut best = [self.opening(at); N];
             for (_, score) in self.places_to(&table, at) {
                 best = larger(best, score);
             }
-            for (_, score) in self.slips_to(&table, at) {
-                best = larger(best, score);
+            if let Some(latest) = at.checked_sub(self.slip) {
+                let before = slips.push(table.best[latest]);
+                best = larger(best, before.map(|score| score - SLIP_COST as f32));
             }
             best = larger(best, self.gap_to(&table, at)).map(|score| score + self.border[at] as f32);
             most = larger(most, best.map(|score| score - self.gain[at]));
@@ -251,4 +253,36 @@ impl<'a, const N: usize, P: Fn(usize, usize) -> Lanes<N>> Cutter<'a, P> {
 /// The larger number of each lane; a compare and a blend, where `f32::max` would look for numbers that are none.
 fn larger<const N: usize>(one: Lanes<N>, other: Lanes<N>) -> Lanes<N> {
     std::array::from_fn(|lane| if other[lane] > one[lane] { other[lane] } else { one[lane] })
+}
+
+/// The largest of the last values, by doubling: maxima of 1, 2, 4, ... values, the last two of which cover the window.
+struct SlidingMaximum<const N: usize> {
+    window: usize,
+    levels: Vec<Vec<Lanes<N>>>,
+}
+
+impl<const N: usize> SlidingMaximum<N> {
+    /// `window` is at least one.
+    fn new(window: usize) -> Self {
+        Self { window, levels: vec![Vec::new(); window.max(1).ilog2() as usize + 1] }
+    }
+
+    /// Adds a value and gives the largest of the window that ends with it.
+    fn push(&mut self, value: Lanes<N>) -> Lanes<N> {
+        let (mut most, mut span) = (value, 1);
+        let at = self.levels[0].len();
+        let last = self.levels.len() - 1;
+        for level in &mut self.levels[..last] {
+            level.push(most);
+            if let Some(before) = at.checked_sub(span) {
+                most = larger(most, level[before]);
+            }
+            span *= 2;
+        }
+        self.levels[last].push(most);
+        match (at + span).checked_sub(self.window) {
+            Some(before) => larger(most, self.levels[last][before]),
+            None => most,
+        }
+    }
 }

@@ -39,6 +39,8 @@ const PITCH_PRICE: f64 = 10.0;
 const MOST_READINGS: usize = 6;
 /// Rows of this length together are enough to learn from, metres: some 300 places.
 const ENOUGH_M: f64 = 400.0;
+/// A row's own pitch is known to this, metres.
+const NEAR_M: f64 = 0.03;
 /// The pitches are tried at every second candidate first.
 const STRIDE: usize = 2;
 
@@ -193,7 +195,8 @@ impl Rows<'_> {
             readings.push(next);
             group = leaving;
         }
-        all.par_iter().map(|&row| self.choose(row, &readings, noise)).collect()
+        let choose = |(&row, own): (&usize, &Option<Reading>)| self.choose(row, own.as_ref(), &readings, noise);
+        all.par_iter().zip(&own).map(choose).collect()
     }
 
     /// Rows enough to learn from, evenly spread.
@@ -240,8 +243,8 @@ impl Rows<'_> {
         fit(&rows, pitch, shifted).map(|(reading, account)| (at, reading, account)).into()
     }
 
-    /// The reading for a row: one of those found, at its pitch or another.
-    fn choose(&self, row: usize, readings: &[Reading], noise: f64) -> Option<Reading> {
+    /// The reading for a row: one of those found, at its pitch or about that of the row's own reading.
+    fn choose(&self, row: usize, own: Option<&Reading>, readings: &[Reading], noise: f64) -> Option<Reading> {
         let row = self.rows[row];
         if row.content.iter().all(|&content| content <= 0.0) {
             return None;
@@ -252,8 +255,9 @@ impl Rows<'_> {
         let of_group =
             readings.iter().enumerate().map(|(rank, reading)| scored(reading.clone(), price(rank))).reduce(better)?;
         let reading = of_group.1.clone();
-        let others =
-            self.pitches.iter().map(|&pitch| scored(reading.at(pitch, row.cell), price(1) + PITCH_PRICE));
+        let is_near = |pitch: &&f64| own.is_some_and(|own| (own.pitch - **pitch).abs() <= NEAR_M);
+        let near = self.pitches.iter().filter(is_near);
+        let others = near.map(|&pitch| scored(reading.at(pitch, row.cell), price(1) + PITCH_PRICE));
         Some(others.fold(of_group, better).1)
     }
 }
@@ -276,7 +280,7 @@ mod tests {
         let tile_cells = grid.width().max(grid.height());
         let regions = RegionMap { tile_cells, columns: 1, rows: 1, tiles: vec![0], regions: vec![region] };
         let watch = Watch::unwatched();
-        let site = Site::of(&grid, &watch).expect("nobody stops it");
+        let site = Site::of(&grid, &regions, &watch).expect("nobody stops it");
         let frame = Frame::new(&grid, &regions, 0, 0.0, &site, &watch).expect("nobody stops it");
         let margin = frame.cells_of(-frame.start[0]);
         let rect = frame.whole().with(Axis::U, margin..margin + grid.width()).with(Axis::V, margin..margin + 20);
