@@ -223,7 +223,8 @@ mod tests {
 
     #[test]
     fn a_component_knows_its_size() {
-        let found = Components::of([4, 12], Neighbours::Eight, |cell| [1, 2, 4, 8].contains(&cell), &Watch::unwatched());
+        let found =
+            Components::of([4, 12], Neighbours::Eight, |cell| [1, 2, 4, 8].contains(&cell), &Watch::unwatched());
         let found = found.expect("nobody stops it");
         let component = found.iter().next().expect("there are cells");
         assert_eq!((component.first(), component.len(), component.bounds()), (1, 4, [0..3, 0..3]));

@@ -141,7 +141,8 @@ fn fit<const N: usize>(rows: &[&Evidence], pitch: f64, guesses: [Vec<Weighted>; 
     let mut places = guesses;
     let mut turn = 1;
     loop {
-        let goods = places.map(|places| Goods::learn(rows.iter().copied().zip(places.iter().map(Vec::as_slice)), pitch));
+        let goods =
+            places.map(|places| Goods::learn(rows.iter().copied().zip(places.iter().map(Vec::as_slice)), pitch));
         let mut accounts = [Account::default(); N];
         places = std::array::from_fn(|_| Vec::with_capacity(rows.len()));
         for row in rows {
@@ -228,7 +229,8 @@ impl Rows<'_> {
     /// Rows read at a pitch, with goods as guessed and by quarters of a place further.
     fn fits(&self, of: &[usize], at: usize) -> Vec<(usize, Reading, Account)> {
         let pitch = self.pitches[at];
-        let rows: Vec<&Evidence> = of.iter().map(|&row| self.rows[row]).filter(|row| pitch::tells(row, pitch)).collect();
+        let rows: Vec<&Evidence> =
+            of.iter().map(|&row| self.rows[row]).filter(|row| pitch::tells(row, pitch)).collect();
         let Some(cell) = rows.first().map(|row| row.cell) else { return Vec::new() };
         let guess = |row: &&Evidence| -> Vec<usize> {
             let [comb] = comb::cut(row, pitch, comb::even(row));

@@ -24,7 +24,8 @@ impl Site {
         let side = ((BLOCK_M / grid.resolution()).round() as usize).max(1);
         let columns = grid.width().div_ceil(side);
         let is_outside = outside(&known_blocks(grid, side, watch)?, columns);
-        let mut site = Self { width: grid.width(), height: grid.height(), regions: vec![RegionMap::NONE; grid.cells().len()] };
+        let mut site =
+            Self { width: grid.width(), height: grid.height(), regions: vec![RegionMap::NONE; grid.cells().len()] };
         for (row, line) in site.regions.chunks_exact_mut(site.width.max(1)).enumerate() {
             watch.check()?;
             let blocks = &is_outside[row / side * columns..][..columns];
