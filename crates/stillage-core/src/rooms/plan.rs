@@ -10,7 +10,6 @@
 use super::Rooms;
 use super::flood::{self, Passage};
 use super::ground::Ground;
-use super::nearest::Nearest;
 use super::outline;
 use super::partition::Partition;
 use crate::decomposition::{self, Decomposition, PlotKind};
@@ -51,8 +50,7 @@ pub fn plan(
     watch: &Watch<'_>,
 ) -> Result<SitePlan, Stopped> {
     let ground = Ground::of(grid, watch)?;
-    let clearance = Nearest::of(ground.width, ground.is_free.len(), |cell| !ground.is_free[cell], watch)?;
-    let passages = flood::passages(&ground, &clearance, watch)?;
+    let passages = flood::passages(&ground, watch)?;
     let partition = Partition::of(&ground, &passages, watch)?;
     let zones = Zones::of(&ground, &partition, &passages);
     let mut is_hall = vec![true; partition.count + 1];
@@ -175,7 +173,7 @@ fn kept(ground: &Ground, partition: &Partition, passages: &[Passage], is_hall: &
 fn with_stacks(rooms: &Rooms, ground: &Ground, partition: &Partition) -> Vec<u32> {
     let stack = |cell: usize| match ground.stacks[cell] {
         0 => 0,
-        _ if rooms.cells[partition.nearest.cell[cell] as usize] == 0 => 0,
+        _ if rooms.cells[partition.nearest[cell] as usize] == 0 => 0,
         stack => rooms.count as u32 + stack,
     };
     rooms.cells.iter().enumerate().map(|(cell, &room)| if room == 0 { stack(cell) } else { room }).collect()
