@@ -71,14 +71,25 @@ struct Parcel {
     rect: Rect,
     kind: PlotKind,
     axis: Option<Axis>,
-    /// The layers that it is one of, as a range across them: its own, unless it is a piece of a stack.
-    stack: Range<usize>,
+    /// The layers of a piece of several rows one behind the other, as ranges across them; none of any other.
+    layers: Vec<Range<usize>>,
 }
 
 impl Parcel {
     fn new(rect: Rect, kind: PlotKind, axis: Option<Axis>) -> Self {
-        let stack = rect.range(axis.unwrap_or(Axis::U).other()).clone();
-        Self { rect, kind, axis, stack }
+        Self { rect, kind, axis, layers: Vec::new() }
+    }
+
+    /// Each layer by itself.
+    fn into_layers(self) -> Vec<Self> {
+        match self.axis {
+            Some(axis) if self.layers.len() > 1 => {
+                let of_layer =
+                    |layer: &Range<usize>| Self::new(self.rect.with(axis.other(), layer.clone()), self.kind, self.axis);
+                self.layers.iter().map(of_layer).collect()
+            }
+            _ => vec![self],
+        }
     }
 }
 
@@ -112,7 +123,7 @@ pub fn decompose(
     options: &DecompositionOptions,
     watch: &Watch<'_>,
 ) -> Result<Decomposition, Stopped> {
-    let site = Site::of(grid, watch)?;
+    let site = Site::of(grid, regions, watch)?;
     let of_region: Vec<Decomposition> = (0..regions.regions.len() as u8)
         .into_par_iter()
         .map(|region| decompose_region(grid, regions, region, &site, options, watch))

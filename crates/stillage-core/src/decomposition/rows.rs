@@ -14,7 +14,7 @@ use super::frame::{Axis, Frame, Rect};
 use super::gate;
 use super::layers::{self, Stack};
 use super::pieces;
-use super::pitch::Guesses;
+use super::pitch;
 use super::reading::Rows;
 use super::{Parcel, PlotKind};
 use crate::watch::{Stopped, Watch};
@@ -45,7 +45,7 @@ struct Row {
     /// All layers together.
     rect: Rect,
     axis: Axis,
-    layers: Vec<Rect>,
+    layers: Stack,
 }
 
 impl Row {
@@ -53,13 +53,15 @@ impl Row {
         let across = body.axis.other();
         let start = stack.iter().map(|layer| layer.start).min().unwrap_or(0);
         let end = stack.iter().map(|layer| layer.end).max().unwrap_or(start);
-        let layers = stack.into_iter().map(|layer| body.rect.with(across, layer)).collect();
-        Self { rect: body.rect.with(across, start..end), axis: body.axis, layers }
+        Self { rect: body.rect.with(across, start..end), axis: body.axis, layers: stack }
     }
 
     /// What the cells of the layers say together.
     fn evidence(&self, frame: &Frame, hints: &Hints) -> Evidence {
-        let of_layer = |layer| Evidence::of(&frame.patch(layer, self.axis), frame.cell, hints.widths());
+        let of_layer = |layer: &Range<usize>| {
+            let rect = self.rect.with(self.axis.other(), layer.clone());
+            Evidence::of(&frame.patch(&rect, self.axis), frame.cell, hints.widths())
+        };
         Evidence::bundle(self.layers.iter().map(of_layer))
     }
 }
@@ -123,26 +125,25 @@ fn comb_rows(
 ) -> Result<(), Stopped> {
     let evidence: Vec<Evidence> = rows.iter().map(|row| row.evidence(frame, hints)).collect();
     let all: Vec<&Evidence> = evidence.iter().collect();
-    let guesses = Guesses::of(&all, hints.pitch);
     watch.check()?;
-    let readings = Rows { rows: &all, guesses: &guesses }.read();
+    let readings = Rows { rows: &all, pitches: pitch::candidates(hints.pitch) }.read();
     for ((row, evidence), reading) in rows.iter().zip(&evidence).zip(readings) {
         match reading {
-            Some(reading) => comb_row(row, pieces::of_comb(&reading.cut(evidence), reading.pitch, frame), parcels),
+            Some(reading) => {
+                let pieces = pieces::of_comb(&reading.cut(evidence), reading.pitch, frame);
+                parcels.extend(parcels_of(row, pieces));
+            }
             None => parcels.push(Parcel::new(row.rect.clone(), PlotKind::Rest, Some(row.axis))),
         }
     }
     Ok(())
 }
 
-/// The pieces of a row as parcels, the same in each of its layers.
-fn comb_row(row: &Row, pieces: Vec<(Range<usize>, PlotKind)>, parcels: &mut Vec<Parcel>) {
+/// The pieces of a row as parcels.
+fn parcels_of(row: &Row, pieces: Vec<(Range<usize>, PlotKind)>) -> impl Iterator<Item = Parcel> {
     let start = row.rect.range(row.axis).start;
-    for (piece, kind) in pieces {
-        let range = start + piece.start..start + piece.end;
-        for layer in &row.layers {
-            let rect = layer.with(row.axis, range.clone());
-            parcels.push(Parcel { rect, kind, axis: Some(row.axis), stack: row.rect.range(row.axis.other()).clone() });
-        }
-    }
+    pieces.into_iter().map(move |(piece, kind)| {
+        let rect = row.rect.with(row.axis, start + piece.start..start + piece.end);
+        Parcel { layers: row.layers.clone(), ..Parcel::new(rect, kind, Some(row.axis)) }
+    })
 }
