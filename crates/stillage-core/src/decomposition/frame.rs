@@ -191,6 +191,17 @@ impl Frame {
         Rect { u: 0..self.columns, v: 0..self.rows }
     }
 
+    /// Number of the cells of a rectangle that are so.
+    pub fn count(&self, rect: &Rect, is: impl Fn(Cell) -> bool) -> usize {
+        let row = |v| self.row(v)[rect.u.clone()].iter().filter(|&&cell| is(cell)).count();
+        rect.v.clone().map(row).sum()
+    }
+
+    /// The same as a share of all of them; 0 of none.
+    pub fn share(&self, rect: &Rect, is: impl Fn(Cell) -> bool) -> f64 {
+        self.count(rect, is) as f64 / (rect.u.len() * rect.v.len()).max(1) as f64
+    }
+
     /// A part of the frame with its rows along `axis`.
     pub fn patch(&self, rect: &Rect, axis: Axis) -> Patch {
         let (along, across) = (rect.range(axis), rect.range(axis.other()));

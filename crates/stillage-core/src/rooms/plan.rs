@@ -25,8 +25,8 @@ const DOOR_M: f64 = 1.6;
 
 /// A zone smaller than this is no hall beside a larger one, square metres: two rows and their aisles.
 const HALL_M2: f64 = 200.0;
-/// Share of the ground of a hall that is places at least; halls have 0.2 and more, a stray row of furniture less.
-const PLACES_SHARE: f64 = 0.1;
+/// Share of the ground of a hall that is places at least; halls have 0.08 and more, a stray row of furniture less.
+const PLACES_SHARE: f64 = 0.06;
 
 /// The lines of a site, what they enclose, and its rooms.
 #[derive(Debug, Clone, Default, PartialEq)]
