@@ -13,7 +13,10 @@
 
 use std::ops::Range;
 
+use rayon::prelude::*;
+
 use super::frame::{Axis, Cell, Frame, Patch, Rect};
+use crate::watch::{Stopped, Watch};
 
 /// Width of a strip, metres: goods show in every one, and few lanes lie in it.
 const STRIP_M: f64 = 0.5;
@@ -24,6 +27,8 @@ const LEAST_KNOWN: f64 = 0.04;
 /// Step of the depths that are tried, metres, and how far depths of one kind are apart.
 const DEPTH_STEP_M: f64 = 0.025;
 const ALIKE_M: f64 = 0.04;
+/// Thicker bodies are halls, no storage: lanes are at most twelve places deep from either side.
+const MOST_LAYERS: usize = 24;
 /// Widest flue between layers that are reached from two sides, and its step, metres.
 const FLUE_M: f64 = 0.4;
 const FLUE_STEP_M: f64 = 0.05;
@@ -65,6 +70,11 @@ impl Lattice {
         [start, start + self.depth]
     }
 
+    /// Distances from the middle of a place.
+    fn bins(&self) -> usize {
+        (self.depth.ceil() as usize).max(1)
+    }
+
     /// The layers as lines from the low side on; each gets its half of the flue.
     fn ranges(&self, lines: usize) -> Vec<Range<usize>> {
         let half = self.flue / 2.0;
@@ -101,6 +111,9 @@ impl Strips {
     fn lattices(&self, range: [f64; 2]) -> Vec<Lattice> {
         let lines = self.lines as f64;
         let mut lattices = Vec::new();
+        if lines * self.cell > MOST_LAYERS as f64 * range[1] {
+            return lattices;
+        }
         if self.fronts[0] == self.fronts[1] {
             let flues = (0..=(FLUE_M / FLUE_STEP_M).round() as usize).map(|step| step as f64 * FLUE_STEP_M / self.cell);
             for flue in flues {
@@ -129,37 +142,40 @@ impl Strips {
         lattices
     }
 
-    /// Energy that alike places on a lattice explain in each layer.
-    fn explained(&self, lattice: &Lattice) -> Vec<f64> {
-        let bins = lattice.depth.ceil() as usize;
-        // Lines of each layer, each with its bin from the middle of the place on: goods are even.
-        let lines_of = |layer: usize| {
+    /// Lines of each layer of a lattice, each with its distance from the middle of the place: goods are even.
+    fn lines(&self, lattice: &Lattice) -> Vec<Vec<(usize, usize)>> {
+        let bins = lattice.bins();
+        let of_layer = |layer: usize| {
             let [start, end] = lattice.layer(layer);
             let middle = f64::midpoint(start, end);
             let lines = start.round() as usize..(end.round() as usize).min(self.lines);
-            lines.map(move |line| {
+            let line = |line: usize| {
                 let at = if lattice.from_high { self.lines - 1 - line } else { line };
                 (at, ((line as f64 + 0.5 - middle).abs() as usize).min(bins - 1))
-            })
+            };
+            lines.map(line).collect()
         };
-        let mut shape = vec![0.0; bins];
-        for strip in &self.content {
-            for (line, bin) in (0..lattice.count).flat_map(lines_of) {
-                shape[bin] += strip[line];
-            }
+        (0..lattice.count).map(of_layer).collect()
+    }
+
+    /// Energy that alike places on a lattice explain in each layer.
+    fn explained(&self, lattice: &Lattice) -> Vec<f64> {
+        let layers = self.lines(lattice);
+        let (mut shape, mut sizes) = (vec![0.0; lattice.bins()], vec![0.0_f64; lattice.bins()]);
+        for &(line, bin) in layers.iter().flatten() {
+            shape[bin] += self.content.iter().map(|strip| strip[line]).sum::<f64>();
+            sizes[bin] += 1.0;
         }
-        let mut sizes = vec![0.0_f64; bins];
-        (0..lattice.count).flat_map(lines_of).for_each(|(_, bin)| sizes[bin] += 1.0);
         shape.iter_mut().zip(&sizes).for_each(|(value, size)| *value /= size.max(1.0));
-        let of_layer = |layer: usize| {
-            let square: f64 = lines_of(layer).map(|(_, bin)| shape[bin] * shape[bin]).sum();
+        let of_layer = |lines: &Vec<(usize, usize)>| {
+            let square: f64 = lines.iter().map(|&(_, bin)| shape[bin] * shape[bin]).sum();
             let of_strip = |strip: &Vec<f64>| {
-                let product: f64 = lines_of(layer).map(|(line, bin)| strip[line] * shape[bin]).sum();
+                let product: f64 = lines.iter().map(|&(line, bin)| strip[line] * shape[bin]).sum();
                 product * product / square.max(f64::MIN_POSITIVE)
             };
             self.content.iter().map(of_strip).sum()
         };
-        (0..lattice.count).map(of_layer).collect()
+        layers.iter().map(of_layer).collect()
     }
 
     /// Every lattice with its score, a logarithm of a likelihood.
@@ -189,35 +205,82 @@ fn content(patch: &Patch, line: usize, columns: &Range<usize>) -> f64 {
     if 1.0 - unknown < LEAST_KNOWN { 0.0 } else { share(Cell::is_occupied) + UNKNOWN_CONTENT * unknown }
 }
 
-/// The layers of deep bodies, by body, as lines from their low side on; depths in metres.
-pub(super) fn layers(bodies: &[Strips], range: [f64; 2]) -> Vec<Vec<Range<usize>>> {
-    let scored: Vec<Vec<(f64, Lattice)>> = bodies.iter().map(|body| body.scored(range)).collect();
-    let depth_of = |body: &Strips, lattice: &Lattice| lattice.depth * body.cell;
-    let best = |body: usize, is_in: &dyn Fn(f64) -> bool| {
-        let of_depth = scored[body].iter().filter(|(_, lattice)| is_in(depth_of(&bodies[body], lattice))).copied();
-        of_depth.reduce(|best, other| if other.0 > best.0 { other } else { best })
-    };
-    let own: Vec<_> = (0..bodies.len()).map(|body| best(body, &|_| true)).collect();
-    let near = |usual: f64| move |depth: f64| (depth - usual).abs() <= ALIKE_M;
+/// The layers of deep bodies, by body, as lines from their low side on; depths in metres. None where nothing fits.
+pub(super) fn layers(bodies: &[Strips], range: [f64; 2], watch: &Watch<'_>) -> Result<Vec<Vec<Range<usize>>>, Stopped> {
+    let score = |body: &Strips| watch.check().map(|()| Choice { scored: body.scored(range), cell: body.cell });
+    let choices: Vec<Choice> = bodies.par_iter().map(score).collect::<Result<_, _>>()?;
     let steps = ((range[1] - range[0]) / DEPTH_STEP_M).round() as usize;
-    let total = |depth: f64| {
-        let of_body = |body: usize| {
-            let own = own[body].map_or(0.0, |(score, _)| score - DEPTH_PRICE);
-            best(body, &near(depth)).map_or(own, |(score, _)| score.max(own))
-        };
-        (0..bodies.len()).map(of_body).sum::<f64>()
-    };
     let depths = (0..=steps).map(|step| range[0] + step as f64 * DEPTH_STEP_M);
-    let usual =
-        depths.map(|depth| (total(depth), depth)).reduce(|best, other| if other.0 > best.0 { other } else { best });
-    let chosen = |body: usize| {
-        let alike = usual.and_then(|(_, depth)| best(body, &near(depth)));
-        match (alike, own[body]) {
-            (Some(alike), Some(own)) if alike.0 >= own.0 - DEPTH_PRICE => Some(alike.1),
-            (_, own) => own.map(|own| own.1),
-        }
+    let total = |depth: f64| choices.iter().filter_map(|choice| choice.at(depth)).map(|(score, _)| score).sum::<f64>();
+    let better = |best: (f64, f64), other: (f64, f64)| if other.0 > best.0 { other } else { best };
+    let usual = depths.map(|depth| (total(depth), depth)).reduce(better).map_or(range[0], |(_, depth)| depth);
+    let ranges = |(body, choice): (&Strips, &Choice)| {
+        choice.at(usual).map_or_else(Vec::new, |(_, lattice)| lattice.ranges(body.lines))
     };
-    (0..bodies.len())
-        .map(|body| chosen(body).map_or_else(Vec::new, |lattice| lattice.ranges(bodies[body].lines)))
-        .collect()
+    Ok(bodies.iter().zip(&choices).map(ranges).collect())
+}
+
+/// All lattices of a body with their scores.
+struct Choice {
+    scored: Vec<(f64, Lattice)>,
+    cell: f64,
+}
+
+impl Choice {
+    /// The best lattice where others have places of a depth, metres; none if goods do not pay for their places.
+    fn at(&self, depth: f64) -> Option<(f64, Lattice)> {
+        let price = |lattice: &Lattice| {
+            let is_alike = (lattice.depth * self.cell - depth).abs() <= ALIKE_M;
+            if is_alike { 0.0 } else { DEPTH_PRICE }
+        };
+        let priced = self.scored.iter().map(|(score, lattice)| (score - price(lattice), *lattice));
+        priced.filter(|(score, _)| *score > 0.0).reduce(|best, other| if other.0 > best.0 { other } else { best })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Strips drawn from left to right, four lines to a character: goods (#), half of them hidden (+), nothing (.).
+    fn check(picture: &[&str], fronts: [bool; 2], wanted: &expect_test::Expect) {
+        let content = |symbol| match symbol {
+            '#' => 1.0,
+            '+' => 0.5,
+            _ => 0.0,
+        };
+        let strip = |row: &&str| row.chars().flat_map(|symbol| [content(symbol); 4]).collect::<Vec<f64>>();
+        let content: Vec<Vec<f64>> = picture.iter().map(strip).collect();
+        let body = Strips { lines: content[0].len(), content, cell: 0.05, fronts };
+        let found = layers(&[body], [0.8, 1.45], &Watch::unwatched()).expect("nobody stops it");
+        let found = found[0].iter().map(|layer| format!("{}..{}", layer.start, layer.end));
+        wanted.assert_eq(&found.collect::<Vec<_>>().join(" "));
+    }
+
+    #[test]
+    fn goods_that_end_at_other_layers_in_other_lanes_tell_the_depth() {
+        // Three bearers on each place of 1.2 m: between two places the bearers stand closer than within one.
+        let pallet = "#.++.#";
+        let lane = |free: usize| ".".repeat(6 * free) + &pallet.repeat(5 - free);
+        let lanes: Vec<String> = [0, 2, 1, 3, 0, 1].map(lane).into();
+        let picture: Vec<&str> = lanes.iter().map(String::as_str).collect();
+        check(&picture, [true, false], &expect_test::expect![""]);
+        check(&picture, [true, true], &expect_test::expect![""]);
+    }
+
+    #[test]
+    fn layers_that_are_reached_from_two_sides_may_have_a_flue() {
+        let half = "####+#####+#";
+        let full = half.to_owned() + "." + half;
+        let front = ".".repeat(6) + &full[6..];
+        let back = full[..19].to_owned() + &".".repeat(6);
+        check(&[&full, &front, &back, &full], [true, true], &expect_test::expect![""]);
+    }
+
+    #[test]
+    fn bodies_without_goods_or_as_thick_as_halls() {
+        check(&[&".".repeat(30)], [true, true], &expect_test::expect![""]);
+        check(&[&"#".repeat(300)], [true, true], &expect_test::expect![""]);
+        check(&["#"], [true, true], &expect_test::expect![""]);
+    }
 }

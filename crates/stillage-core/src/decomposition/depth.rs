@@ -1,9 +1,8 @@
 //! How deep the places of a body are, and which of its sides goods are taken from.
 //!
 //! A side is a front where vehicles find room along most of it. A body between two fronts is one row, or two back to back
-//! with a flue, for every place of a rack must be reached; thicker bodies are double-deep racks or block storage, whose
-//! borders show in the projection along the rows as those of places do along the aisle. The depth of the places is the
-//! one that explains the thinner bodies of a region best.
+//! with a flue, for every place of a rack must be reached; what is thicker is for [`super::layers`]. The depth of the
+//! places is the one that explains the thinner bodies of a region best.
 //!
 //! Cost: O(cells of the bodies). Limits: where goods hide what is behind them, the usual depth of a pallet decides.
 

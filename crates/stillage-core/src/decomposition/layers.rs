@@ -1,13 +1,12 @@
 //! How the bodies between aisles are cut into rows, one behind the other.
 //!
 //! Every place of a rack must be reached, so what is thin enough between two aisles is one row, or two back to back. What
-//! is deeper - double-deep racks, block storage, marked floors - and what stands before a wall is read across its rows
-//! as rows are read along them: the layers come from the borders between goods and from goods, which are alike and not
-//! cut in two, in all deep bodies of one direction together ([`super::reading`]). Layers that are reached from one side
-//! form a stack: their lanes run through all of them.
+//! is deeper - double-deep racks, block storage, marked floors - and what stands before a wall may have any number of
+//! layers, which [`super::across`] finds. Layers that are reached from one side form a stack: their lanes run through all
+//! of them, so they are cut together, and end together.
 //!
-//! Cost: that of reading rows as long as bodies are deep. Limits: where goods hide what is behind them, the usual depth
-//! of a pallet decides.
+//! Cost: O(cells of the bodies), and that of the layers. Limits: where goods hide what is behind them, the usual depth of
+//! a pallet decides.
 
 use std::ops::Range;
 
@@ -15,6 +14,7 @@ use super::across::{self, Strips};
 use super::blocks::Profile;
 use super::depth::{Body, THIN_SHARE, thickest_pair};
 use super::frame::{Frame, Patch};
+use crate::watch::{Stopped, Watch};
 
 /// A body with room for more than this many rows is more than one row.
 const DEEP_ROOM: f64 = 1.5;
@@ -43,7 +43,13 @@ pub(super) struct Layers {
 }
 
 /// Cuts the bodies of one direction into rows of about a depth, metres, within a range.
-pub(super) fn cut(frame: &Frame, bodies: &[&Body], depth: f64, range: [f64; 2]) -> Vec<Layers> {
+pub(super) fn cut(
+    frame: &Frame,
+    bodies: &[&Body],
+    depth: f64,
+    range: [f64; 2],
+    watch: &Watch<'_>,
+) -> Result<Vec<Layers>, Stopped> {
     let rooms: Vec<Range<usize>> = bodies.iter().map(|body| room(frame, body, depth)).collect();
     let is_deep = |body: &Body, room: &Range<usize>| {
         let thickness = room.len() as f64 * frame.cell;
@@ -56,12 +62,13 @@ pub(super) fn cut(frame: &Frame, bodies: &[&Body], depth: f64, range: [f64; 2]) 
         Strips::of(frame, &rect.with(axis.other(), rooms[body].clone()), *axis, *fronts)
     };
     let strips: Vec<Strips> = deep.iter().map(strips).collect();
-    let mut read = deep.iter().zip(across::layers(&strips, range)).peekable();
+    let mut read = deep.iter().zip(across::layers(&strips, range, watch)?).peekable();
     let cut = |(index, (body, room)): (usize, (&&Body, Range<usize>))| match read.next_if(|&(&deep, _)| deep == index) {
         Some((_, layers)) if layers.len() > 1 => deep_layers(body, &room, layers),
+        Some(_) if body.fronts[0] == body.fronts[1] => Layers { stacks: Vec::new(), rests: vec![body.across()] },
         _ => shallow_layers(frame, body, room, depth),
     };
-    bodies.iter().zip(rooms).enumerate().map(cut).collect()
+    Ok(bodies.iter().zip(rooms).enumerate().map(cut).collect())
 }
 
 /// One row or two back to back; before a wall, the row along the aisle.

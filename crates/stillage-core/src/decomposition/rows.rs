@@ -1,9 +1,10 @@
 //! From the bodies between aisles to rows, from rows to places.
 //!
-//! The bodies are cut into rows by the depth of their places ([`super::depth`]), the rows into places by the comb, with
+//! The bodies are cut into rows by the depth of their places ([`super::layers`]), the rows into places by the comb, with
 //! the pitch and the goods that [`super::reading`] finds in all rows of one direction together. Where nothing repeats,
 //! there is no comb: walls, shelves and furniture are not cut into places. Cost: O(cells x pitches).
 
+use std::collections::BTreeMap;
 use std::ops::Range;
 
 use super::blocks::{Block, BlockKind};
@@ -86,16 +87,18 @@ pub(super) fn lay_out(
     for axis in Axis::BOTH {
         let bodies: Vec<&Body> = bodies.iter().filter(|body| body.axis == axis).collect();
         let (mut rows, mut rests) = (Vec::new(), Vec::new());
-        for (body, layers) in bodies.iter().zip(layers::cut(frame, &bodies, depth, hints.depth)) {
+        for (body, layers) in bodies.iter().zip(layers::cut(frame, &bodies, depth, hints.depth, watch)?) {
             watch.check()?;
             let rest_of = |rest| Parcel::new(body.rect.with(axis.other(), rest), PlotKind::Rest, Some(axis));
             rests.extend(layers.rests.into_iter().map(rest_of));
             rows.extend(layers.stacks.into_iter().map(|stack| Row::of(body, stack)));
         }
+        let evidence: Vec<Evidence> = rows.iter().map(|row| row.evidence(frame, hints)).collect();
         watch.check()?;
-        if is_periodic(frame, &rows, hints) {
+        if is_periodic(frame, &rows, &evidence, hints) {
             parcels.append(&mut rests);
-            comb_rows(frame, &rows, hints, &mut parcels, watch)?;
+            comb_rows(frame, &rows, &evidence, hints, &mut parcels);
+            watch.check()?;
         } else {
             let whole = |body: &&Body| Parcel::new(body.rect.clone(), PlotKind::Rest, Some(axis));
             parcels.extend(bodies.iter().map(whole));
@@ -105,29 +108,23 @@ pub(super) fn lay_out(
 }
 
 /// Whether these are rows of places, or walls and furniture, which are not cut.
-fn is_periodic(frame: &Frame, rows: &[Row], hints: &Hints) -> bool {
+fn is_periodic(frame: &Frame, rows: &[Row], evidence: &[Evidence], hints: &Hints) -> bool {
     let patch = |row: usize| frame.patch(&rows[row].rect, rows[row].axis);
     // A stack speaks as a whole: each of its layers by itself may be too empty to tell.
-    let evidence: Vec<Evidence> =
-        (0..rows.len()).map(|row| Evidence::of(&patch(row), frame.cell, hints.widths())).collect();
-    let evidence: Vec<&Evidence> = evidence.iter().collect();
+    let stacks = (0..rows.len()).filter(|&row| rows[row].layers.len() > 1);
+    let wholes: BTreeMap<usize, Evidence> =
+        stacks.map(|row| (row, Evidence::of(&patch(row), frame.cell, hints.widths()))).collect();
+    let evidence: Vec<&Evidence> =
+        evidence.iter().enumerate().map(|(row, evidence)| wholes.get(&row).unwrap_or(evidence)).collect();
     frame.cell <= COARSEST_CELL_M
         && gate::is_periodic(&evidence, |row| rows[row].layers.len(), patch, hints.widths(), hints.pitch)
 }
 
 /// Cuts the rows of one direction.
-fn comb_rows(
-    frame: &Frame,
-    rows: &[Row],
-    hints: &Hints,
-    parcels: &mut Vec<Parcel>,
-    watch: &Watch<'_>,
-) -> Result<(), Stopped> {
-    let evidence: Vec<Evidence> = rows.iter().map(|row| row.evidence(frame, hints)).collect();
+fn comb_rows(frame: &Frame, rows: &[Row], evidence: &[Evidence], hints: &Hints, parcels: &mut Vec<Parcel>) {
     let all: Vec<&Evidence> = evidence.iter().collect();
-    watch.check()?;
     let readings = Rows { rows: &all, pitches: pitch::candidates(hints.pitch) }.read();
-    for ((row, evidence), reading) in rows.iter().zip(&evidence).zip(readings) {
+    for ((row, evidence), reading) in rows.iter().zip(evidence).zip(readings) {
         match reading {
             Some(reading) => {
                 let pieces = pieces::of_comb(&reading.cut(evidence), reading.pitch, frame);
@@ -136,7 +133,6 @@ fn comb_rows(
             None => parcels.push(Parcel::new(row.rect.clone(), PlotKind::Rest, Some(row.axis))),
         }
     }
-    Ok(())
 }
 
 /// The pieces of a row as parcels.
