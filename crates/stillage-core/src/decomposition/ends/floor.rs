@@ -1,8 +1,8 @@
 //! Open floor reaches as far as it was seen.
 //!
-//! Lanes are cut as rectangles from side to side of the frame, so they run on through walls into ground that nobody saw,
-//! and past it into what a robot saw through a door. Each is cut again where most of its lines change from free to not
-//! free, in the direction that tells the two apart best, until its parts are one or the other.
+//! Lanes are cut as rectangles from side to side of the frame, so they run on through walls into ground that nobody
+//! saw, and past it into what a robot saw through a door. Each is cut again where most of its lines change from free to
+//! not free, in the direction that tells the two apart best, until its parts are one or the other.
 //!
 //! Source: the recursive XY-cut of [`super::super::blocks`]. Cost: O(cells of the lanes x cuts). Limits: walls aslant
 //! leave steps.

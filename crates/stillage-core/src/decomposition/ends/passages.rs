@@ -1,8 +1,8 @@
 //! Passages through rows that lie beside one another.
 //!
-//! Empty places and open floor look alike; only together rows tell them apart. A stretch on which vehicles find room is a
-//! passage where it goes on, at the same place, through three rows and across an aisle, or where the comb found a gap in
-//! one row and such a stretch in the next. Its sides are those that most of its rows have.
+//! Empty places and open floor look alike; only together rows tell them apart. A stretch on which vehicles find room is
+//! a passage where it goes on, at the same place, through three rows and across an aisle, or where the comb found a gap
+//! in one row and such a stretch in the next. Its sides are those that most of its rows have.
 //!
 //! Cost: O(cells of the rows + stretches^2). Limits: places that are empty opposite one another in three rows are lost.
 

@@ -14,7 +14,8 @@ use super::super::frame::{Axis, Cell, Frame};
 use super::super::{Parcel, PlotKind};
 use super::passages;
 
-/// Share of a piece that must lie in the site: goods hide as much of their place where they are seen from one side only.
+/// Share of a piece that must lie in the site: goods hide as much of their place where they are seen from one side
+/// only.
 const SITE_SHARE: f64 = 0.3;
 /// The same where most of the row lies in the site, and only its end is seen badly.
 const SITE_SHARE_OF_END: f64 = 0.1;
