@@ -43,7 +43,9 @@ pub(super) fn end(frame: &Frame, parcels: Vec<Parcel>) -> Vec<Parcel> {
     let stretches: Vec<Stretch> = bands.iter().flat_map(|band| band.stretches(frame)).collect();
     if let Some(width) = usual_width(&stretches) {
         let aisles = Aisles { width, strip: frame.cells_of(OPEN_STRIP_M), borders: Borders::of(frame, &ended) };
-        stretches.into_iter().for_each(|stretch| aisles.cut(stretch, &mut ended));
+        for stretch in stretches {
+            aisles.cut(stretch, &mut ended);
+        }
     } else {
         ended.extend(stretches.into_iter().map(Stretch::whole));
     }

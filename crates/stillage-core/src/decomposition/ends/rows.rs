@@ -40,9 +40,13 @@ pub(super) fn end(frame: &Frame, parcels: Vec<Parcel>) -> Vec<Parcel> {
     let (pieces, mut ended): (Vec<Parcel>, Vec<Parcel>) = parcels.into_iter().partition(is_of_row);
     for axis in Axis::BOTH {
         let mut rows = Row::all(pieces.iter().filter(|piece| piece.axis == Some(axis)), axis);
-        rows.iter_mut().for_each(|row| row.leave_out(frame));
+        for row in &mut rows {
+            row.leave_out(frame);
+        }
         passages::open(frame, &mut rows);
-        rows.into_iter().for_each(|row| row.end(frame, &mut ended));
+        for row in rows {
+            row.end(frame, &mut ended);
+        }
     }
     ended
 }
