@@ -38,6 +38,8 @@ const BEHIND_SHARE: f64 = 0.1;
 const CORRELATION_M: f64 = 0.2;
 /// Share of the energy that is noise even where goods explain all of it.
 const LEAST_NOISE: f64 = 0.15;
+/// Share of the energy that goods explain at least: walls that run across a body are explained by less.
+const LEAST_EXPLAINED: f64 = 0.5;
 /// Price of a place of a strip: how full it is, half a logarithm of its cells.
 const PLACE_PRICE: f64 = 1.5;
 /// Price of a depth of a body's own: its shape of goods, a dozen values of half a logarithm each.
@@ -184,6 +186,9 @@ impl Strips {
         let lattices = self.lattices(range);
         let explained: Vec<Vec<f64>> = lattices.iter().map(|lattice| self.explained(lattice)).collect();
         let most = explained.iter().map(|layers| layers.iter().sum()).fold(0.0, f64::max);
+        if most < LEAST_EXPLAINED * energy {
+            return Vec::new();
+        }
         let cells = (self.lines * self.content.len()).max(1) as f64;
         let noise = (energy - most).max(LEAST_NOISE * energy).max(f64::MIN_POSITIVE) / cells;
         let weight = self.cell / (2.0 * CORRELATION_M * noise);
@@ -264,8 +269,8 @@ mod tests {
         let lane = |free: usize| ".".repeat(6 * free) + &pallet.repeat(5 - free);
         let lanes: Vec<String> = [0, 2, 1, 3, 0, 1].map(lane).into();
         let picture: Vec<&str> = lanes.iter().map(String::as_str).collect();
-        check(&picture, [true, false], &expect_test::expect![""]);
-        check(&picture, [true, true], &expect_test::expect![""]);
+        check(&picture, [true, false], &expect_test::expect!["0..24 24..48 48..72 72..96 96..120"]);
+        check(&picture, [true, true], &expect_test::expect!["0..24 24..48 48..72 72..96 96..120"]);
     }
 
     #[test]
@@ -274,7 +279,7 @@ mod tests {
         let full = half.to_owned() + "." + half;
         let front = ".".repeat(6) + &full[6..];
         let back = full[..19].to_owned() + &".".repeat(6);
-        check(&[&full, &front, &back, &full], [true, true], &expect_test::expect![""]);
+        check(&[&full, &front, &back, &full], [true, true], &expect_test::expect!["0..24 24..50 50..76 76..100"]);
     }
 
     #[test]

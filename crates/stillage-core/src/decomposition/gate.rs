@@ -64,7 +64,7 @@ pub(super) fn is_periodic(
     let length: f64 = voters.iter().map(|&row| rows[row].length()).sum();
     let [score, earned] = [0, 1].map(|at| of_rows.iter().map(|excess| excess[at]).sum::<f64>() / length);
     let excess = score + EARNED_WEIGHT * earned.max(0.0);
-    let votes: usize = voters.iter().map(|&row| layers(row).min(std::env::var("VC").ok().and_then(|v| v.parse().ok()).unwrap_or(4))).sum();
+    let votes: usize = voters.iter().map(|&row| layers(row)).sum();
     votes > 0 && excess >= LEAST_EXCESS + LEAST_EXCESS_OF_ONE / votes as f64
 }
 
