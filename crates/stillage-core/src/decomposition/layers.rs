@@ -11,7 +11,6 @@
 use std::ops::Range;
 
 use super::across::{self, Strips};
-use super::blocks::Profile;
 use super::depth::{Body, THIN_SHARE, thickest_pair};
 use super::frame::{Frame, Patch};
 use crate::watch::{Stopped, Watch};
@@ -20,8 +19,6 @@ use crate::watch::{Stopped, Watch};
 const DEEP_ROOM: f64 = 1.5;
 /// Rows are at most so many times as deep as usual.
 const DEEPER: f64 = 1.15;
-/// Share of the fullest line of a body that lies in the site where there is room for goods.
-const GROUND_SHARE: f64 = 0.5;
 /// Occupied share of a line of cells that makes it a wall.
 const WALL_SHARE: f64 = 0.5;
 /// How far in front of a wall hits are scattered, metres, and the share of a line that they take at least.
@@ -85,7 +82,7 @@ fn shallow_layers(frame: &Frame, body: &Body, room: Range<usize>, depth: f64) ->
         let stacks = equal_parts(&room, 2).into_iter().map(|row| vec![row]).collect();
         return Layers { stacks, rests: beside(&across, &room) };
     }
-    let row_depth = frame.cells_of(DEEPER * depth).clamp(1, room.len());
+    let row_depth = if rows > DEEP_ROOM { frame.cells_of(depth).max(1) } else { room.len() };
     let row = if body.fronts[0] { room.start..room.start + row_depth } else { room.end - row_depth..room.end };
     Layers { rests: beside(&across, &row), stacks: vec![vec![row]] }
 }
@@ -118,17 +115,9 @@ fn halves(mut stack: Stack) -> Vec<Stack> {
     vec![stack, far]
 }
 
-/// The part of a body that may hold goods: all of it that lies in the site, or what lies before the wall on the side
-/// without an aisle.
+/// The part of a body that may hold goods: all of it, or what lies before the wall on the side without an aisle.
 fn room(frame: &Frame, body: &Body, depth: f64) -> Range<usize> {
-    let ground = Profile::of(frame, &body.rect, body.axis).ground;
-    let fullest = f64::from(ground.iter().copied().max().unwrap_or(0));
-    let is_ground = |&ground: &u32| ground > 0 && f64::from(ground) >= GROUND_SHARE * fullest;
-    let start = body.across().start;
-    let across = match (ground.iter().position(is_ground), ground.iter().rposition(is_ground)) {
-        (Some(first), Some(last)) => start + first..start + last + 1,
-        _ => start..start,
-    };
+    let across = body.across();
     if body.fronts[0] == body.fronts[1] {
         return across;
     }
