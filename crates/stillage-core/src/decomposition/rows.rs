@@ -72,13 +72,17 @@ pub(super) fn lay_out(
         for body in &bodies {
             watch.check()?;
             let layers = depth::layers(frame, body, depth, hints.depth);
-            let rest_of = |rest| Parcel::new(body.rect.with(axis.other(), rest), PlotKind::Rest, Some(axis));
-            rests.extend(layers.rests.into_iter().map(rest_of));
-            rows.extend(layers.rows.into_iter().map(|layer| {
-                let rect = body.rect.with(axis.other(), layer);
-                let evidence = Evidence::of(&frame.patch(&rect, axis), frame.cell, hints.widths());
-                Row { rect, axis, evidence }
-            }));
+            let rest_of = |rest| Parcel::new(rest, PlotKind::Rest, Some(axis));
+            rests.extend(layers.rests.into_iter().map(|rest| rest_of(body.rect.with(axis.other(), rest))));
+            for layer in layers.rows {
+                let layer = body.rect.with(axis.other(), layer);
+                let [before, within, after] = in_region(frame, &layer, axis).map(|part| layer.with(axis, part));
+                rests.extend([before, after].into_iter().filter(|rest| !rest.range(axis).is_empty()).map(rest_of));
+                if !within.range(axis).is_empty() {
+                    let evidence = Evidence::of(&frame.patch(&within, axis), frame.cell, hints.widths());
+                    rows.push(Row { rect: within, axis, evidence });
+                }
+            }
         }
         watch.check()?;
         if is_periodic(frame, &rows, hints) {
@@ -90,6 +94,19 @@ pub(super) fn lay_out(
         }
     }
     Ok(parcels)
+}
+
+/// The parts of a layer before, within and behind its region: a region is bounded by tiles, its blocks are rectangles, and
+/// what the next region holds stands in another direction.
+fn in_region(frame: &Frame, layer: &Rect, axis: Axis) -> [Range<usize>; 3] {
+    let patch = frame.patch(layer, axis);
+    let along = layer.range(axis);
+    let is_within = |&column: &usize| {
+        2 * (0..patch.height).filter(|&row| patch.row(row)[column].is_inside()).count() >= patch.height
+    };
+    let first = (0..patch.width).find(is_within).unwrap_or(patch.width);
+    let end = (first..patch.width).rfind(is_within).map_or(first, |last| last + 1);
+    [along.start..along.start + first, along.start + first..along.start + end, along.start + end..along.end]
 }
 
 /// Whether these are rows of places, or walls and furniture, which are not cut.
