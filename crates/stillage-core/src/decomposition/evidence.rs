@@ -36,6 +36,9 @@ const POST_WEIGHTS: [f64; 2] = [2.5, 1.5];
 const HIDDEN_SHARE: f64 = 0.2;
 /// Smoothing of content before its two halves are compared, metres: goods stand askew by that much.
 const MIRROR_SIGMA_M: f64 = 0.06;
+/// Window in which content is levelled, metres: two places. What is less than the floor is nothing: a cell in a place.
+const LEVEL_WINDOW_M: f64 = 2.0;
+const LEVEL_FLOOR: f64 = 0.05;
 /// Width of a place in which the usual content is counted, metres.
 const USUAL_PLACE_M: f64 = 1.2;
 /// Content below which a place holds nothing, cells.
@@ -56,7 +59,7 @@ pub(super) struct Evidence {
     pub border: Vec<f64>,
     /// Nothing stands here, in the whole depth.
     pub is_clear: Vec<bool>,
-    /// Share of the depth that is occupied or unknown; none where nobody looked.
+    /// Share of the depth that is occupied or unknown, beside its usual size hereabouts; none where nobody looked.
     pub content: Vec<f64>,
     /// The same of the middle of the depth.
     middle: Vec<f64>,
@@ -134,7 +137,7 @@ impl Evidence {
         Self {
             border,
             is_clear,
-            content: gaussian(&whole, CONTENT_SIGMA_M / cell),
+            content: levelled(&gaussian(&whole, CONTENT_SIGMA_M / cell), cell),
             middle: content,
             mirror,
             least_width,
@@ -177,6 +180,14 @@ impl Evidence {
             })
             .unzip()
     }
+}
+
+/// Content as a share of its root mean square around each cell, so that the three legs of a pallet say as much as the
+/// solid box beside it, which has some ten times the content.
+fn levelled(content: &[f64], cell: f64) -> Vec<f64> {
+    let squares: Vec<f64> = content.iter().map(|content| content * content).collect();
+    let level = mean_filter(&squares, LEVEL_WINDOW_M / cell);
+    content.iter().zip(level).map(|(content, square)| content / (square.max(0.0).sqrt() + LEVEL_FLOOR)).collect()
 }
 
 /// See [`Evidence::unevenness`].
