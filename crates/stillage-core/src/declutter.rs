@@ -17,6 +17,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::components::{Component, Components, Neighbours};
 use crate::grid::{Occupancy, OccupancyGrid};
 use crate::watch::{Stopped, Watch};
 
@@ -70,8 +71,8 @@ pub struct Removed {
 /// # Errors
 /// [`Stopped`] when the watch says so.
 pub fn declutter(grid: &OccupancyGrid, watch: &Watch<'_>) -> Result<Decluttered, Stopped> {
-    let components = Components::of(grid, Occupancy::Occupied, watch)?;
-    let rate = speckle_rate(grid, &components, watch)?;
+    let hits = components(grid, Occupancy::Occupied, watch)?;
+    let rate = speckle_rate(grid, &hits, watch)?;
     let company = Company::new(grid, watch)?;
     let cell_area = grid.resolution() * grid.resolution();
     let is_lone = |cell: usize, own: usize| {
@@ -79,28 +80,28 @@ pub fn declutter(grid: &OccupancyGrid, watch: &Watch<'_>) -> Result<Decluttered,
         let expected = rate * window as f64;
         (count.saturating_sub(own) as f64) < COMPANY_AREA / cell_area + expected + DEVIATIONS * expected.sqrt()
     };
-    let chance = Chance::of(grid, &components, rate, is_lone, watch)?;
-    let is_clutter = |component: &[u32]| {
+    let chance = Chance::of(grid, &hits, rate, is_lone, watch)?;
+    let is_clutter = |component: &Component<'_>| {
         let area = component.len() as f64 * cell_area;
         if area > SMALL_AREA {
             false
-        } else if is_lone(component[0] as usize, component.len()) {
+        } else if is_lone(component.first(), component.len()) {
             let is_firm = area >= FIRM_AREA && (rate < CLEAN_RATE || component.len() >= FIRM_CELLS);
-            !is_firm || chance.explains(component.len(), true, Ground::around(grid, component))
+            !is_firm || chance.explains(component.len(), true, Ground::around(grid, component.cells()))
         } else {
-            chance.explains(component.len(), false, Ground::around(grid, component))
+            chance.explains(component.len(), false, Ground::around(grid, component.cells()))
         }
     };
-    let clutter: Vec<&[u32]> = components.iter().filter(|component| is_clutter(component)).collect();
-    let mut occupied = clutter.concat();
+    let clutter: Vec<Component<'_>> = hits.iter().filter(is_clutter).collect();
+    let mut occupied: Vec<u32> = clutter.iter().flat_map(Component::cells).map(|cell| cell as u32).collect();
     occupied.sort_unstable();
-    let mut unknown: Vec<u32> = Components::of(grid, Occupancy::Unknown, watch)?
+    let mut unknown: Vec<u32> = components(grid, Occupancy::Unknown, watch)?
         .iter()
         .filter(|hole| {
-            hole.len() as f64 * cell_area <= HOLE_AREA && stands_off(grid, hole) && !is_at_border(grid, hole)
+            hole.len() as f64 * cell_area <= HOLE_AREA && stands_off(grid, *hole) && !is_at_border(grid, *hole)
         })
-        .flatten()
-        .copied()
+        .flat_map(|hole| hole.cells())
+        .map(|cell| cell as u32)
         .collect();
     unknown.sort_unstable();
     let mut cells = grid.cells().to_vec();
@@ -109,17 +110,13 @@ pub fn declutter(grid: &OccupancyGrid, watch: &Watch<'_>) -> Result<Decluttered,
     }
     for component in clutter {
         let ground = ground_around(grid, component);
-        for &cell in component {
-            cells[cell as usize] = ground;
-        }
+        component.cells().for_each(|cell| cells[cell] = ground);
     }
     let specks = OccupancyGrid::new(grid.width(), grid.height(), *grid.frame(), cells.clone());
-    for speck in Components::of(&specks, Occupancy::Free, watch)?.iter() {
+    for speck in components(&specks, Occupancy::Free, watch)?.iter() {
         let is_small = speck.len() as f64 * cell_area <= HOLE_AREA;
         if is_small && stands_off(&specks, speck) && ground_around(&specks, speck) == Occupancy::Unknown {
-            for &cell in speck {
-                cells[cell as usize] = Occupancy::Unknown;
-            }
+            speck.cells().for_each(|cell| cells[cell] = Occupancy::Unknown);
         }
     }
     let clean = OccupancyGrid::new(grid.width(), grid.height(), *grid.frame(), cells);
@@ -138,10 +135,10 @@ enum Ground {
 }
 
 impl Ground {
-    fn around(grid: &OccupancyGrid, component: &[u32]) -> Self {
+    fn around(grid: &OccupancyGrid, cells: impl Iterator<Item = usize>) -> Self {
         let (mut is_free, mut is_unknown) = (false, false);
-        for &cell in component {
-            let (column, row) = (cell as usize % grid.width(), cell as usize / grid.width());
+        for cell in cells {
+            let (column, row) = (cell % grid.width(), cell / grid.width());
             for row in row.saturating_sub(1)..grid.height().min(row + 2) {
                 for &near in &grid.row(row)[column.saturating_sub(1)..grid.width().min(column + 2)] {
                     is_free |= near == Occupancy::Free;
@@ -188,14 +185,14 @@ impl Chance {
             for (column, &cell) in grid.row(row).iter().enumerate() {
                 let index = row * grid.width() + column;
                 if cell != Occupancy::Occupied {
-                    cells[class(is_lone(index, 0), Ground::around(grid, &[index as u32]))] += 1;
+                    cells[class(is_lone(index, 0), Ground::around(grid, std::iter::once(index)))] += 1;
                 }
             }
         }
         let mut counts = [[0_usize; CLASSES]; SHAPES.len()];
         for component in components.iter().filter(|component| component.len() <= SHAPES.len()) {
-            let is_lone = is_lone(component[0] as usize, component.len());
-            counts[component.len() - 1][class(is_lone, Ground::around(grid, component))] += 1;
+            let is_lone = is_lone(component.first(), component.len());
+            counts[component.len() - 1][class(is_lone, Ground::around(grid, component.cells()))] += 1;
         }
         for (size, shapes) in SHAPES.iter().enumerate() {
             for class in 0..CLASSES {
@@ -212,10 +209,10 @@ impl Chance {
 }
 
 /// What surrounds a small component: unknown where most of its neighbours are.
-fn ground_around(grid: &OccupancyGrid, component: &[u32]) -> Occupancy {
+fn ground_around(grid: &OccupancyGrid, component: Component<'_>) -> Occupancy {
     let (mut free, mut unknown) = (0, 0);
-    for &cell in component {
-        let (column, row) = ((cell as usize % grid.width()) as i64, (cell as usize / grid.width()) as i64);
+    for cell in component.cells() {
+        let (column, row) = ((cell % grid.width()) as i64, (cell / grid.width()) as i64);
         for (right, up) in [(1, 0), (-1, 0), (0, 1), (0, -1)] {
             let (column, row) = (column + right, row + up);
             let in_grid = (0..grid.width() as i64).contains(&column) && (0..grid.height() as i64).contains(&row);
@@ -230,18 +227,18 @@ fn ground_around(grid: &OccupancyGrid, component: &[u32]) -> Occupancy {
 }
 
 /// Whether no occupied cell touches a component.
-fn stands_off(grid: &OccupancyGrid, component: &[u32]) -> bool {
-    component.iter().all(|&cell| {
-        let (column, row) = ((cell as usize % grid.width()) as i64, (cell as usize / grid.width()) as i64);
+fn stands_off(grid: &OccupancyGrid, component: Component<'_>) -> bool {
+    component.cells().all(|cell| {
+        let (column, row) = ((cell % grid.width()) as i64, (cell / grid.width()) as i64);
         let beside = [(1, 0), (-1, 0), (0, 1), (0, -1)].map(|(right, up)| grid.at(column + right, row + up));
         beside.into_iter().all(|near| near != Occupancy::Occupied)
     })
 }
 
 /// Whether a component reaches the border of the grid.
-fn is_at_border(grid: &OccupancyGrid, component: &[u32]) -> bool {
-    component.iter().any(|&cell| {
-        let (column, row) = (cell as usize % grid.width(), cell as usize / grid.width());
+fn is_at_border(grid: &OccupancyGrid, component: Component<'_>) -> bool {
+    component.cells().any(|cell| {
+        let (column, row) = (cell % grid.width(), cell / grid.width());
         column == 0 || row == 0 || column + 1 == grid.width() || row + 1 == grid.height()
     })
 }
@@ -259,7 +256,7 @@ fn speckle_rate(grid: &OccupancyGrid, components: &Components, watch: &Watch<'_>
         }
     }
     for component in components.iter().filter(|component| component.len() == 1) {
-        let cell = component[0] as usize;
+        let cell = component.first();
         lone[tile_of(cell % grid.width(), cell / grid.width())] += 1;
     }
     let mut rates: Vec<f64> = free
@@ -274,57 +271,9 @@ fn speckle_rate(grid: &OccupancyGrid, components: &Components, watch: &Watch<'_>
 }
 
 /// Eight-connected components of the cells of one occupancy.
-struct Components {
-    cells: Vec<u32>,
-    /// End of each component in `cells`.
-    ends: Vec<usize>,
-}
-
-/// Components with more cells than this are cut: nobody asks for the members of large ones.
-const MOST_MEMBERS: usize = 4_096;
-
-impl Components {
-    fn of(grid: &OccupancyGrid, occupancy: Occupancy, watch: &Watch<'_>) -> Result<Self, Stopped> {
-        let (width, height) = (grid.width(), grid.height());
-        let mut is_seen = vec![false; width * height];
-        let (mut cells, mut ends, mut open) = (Vec::new(), Vec::new(), Vec::new());
-        for row in 0..height {
-            watch.check()?;
-            for column in 0..width {
-                let first = row * width + column;
-                if is_seen[first] || grid.cells()[first] != occupancy {
-                    continue;
-                }
-                is_seen[first] = true;
-                open.push(first);
-                let start = cells.len();
-                while let Some(cell) = open.pop() {
-                    if cells.len() - start < MOST_MEMBERS {
-                        cells.push(cell as u32);
-                    }
-                    let (column, row) = (cell % width, cell / width);
-                    for row in row.saturating_sub(1)..height.min(row + 2) {
-                        for column in column.saturating_sub(1)..width.min(column + 2) {
-                            let near = row * width + column;
-                            if !is_seen[near] && grid.cells()[near] == occupancy {
-                                is_seen[near] = true;
-                                open.push(near);
-                            }
-                        }
-                    }
-                }
-                ends.push(cells.len());
-            }
-        }
-        Ok(Self { cells, ends })
-    }
-
-    fn iter(&self) -> impl Iterator<Item = &[u32]> {
-        (0..self.ends.len()).map(|index| {
-            let start = index.checked_sub(1).map_or(0, |before| self.ends[before]);
-            &self.cells[start..self.ends[index]]
-        })
-    }
+fn components(grid: &OccupancyGrid, occupancy: Occupancy, watch: &Watch<'_>) -> Result<Components, Stopped> {
+    let cells = grid.cells();
+    Components::of([grid.width(), cells.len()], Neighbours::Eight, |cell| cells[cell] == occupancy, watch)
 }
 
 /// Counts of occupied cells in any rectangle.

@@ -59,6 +59,7 @@ pub mod routing;
 
 pub mod evaluation;
 
+mod components;
 mod disjoint_sets;
 mod smallest_box;
 pub mod spec;

@@ -4,6 +4,7 @@
 //! projection. Where a stage asks how goods stand, walls are left out. Cost: O(cells). Limits: goods that touch one
 //! another over many metres are taken for walls, so no stage relies on what is left alone.
 
+use crate::components::{Components, Neighbours};
 use crate::grid::{Occupancy, OccupancyGrid};
 use crate::watch::{Stopped, Watch};
 
@@ -15,41 +16,12 @@ const WALL_M: f64 = 4.0;
 /// # Errors
 /// [`Stopped`] when the watch says so.
 pub(crate) fn find(grid: &OccupancyGrid, watch: &Watch<'_>) -> Result<Vec<bool>, Stopped> {
-    let (width, height) = (grid.width(), grid.height());
-    let mut is_seen = vec![false; width * height];
-    let mut is_wall = vec![false; width * height];
-    let long = WALL_M / grid.resolution();
-    let (mut open, mut members) = (Vec::new(), Vec::new());
-    for row in 0..height {
-        watch.check()?;
-        for column in 0..width {
-            if is_seen[row * width + column] || grid.cells()[row * width + column] != Occupancy::Occupied {
-                continue;
-            }
-            is_seen[row * width + column] = true;
-            open.push((column, row));
-            members.clear();
-            let (mut low, mut high) = ([column, row], [column, row]);
-            while let Some((column, row)) = open.pop() {
-                members.push(row * width + column);
-                low = [low[0].min(column), low[1].min(row)];
-                high = [high[0].max(column), high[1].max(row)];
-                for row in row.saturating_sub(1)..height.min(row + 2) {
-                    for column in column.saturating_sub(1)..width.min(column + 2) {
-                        let near = row * width + column;
-                        if !is_seen[near] && grid.cells()[near] == Occupancy::Occupied {
-                            is_seen[near] = true;
-                            open.push((column, row));
-                        }
-                    }
-                }
-            }
-            let size = [high[0] - low[0], high[1] - low[1]].map(|side| side as f64);
-            if size[0].hypot(size[1]) > long {
-                for &cell in &members {
-                    is_wall[cell] = true;
-                }
-            }
+    let (cells, long) = (grid.cells(), WALL_M / grid.resolution());
+    let is_occupied = |cell: usize| cells[cell] == Occupancy::Occupied;
+    let mut is_wall = vec![false; cells.len()];
+    for component in Components::of([grid.width(), cells.len()], Neighbours::Eight, is_occupied, watch)?.iter() {
+        if component.diagonal() > long {
+            component.cells().for_each(|cell| is_wall[cell] = true);
         }
     }
     Ok(is_wall)

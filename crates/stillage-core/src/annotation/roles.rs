@@ -8,13 +8,20 @@ use crate::arrangement::FaceId;
 use crate::decomposition::{Plot, PlotKind};
 use crate::geometry::{Point, direction, normal};
 
+/// Share of open floor that is free at least: the rest is what the frame of a region has beyond its walls.
+const OPEN_SHARE: f64 = 0.5;
 /// Side of a bucket of plots, metres: about a place.
 const BUCKET_M: f64 = 2.0;
 
-/// What every face was cut out for, by face id; `None` where no plot lies.
+/// What every face was cut out for, by face id; `None` where no plot lies, and where nobody saw what should be open.
 pub(super) fn kinds(graph: &AdjacencyGraph, faces: &[FaceAnnotation], plots: &[Plot]) -> Vec<Option<PlotKind>> {
     let index = PlotIndex::new(plots);
-    let kind = |face: u32| index.at(graph.position(FaceId(face)), faces[face as usize].region).map(|plot| plot.kind);
+    let kind = |face: u32| {
+        let annotation = &faces[face as usize];
+        let kind = index.at(graph.position(FaceId(face)), annotation.region)?.kind;
+        let is_open = matches!(kind, PlotKind::Aisle | PlotKind::Lane | PlotKind::Gap);
+        (!is_open || annotation.free_fraction >= OPEN_SHARE).then_some(kind)
+    };
     (0..faces.len() as u32).map(|face| if FaceId(face) == FaceId::OUTER { None } else { kind(face) }).collect()
 }
 

@@ -7,10 +7,12 @@
 //! is seen moves the borders. A place with its goods on one side costs, whatever its borders earn: goods are not cut in
 //! two, and where goods end, a place ends.
 //!
+//! Several hypotheses of what places earn are cut side by side, one in each lane of a vector, and only the best score is
+//! kept at each cell; which piece led there is found again on the way back, for the few borders that are taken.
+//!
 //! Source: the accuracy study behind this project for evidence and springs; slips and gaps are new. Cost: O(cells x
 //! widths) per row and pitch.
 
-use std::collections::VecDeque;
 use std::ops::Range;
 
 use super::evidence::Evidence;
@@ -58,9 +60,12 @@ pub(super) struct Comb {
     pub borders: usize,
 }
 
+/// One number for each hypothesis that is cut side by side with others.
+pub(super) type Lanes<const N: usize> = [f32; N];
+
 /// What even goods earn.
-pub(super) fn even(evidence: &Evidence) -> impl Fn(usize, usize) -> f64 {
-    |start, width| UNEVEN_COST * (USUAL_UNEVENNESS - evidence.unevenness(start, width))
+pub(super) fn even(evidence: &Evidence) -> impl Fn(usize, usize) -> Lanes<1> {
+    |start, width| [(UNEVEN_COST * (USUAL_UNEVENNESS - evidence.unevenness(start, width))) as f32]
 }
 
 impl Comb {
@@ -72,135 +77,212 @@ impl Comb {
     }
 }
 
-/// Widths of the pieces in cells.
-struct Widths {
+/// Cuts a row at a pitch, metres; `place` says what a place earns by its first cell and its width, cells.
+pub(super) fn cut<const N: usize>(
+    evidence: &Evidence,
     pitch: f64,
+    place: impl Fn(usize, usize) -> Lanes<N>,
+) -> [Comb; N] {
+    let cutter = Cutter::new(evidence, pitch, place);
+    let table = cutter.forward();
+    std::array::from_fn(|lane| cutter.backward(&table, lane))
+}
+
+/// A row with the costs of its pieces, widths in cells.
+struct Cutter<'a, P> {
+    border: &'a [f64],
+    /// What clear ground earns from the start of the row to each cell.
+    gain: Vec<f32>,
     narrowest: usize,
     widest: usize,
+    /// What the widths of a place cost, from the narrowest.
+    stretches: Vec<f32>,
     slip: usize,
     gap: usize,
+    /// What a cell beyond the first and last border costs.
+    loose_end: f32,
+    place: P,
 }
 
-/// Cuts a row at a pitch, metres.
-pub(super) fn cut(evidence: &Evidence, pitch: f64, place: impl Fn(usize, usize) -> f64) -> Comb {
-    let cell = evidence.cell;
-    let cells = |metres: f64| (metres / cell).round() as usize;
-    let widths = Widths {
-        pitch: pitch / cell,
-        narrowest: cells(pitch - NARROWER_M).max(2),
-        widest: cells(pitch + WIDER_M).max(2),
-        slip: cells(SLIP_M).max(1),
-        gap: cells(GAP_M).max(1),
-    };
-    let gain: Vec<f64> = std::iter::once(0.0)
-        .chain(evidence.is_clear.iter().scan(0.0, |sum, &is_clear| {
+/// The best scores of a row by cell.
+struct Table<const N: usize> {
+    /// With a border here.
+    best: Vec<Lanes<N>>,
+    /// With a border here or before and clear ground, whose gain is to be added, since then.
+    cleared: Vec<Lanes<N>>,
+}
+
+impl<'a, const N: usize, P: Fn(usize, usize) -> Lanes<N>> Cutter<'a, P> {
+    fn new(evidence: &'a Evidence, pitch: f64, place: P) -> Self {
+        let cell = evidence.cell;
+        let cells = |metres: f64| (metres / cell).round() as usize;
+        let narrowest = cells(pitch - NARROWER_M).max(2);
+        let widest = cells(pitch + WIDER_M).max(2);
+        let stretch = |width: usize| ((width as f64 * cell - pitch) / SPRING_M).powi(2) as f32;
+        let gains = evidence.is_clear.iter().scan(0.0, |sum, &is_clear| {
             *sum += cell * if is_clear { CLEAR_GAIN } else { -CONTENT_LOSS };
-            Some(*sum)
-        }))
-        .collect();
-    let (best, from) = forward(evidence, &gain, &widths, SPRING_M / cell, place);
-    backward(&evidence.border, &gain, &widths, &best, &from)
-}
+            Some(*sum as f32)
+        });
+        Self {
+            border: &evidence.border,
+            gain: std::iter::once(0.0).chain(gains).collect(),
+            narrowest,
+            widest,
+            stretches: (narrowest..=widest).map(stretch).collect(),
+            slip: cells(SLIP_M).max(1),
+            gap: cells(GAP_M).max(1),
+            loose_end: (LOOSE_END * cell / pitch) as f32,
+            place,
+        }
+    }
 
-/// Best score with a border at each cell, and the piece that leads there: its kind and start.
-type Step = (Tooth, usize);
+    fn forward(&self) -> Table<N> {
+        let length = self.border.len();
+        let mut table = Table { best: Vec::with_capacity(length), cleared: Vec::with_capacity(length) };
+        let mut most = [f32::NEG_INFINITY; N];
+        let mut slips = SlidingMaximum::new(self.narrowest.saturating_sub(self.slip));
+        for at in 0..length {
+            let mut best = [self.opening(at); N];
+            for (_, score) in self.places_to(&table, at) {
+                best = larger(best, score);
+            }
+            if let Some(latest) = at.checked_sub(self.slip) {
+                let before = slips.push(table.best[latest]);
+                best = larger(best, before.map(|score| score - SLIP_COST as f32));
+            }
+            best = larger(best, self.gap_to(&table, at)).map(|score| score + self.border[at] as f32);
+            most = larger(most, best.map(|score| score - self.gain[at]));
+            table.best.push(best);
+            table.cleared.push(most);
+        }
+        table
+    }
 
-fn forward(
-    evidence: &Evidence,
-    gain: &[f64],
-    widths: &Widths,
-    spring: f64,
-    place: impl Fn(usize, usize) -> f64,
-) -> (Vec<f64>, Vec<Step>) {
-    let border = &evidence.border;
-    let mut best = vec![f64::NEG_INFINITY; border.len()];
-    let mut from = vec![(Tooth::End, 0); border.len()];
-    // The best border to start a gap from, with the gain up to there taken off.
-    let (mut gap_start, mut gap_score) = (0, f64::NEG_INFINITY);
-    // The borders that a slip may start from, best first; the rest of them are worse than one after them.
-    let mut slip_starts = VecDeque::new();
-    let stretches: Vec<f64> =
-        (widths.narrowest..=widths.widest).map(|width| ((width as f64 - widths.pitch) / spring).powi(2)).collect();
-    for at in 0..border.len() {
-        let mut offer = |score: f64, step: Step| {
-            if score > best[at] {
-                (best[at], from[at]) = (score, step);
+    /// Score of the first border at a cell.
+    fn opening(&self, at: usize) -> f32 {
+        let end = if at <= self.widest { -self.loose_end * at as f32 } else { f32::NEG_INFINITY };
+        end.max(self.opening_gap(at))
+    }
+
+    fn opening_gap(&self, at: usize) -> f32 {
+        if at >= self.gap { self.gain[at] - (GAP_COST / 2.0) as f32 } else { f32::NEG_INFINITY }
+    }
+
+    /// Starts and scores of the places that end at a cell.
+    fn places_to(&self, table: &Table<N>, at: usize) -> impl Iterator<Item = (usize, Lanes<N>)> {
+        let widths = (self.narrowest..=at).zip(&self.stretches);
+        widths.map(move |(width, stretch)| {
+            let (start, earned) = (at - width, (self.place)(at - width, width));
+            let before = &table.best[start];
+            (start, std::array::from_fn(|lane| before[lane] + (earned[lane] - stretch)))
+        })
+    }
+
+    /// Starts and scores of the slips that end at a cell.
+    fn slips_to(&self, table: &Table<N>, at: usize) -> impl Iterator<Item = (usize, Lanes<N>)> {
+        let starts = (at + 1).saturating_sub(self.narrowest)..(at + 1).saturating_sub(self.slip);
+        let slips = starts.clone().zip(&table.best[starts]);
+        slips.map(|(start, best)| (start, best.map(|score| score - SLIP_COST as f32)))
+    }
+
+    /// Score of the best gap that ends at a cell.
+    fn gap_to(&self, table: &Table<N>, at: usize) -> Lanes<N> {
+        match at.checked_sub(self.gap) {
+            Some(start) => table.cleared[start].map(|score| score + self.gain[at] - GAP_COST as f32),
+            None => [f32::NEG_INFINITY; N],
+        }
+    }
+
+    /// The piece that leads to a border, and where it starts; nowhere for what is beyond the first border.
+    fn piece_to(&self, table: &Table<N>, at: usize, lane: usize) -> (Tooth, Option<usize>) {
+        let is_gap = self.opening(at) <= self.opening_gap(at);
+        let first = if is_gap { Tooth::Gap } else { Tooth::End };
+        let mut best = (self.opening(at), first, None);
+        let mut offer = |score: f32, tooth: Tooth, start: usize| {
+            if score > best.0 {
+                best = (score, tooth, Some(start));
             }
         };
-        if at <= widths.widest {
-            offer(border[at] - LOOSE_END * at as f64 / widths.pitch, (Tooth::End, 0));
-        }
-        if at >= widths.gap {
-            offer(border[at] + gain[at] - GAP_COST / 2.0, (Tooth::Gap, usize::MAX));
-        }
-        let mut candidates = [(f64::NEG_INFINITY, 0, Tooth::Place); 2];
-        for (width, stretch) in (widths.narrowest..=at).zip(&stretches) {
-            let score = best[at - width] - stretch + place(at - width, width);
-            if score > candidates[0].0 {
-                candidates[0] = (score, at - width, Tooth::Place);
-            }
-        }
-        if let Some(start) = at.checked_sub(widths.slip) {
-            while slip_starts.back().is_some_and(|&last| best[last] <= best[start]) {
-                slip_starts.pop_back();
-            }
-            slip_starts.push_back(start);
-            while slip_starts.front().is_some_and(|&first| at - first >= widths.narrowest) {
-                slip_starts.pop_front();
-            }
-        }
-        if let Some(&start) = slip_starts.front() {
-            candidates[1] = (best[start] - SLIP_COST, start, Tooth::Slip);
-        }
-        if let Some(start) = at.checked_sub(widths.gap) {
-            let score = best[start] - gain[start];
-            if score > gap_score {
-                (gap_score, gap_start) = (score, start);
-            }
-        }
-        for (score, start, tooth) in candidates {
-            if score + border[at] > best[at] {
-                (best[at], from[at]) = (score + border[at], (tooth, start));
-            }
-        }
-        let through = gap_score + gain[at] - GAP_COST + border[at];
-        if through > best[at] {
-            (best[at], from[at]) = (through, (Tooth::Gap, gap_start));
-        }
+        self.places_to(table, at).for_each(|(start, score)| offer(score[lane], Tooth::Place, start));
+        self.slips_to(table, at).for_each(|(start, score)| offer(score[lane], Tooth::Slip, start));
+        offer(self.gap_to(table, at)[lane], Tooth::Gap, at.saturating_sub(self.gap));
+        let (_, tooth, start) = best;
+        let start = start.map(|latest| if tooth == Tooth::Gap { self.gap_start(table, latest, lane) } else { latest });
+        (tooth, start)
     }
-    (best, from)
+
+    /// Where the best gap starts, up to a cell.
+    fn gap_start(&self, table: &Table<N>, latest: usize, lane: usize) -> usize {
+        let score = |start: usize| table.best[start][lane] - self.gain[start];
+        (0..=latest).rev().reduce(|best, start| if score(start) > score(best) { start } else { best }).unwrap_or(latest)
+    }
+
+    fn backward(&self, table: &Table<N>, lane: usize) -> Comb {
+        let length = self.border.len();
+        let (mut last, mut score, mut tooth) = (None, 0.0, Tooth::End);
+        let whole = self.gain[length];
+        let closing_gap = whole - (GAP_COST / 2.0) as f32;
+        if length > self.gap && closing_gap > 0.0 {
+            (score, tooth) = (closing_gap, Tooth::Gap);
+        }
+        for (at, best) in table.best.iter().enumerate() {
+            let left = length - 1 - at;
+            let mut offer = |offered: f32, kind: Tooth| {
+                if offered > score || last.is_none() && kind == Tooth::End && tooth == Tooth::End {
+                    (last, score, tooth) = (Some(at), offered, kind);
+                }
+            };
+            if left <= self.widest {
+                offer(best[lane] - self.loose_end * left as f32, Tooth::End);
+            }
+            if left >= self.gap {
+                offer(best[lane] + closing_gap - self.gain[at], Tooth::Gap);
+            }
+        }
+        let mut pieces = vec![(tooth, length)];
+        while let Some(at) = last {
+            let (tooth, start) = self.piece_to(table, at, lane);
+            pieces.push((tooth, at));
+            last = start;
+        }
+        pieces.reverse();
+        Comb { borders: pieces.len() - 1, pieces, score: f64::from(score) }
+    }
 }
 
-fn backward(border: &[f64], gain: &[f64], widths: &Widths, best: &[f64], from: &[Step]) -> Comb {
-    let length = border.len();
-    let (mut last, mut score, mut tooth) = (None, 0.0, Tooth::End);
-    let whole = *gain.last().unwrap_or(&0.0);
-    if length > widths.gap && whole - GAP_COST / 2.0 > 0.0 {
-        (score, tooth) = (whole - GAP_COST / 2.0, Tooth::Gap);
+/// The larger number of each lane; a compare and a blend, where `f32::max` would look for numbers that are none.
+fn larger<const N: usize>(one: Lanes<N>, other: Lanes<N>) -> Lanes<N> {
+    std::array::from_fn(|lane| if other[lane] > one[lane] { other[lane] } else { one[lane] })
+}
+
+/// The largest of the last values, by doubling: maxima of 1, 2, 4, ... values, the last two of which cover the window.
+struct SlidingMaximum<const N: usize> {
+    window: usize,
+    levels: Vec<Vec<Lanes<N>>>,
+}
+
+impl<const N: usize> SlidingMaximum<N> {
+    /// `window` is at least one.
+    fn new(window: usize) -> Self {
+        Self { window, levels: vec![Vec::new(); window.max(1).ilog2() as usize + 1] }
     }
-    for at in 0..length {
-        let left = length - 1 - at;
-        let mut offer = |offered: f64, kind: Tooth| {
-            if offered > score || last.is_none() && kind == Tooth::End && tooth == Tooth::End {
-                (last, score, tooth) = (Some(at), offered, kind);
+
+    /// Adds a value and gives the largest of the window that ends with it.
+    fn push(&mut self, value: Lanes<N>) -> Lanes<N> {
+        let (mut most, mut span) = (value, 1);
+        let at = self.levels[0].len();
+        let last = self.levels.len() - 1;
+        for level in &mut self.levels[..last] {
+            level.push(most);
+            if let Some(before) = at.checked_sub(span) {
+                most = larger(most, level[before]);
             }
-        };
-        if left <= widths.widest {
-            offer(best[at] - LOOSE_END * left as f64 / widths.pitch, Tooth::End);
+            span *= 2;
         }
-        if left >= widths.gap {
-            offer(best[at] + whole - gain[at] - GAP_COST / 2.0, Tooth::Gap);
+        self.levels[last].push(most);
+        match (at + span).checked_sub(self.window) {
+            Some(before) => larger(most, self.levels[last][before]),
+            None => most,
         }
     }
-    let mut pieces = vec![(tooth, length)];
-    let mut borders = 0;
-    while let Some(at) = last {
-        borders += 1;
-        let (kind, start) = from[at];
-        pieces.push((kind, at));
-        let is_first = kind == Tooth::End || start == usize::MAX;
-        last = (!is_first).then_some(start);
-    }
-    pieces.reverse();
-    Comb { pieces, score, borders }
 }

@@ -118,23 +118,17 @@ impl Frame {
         let mut frame = Self::empty(grid, regions, region, angle);
         let resolution = grid.resolution();
         let (along, across) = (direction(angle), normal(angle));
-        for row in 0..frame.rows {
+        let step = [along.x, along.y].map(|step| fixed(step * frame.cell / resolution));
+        for (row, cells) in frame.cells.chunks_exact_mut(frame.columns.max(1)).enumerate() {
             watch.check()?;
-            let v = frame.start[1] + (row as f64 + 0.5) * frame.cell;
-            for column in 0..frame.columns {
-                let u = frame.start[0] + (column as f64 + 0.5) * frame.cell;
-                let point = (along * u + across * v) / resolution;
-                let (x, y) = (point.x.floor() as i64, point.y.floor() as i64);
-                let mut bits = grid.at(x, y) as u8;
-                if let (Ok(x), Ok(y)) = (usize::try_from(x), usize::try_from(y))
-                    && x < grid.width()
-                    && y < grid.height()
-                    && regions.region_of_cell(x, y) == Some(region)
-                    && site.holds(x, y)
-                {
-                    bits |= INSIDE;
-                }
-                frame.cells[row * frame.columns + column] = Cell(bits);
+            let [u, v] = [frame.start[0], frame.start[1] + row as f64 * frame.cell].map(|low| low + frame.cell / 2.0);
+            let first = (along * u + across * v) / resolution;
+            let mut place = [fixed(first.x), fixed(first.y)];
+            for cell in cells {
+                let [x, y] = place.map(|place| place >> FRACTION_BITS);
+                let inside = if site.holds(x, y, region) { INSIDE } else { 0 };
+                *cell = Cell(grid.at(x, y) as u8 | inside);
+                place = [place[0] + step[0], place[1] + step[1]];
             }
         }
         frame.splat(grid, watch)?;
@@ -197,6 +191,17 @@ impl Frame {
         Rect { u: 0..self.columns, v: 0..self.rows }
     }
 
+    /// Number of the cells of a rectangle that are so.
+    pub fn count(&self, rect: &Rect, is: impl Fn(Cell) -> bool) -> usize {
+        let row = |v| self.row(v)[rect.u.clone()].iter().filter(|&&cell| is(cell)).count();
+        rect.v.clone().map(row).sum()
+    }
+
+    /// The same as a share of all of them; 0 of none.
+    pub fn share(&self, rect: &Rect, is: impl Fn(Cell) -> bool) -> f64 {
+        self.count(rect, is) as f64 / (rect.u.len() * rect.v.len()).max(1) as f64
+    }
+
     /// A part of the frame with its rows along `axis`.
     pub fn patch(&self, rect: &Rect, axis: Axis) -> Patch {
         let (along, across) = (rect.range(axis), rect.range(axis.other()));
@@ -207,6 +212,14 @@ impl Frame {
         let cells = across.clone().flat_map(|y| along.clone().map(move |x| (x, y))).map(|(x, y)| at(x, y)).collect();
         Patch { width: along.len(), height: across.len(), cells }
     }
+}
+
+/// Bits behind the point of places in the grid, cells: the error after 30,000 steps is below a hundred-thousandth.
+const FRACTION_BITS: u32 = 32;
+
+/// A place with [`FRACTION_BITS`] bits behind the point, which can be stepped and floored as a whole number.
+fn fixed(place: f64) -> i64 {
+    (place * (1_u64 << FRACTION_BITS) as f64).round() as i64
 }
 
 /// A copy of a rectangle of a frame, rows along the direction of its shelves.

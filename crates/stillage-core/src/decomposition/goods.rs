@@ -9,12 +9,12 @@
 //! Source: matched filters (D. O. North 1943, reprinted Proc. IEEE 51, 1963, doi 10.1109/PROC.1963.2383); the even shape
 //! that is learnt by turns with the cuts is ours. Cost: O(cells of the row x cells of a place).
 
-use super::comb::{self, Comb};
+use super::comb::{self, Comb, Lanes};
 use super::evidence::Evidence;
 
 /// What energy that the shape leaves unexplained costs: something with a third of its energy in the shape is as
 /// likely no goods at all.
-const MISFIT_COST: f64 = 0.3;
+const MISFIT_COST: f32 = 0.3;
 
 /// The shape of goods in their place, of a length that is of no account.
 #[derive(Debug, Clone, PartialEq)]
@@ -50,26 +50,46 @@ impl Goods {
         Self { half }
     }
 
-    /// Energy of the content of a row that goods explain, less the cost of what they do not, by twice the middle of
-    /// their place, cells.
-    pub(super) fn explained(&self, row: &Evidence) -> Vec<f64> {
-        let reach = self.half.len();
-        let mut content = vec![0.0; row.len() + 2 * reach];
-        content[reach..reach + row.len()].copy_from_slice(&row.content);
-        let square = (2.0 * self.half.iter().map(|value| value * value).sum::<f64>()).max(f64::MIN_POSITIVE);
-        let at_middle = |middle: usize| {
-            let (before, after) = content[middle..middle + 2 * reach].split_at(reach);
-            let (mut product, mut energy) = (0.0, 0.0);
-            for ((before, after), value) in before.iter().rev().zip(after).zip(&self.half) {
-                product += value * (before + after);
-                energy += before * before + after * after;
-            }
-            let explained = product * product / square;
-            explained - MISFIT_COST * (energy - explained).max(0.0)
-        };
-        let whole: Vec<f64> = (0..=row.len()).map(at_middle).collect();
-        (0..=2 * row.len()).map(|twice| f64::midpoint(whole[twice / 2], whole[twice.div_ceil(2)])).collect()
+    fn reach(&self) -> usize {
+        self.half.len()
     }
+}
+
+/// Energy of the content of a row that each of some goods of one width explains, less the cost of what it does not, by
+/// twice the middle of their place, cells.
+pub(super) fn explained<const N: usize>(goods: [&Goods; N], row: &Evidence) -> Vec<Lanes<N>> {
+    let reach = goods.iter().map(|goods| goods.reach()).min().unwrap_or(0);
+    let half: Vec<Lanes<N>> = (0..reach).map(|distance| goods.map(|goods| goods.half[distance] as f32)).collect();
+    let square = |goods: &Goods| (2.0 * goods.half.iter().map(|value| value * value).sum::<f64>()) as f32;
+    let per_square = goods.map(|goods| 1.0 / square(goods).max(f32::MIN_POSITIVE));
+    let mut content = vec![0.0; row.len() + 2 * reach];
+    content.iter_mut().skip(reach).zip(&row.content).for_each(|(padded, &content)| *padded = content as f32);
+    let energies = content.iter().scan(0.0, |sum, &content| {
+        *sum += f64::from(content * content);
+        Some(*sum)
+    });
+    let energies: Vec<f64> = std::iter::once(0.0).chain(energies).collect();
+    let at_middle = |middle: usize| {
+        let (before, after) = content[middle..middle + 2 * reach].split_at(reach);
+        let mut product = [0.0; N];
+        for ((before, after), half) in before.iter().rev().zip(after).zip(&half) {
+            product = std::array::from_fn(|lane| product[lane] + half[lane] * (before + after));
+        }
+        let energy = (energies[middle + 2 * reach] - energies[middle]) as f32;
+        std::array::from_fn(|lane| {
+            let explained = product[lane] * product[lane] * per_square[lane];
+            let missed = energy - explained;
+            explained - MISFIT_COST * if missed > 0.0 { missed } else { 0.0 }
+        })
+    };
+    let whole: Vec<Lanes<N>> = (0..=row.len()).map(at_middle).collect();
+    let mut twice = Vec::with_capacity(2 * row.len() + 1);
+    for (one, next) in whole.iter().zip(whole.iter().skip(1)) {
+        twice.push(*one);
+        twice.push(std::array::from_fn(|lane| 0.5 * (one[lane] + next[lane])));
+    }
+    twice.extend(whole.last());
+    twice
 }
 
 /// Twice the middles of the places of a row, cells.

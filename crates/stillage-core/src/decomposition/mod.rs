@@ -104,7 +104,7 @@ pub fn decompose(
     options: &DecompositionOptions,
     watch: &Watch<'_>,
 ) -> Result<Decomposition, Stopped> {
-    let site = Site::of(grid, watch)?;
+    let site = Site::of(grid, regions, watch)?;
     let of_region: Vec<Decomposition> = (0..regions.regions.len() as u8)
         .into_par_iter()
         .map(|region| decompose_region(grid, regions, region, &site, options, watch))

@@ -23,6 +23,17 @@ const REPEAT_REACH_M: f64 = 0.05;
 /// Rows shorter than this many places say nothing.
 const LEAST_PLACES: f64 = 2.2;
 
+/// The pitches that are tried within `range`, metres.
+pub(super) fn candidates(range: [f64; 2]) -> Vec<f64> {
+    let count = ((range[1] - range[0]) / STEP_M).round() as usize + 1;
+    (0..count).map(|index| range[0] + index as f64 * STEP_M).collect()
+}
+
+/// Whether a row is long enough to tell whether it has a pitch, metres.
+pub(super) fn tells(row: &Evidence, pitch: f64) -> bool {
+    row.length() >= LEAST_PLACES * pitch
+}
+
 /// Rows cut at every candidate.
 #[derive(Debug, Clone)]
 pub(super) struct Guesses {
@@ -35,25 +46,17 @@ pub(super) struct Guesses {
 impl Guesses {
     /// Cuts the rows at every candidate within `range`, metres.
     pub(super) fn of(rows: &[&Evidence], range: [f64; 2]) -> Self {
-        let count = ((range[1] - range[0]) / STEP_M).round() as usize + 1;
-        let pitches: Vec<f64> = (0..count).map(|index| range[0] + index as f64 * STEP_M).collect();
-        let cut = |row: &&Evidence| -> Vec<Comb> {
-            pitches.iter().map(|&pitch| comb::cut(row, pitch, comb::even(row))).collect()
-        };
+        let pitches = candidates(range);
+        let cut = |row: &&Evidence| pitches.iter().flat_map(|&pitch| comb::cut(row, pitch, comb::even(row))).collect();
         let of_row = rows.par_iter().map(cut).collect();
         Self { pitches, of_row }
-    }
-
-    /// Whether a row is long enough to tell whether it has a pitch.
-    pub(super) fn tells(row: &Evidence, pitch: f64) -> bool {
-        row.len() as f64 * row.cell >= LEAST_PLACES * pitch
     }
 
     /// The best candidate of all rows together, by number, and its score.
     pub(super) fn best(&self, rows: &[&Evidence]) -> Option<(usize, f64)> {
         let fit = |at: usize| {
             let mut fit = [0.0; 3];
-            for (row, combs) in rows.iter().zip(&self.of_row).filter(|(row, _)| Self::tells(row, self.pitches[at])) {
+            for (row, combs) in rows.iter().zip(&self.of_row).filter(|(row, _)| tells(row, self.pitches[at])) {
                 fit[0] += combs[at].score;
                 fit[1] += combs[at].borders as f64;
                 fit[2] += row.len() as f64 * row.cell;

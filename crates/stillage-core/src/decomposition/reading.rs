@@ -15,10 +15,10 @@
 
 use rayon::prelude::*;
 
-use super::comb::{self, Comb};
+use super::comb::{self, Comb, Lanes};
 use super::evidence::Evidence;
 use super::goods::{self, Goods};
-use super::pitch::Guesses;
+use super::pitch;
 
 /// Length along which the noise of content is the same, metres: goods off their mark, and the smoothing.
 const CORRELATION_M: f64 = 0.2;
@@ -39,6 +39,8 @@ const PITCH_PRICE: f64 = 10.0;
 const MOST_READINGS: usize = 6;
 /// Rows of this length together are enough to learn from, metres: some 300 places.
 const ENOUGH_M: f64 = 400.0;
+/// A row's own pitch is known to this, metres.
+const NEAR_M: f64 = 0.03;
 /// The pitches are tried at every second candidate first.
 const STRIDE: usize = 2;
 
@@ -66,10 +68,11 @@ struct Account {
 }
 
 impl Account {
-    fn add(&mut self, row: &Evidence, comb: &Comb, explained: &[f64], noise: f64) {
+    /// Adds a row; `explained` says by twice the middle of a place what of its energy is.
+    fn add(&mut self, row: &Evidence, comb: &Comb, explained: impl Fn(usize) -> f32, noise: f64) {
         let mut of_row = 0.0;
         for place in comb.places() {
-            of_row += explained[place.start + place.end];
+            of_row += f64::from(explained(place.start + place.end));
             self.energy += row.content[place.clone()].iter().map(|value| value * value).sum::<f64>();
             self.cells += place.len();
             self.places += 1;
@@ -105,10 +108,10 @@ impl Reading {
     }
 
     fn cut_and_score(&self, row: &Evidence, noise: f64) -> (Comb, f64) {
-        let explained = self.goods.explained(row);
-        let comb = cut(row, self.pitch, &explained, noise);
+        let explained = goods::explained([&self.goods], row);
+        let [comb] = cut(row, self.pitch, &explained, [noise]);
         let mut account = Account::default();
-        account.add(row, &comb, &explained, noise);
+        account.add(row, &comb, |twice| explained[twice][0], noise);
         (comb, account.score(noise))
     }
 
@@ -118,40 +121,56 @@ impl Reading {
     }
 }
 
-fn cut(row: &Evidence, pitch: f64, explained: &[f64], noise: f64) -> Comb {
-    let weight = weight(noise, row.cell);
-    comb::cut(row, pitch, |start, width| explained[2 * start + width] * weight)
+/// Cuts a row once for each sort of goods and its noise.
+fn cut<const N: usize>(row: &Evidence, pitch: f64, explained: &[Lanes<N>], noise: [f64; N]) -> [Comb; N] {
+    let weight = noise.map(|noise| weight(noise, row.cell) as f32);
+    comb::cut(row, pitch, |start, width| {
+        let explained = &explained[2 * start + width];
+        std::array::from_fn(|lane| explained[lane] * weight[lane])
+    })
 }
 
-/// Learns goods and cuts rows by turns.
-fn fit(rows: &[&Evidence], pitch: f64, mut goods: Goods) -> (Reading, Account) {
+/// Places by their doubled middles, cells, each with its weight.
+type Weighted = Vec<(usize, f64)>;
+
+/// Learns goods and cuts rows by turns, from several first guesses of the places of each row.
+fn fit<const N: usize>(rows: &[&Evidence], pitch: f64, guesses: [Vec<Weighted>; N]) -> [(Reading, Account); N] {
     let energy: f64 = rows.iter().flat_map(|row| &row.content).map(|value| value * value).sum();
     let cells: usize = rows.iter().map(|row| row.len()).sum();
-    let mut noise = (FIRST_NOISE * energy / cells.max(1) as f64).max(f64::MIN_POSITIVE.sqrt());
+    let mut noise = [(FIRST_NOISE * energy / cells.max(1) as f64).max(f64::MIN_POSITIVE.sqrt()); N];
+    let mut places = guesses;
     let mut turn = 1;
     loop {
-        let mut account = Account::default();
-        let mut places = Vec::with_capacity(rows.len());
+        let goods =
+            places.map(|places| Goods::learn(rows.iter().copied().zip(places.iter().map(Vec::as_slice)), pitch));
+        let mut accounts = [Account::default(); N];
+        places = std::array::from_fn(|_| Vec::with_capacity(rows.len()));
         for row in rows {
-            let explained = goods.explained(row);
-            let comb = cut(row, pitch, &explained, noise);
-            account.add(row, &comb, &explained, noise);
-            let amplitude = |twice: usize| (twice, explained[twice].max(0.0).sqrt());
-            places.push(goods::middles(&comb).map(amplitude).collect::<Vec<_>>());
+            let explained = goods::explained(goods.each_ref(), row);
+            for (lane, comb) in cut(row, pitch, &explained, noise).into_iter().enumerate() {
+                let at = |twice: usize| explained[twice][lane];
+                accounts[lane].add(row, &comb, at, noise[lane]);
+                let amplitude = |twice: usize| (twice, f64::from(at(twice).max(0.0)).sqrt());
+                places[lane].push(goods::middles(&comb).map(amplitude).collect());
+            }
         }
-        noise = account.noise();
+        noise = accounts.map(|account| account.noise());
         if turn == TURNS {
-            return (Reading { pitch, goods, noise }, account);
+            let mut goods = goods.into_iter().zip(noise).zip(accounts);
+            return std::array::from_fn(|_| {
+                let ((goods, noise), account) = goods.next().expect("there are as many goods as guesses");
+                (Reading { pitch, goods, noise }, account)
+            });
         }
-        goods = Goods::learn(rows.iter().copied().zip(places.iter().map(Vec::as_slice)), pitch);
         turn += 1;
     }
 }
 
-/// Rows of one direction with their first guesses.
+/// Rows of one direction.
 pub(super) struct Rows<'a> {
     pub rows: &'a [&'a Evidence],
-    pub guesses: &'a Guesses,
+    /// The pitches that are tried, metres, ascending.
+    pub pitches: Vec<f64>,
 }
 
 impl Rows<'_> {
@@ -177,7 +196,8 @@ impl Rows<'_> {
             readings.push(next);
             group = leaving;
         }
-        all.par_iter().map(|&row| self.choose(row, &readings, noise)).collect()
+        let choose = |(&row, own): (&usize, &Option<Reading>)| self.choose(row, own.as_ref(), &readings, noise);
+        all.par_iter().zip(&own).map(choose).collect()
     }
 
     /// Rows enough to learn from, evenly spread.
@@ -188,7 +208,7 @@ impl Rows<'_> {
 
     /// The reading that explains rows best.
     fn best(&self, of: &[usize]) -> Option<Reading> {
-        let count = self.guesses.pitches.len();
+        let count = self.pitches.len();
         let coarse: Vec<(usize, Reading, Account)> = (0..count)
             .step_by(STRIDE)
             .collect::<Vec<_>>()
@@ -208,28 +228,25 @@ impl Rows<'_> {
 
     /// Rows read at a pitch, with goods as guessed and by quarters of a place further.
     fn fits(&self, of: &[usize], at: usize) -> Vec<(usize, Reading, Account)> {
-        let pitch = self.guesses.pitches[at];
-        let of: Vec<usize> = of.iter().copied().filter(|&row| Guesses::tells(self.rows[row], pitch)).collect();
-        let rows: Vec<&Evidence> = of.iter().map(|&row| self.rows[row]).collect();
+        let pitch = self.pitches[at];
+        let rows: Vec<&Evidence> =
+            of.iter().map(|&row| self.rows[row]).filter(|row| pitch::tells(row, pitch)).collect();
         let Some(cell) = rows.first().map(|row| row.cell) else { return Vec::new() };
+        let guess = |row: &&Evidence| -> Vec<usize> {
+            let [comb] = comb::cut(row, pitch, comb::even(row));
+            goods::middles(&comb).collect()
+        };
+        let guess: Vec<Vec<usize>> = rows.iter().map(guess).collect();
         // Middles are doubled, so half a pitch is a quarter of a place.
-        [0.0, 0.5, 1.0, 1.5]
-            .map(|quarters: f64| (quarters * pitch / cell).round() as usize)
-            .map(|shift| {
-                let places = of.iter().map(|&row| {
-                    let middles = goods::middles(&self.guesses.of_row[row][at]);
-                    middles.map(|twice| (twice + shift, 1.0)).collect::<Vec<_>>()
-                });
-                let places: Vec<_> = places.collect();
-                let goods = Goods::learn(rows.iter().copied().zip(places.iter().map(Vec::as_slice)), pitch);
-                let (reading, account) = fit(&rows, pitch, goods);
-                (at, reading, account)
-            })
-            .into()
+        let shifted = [0.0, 0.5, 1.0, 1.5].map(|quarters| {
+            let shift = (quarters * pitch / cell).round() as usize;
+            guess.iter().map(|middles| middles.iter().map(|twice| (twice + shift, 1.0)).collect()).collect()
+        });
+        fit(&rows, pitch, shifted).map(|(reading, account)| (at, reading, account)).into()
     }
 
-    /// The reading for a row: one of those found, at its pitch or another.
-    fn choose(&self, row: usize, readings: &[Reading], noise: f64) -> Option<Reading> {
+    /// The reading for a row: one of those found, at its pitch or about that of the row's own reading.
+    fn choose(&self, row: usize, own: Option<&Reading>, readings: &[Reading], noise: f64) -> Option<Reading> {
         let row = self.rows[row];
         if row.content.iter().all(|&content| content <= 0.0) {
             return None;
@@ -240,8 +257,9 @@ impl Rows<'_> {
         let of_group =
             readings.iter().enumerate().map(|(rank, reading)| scored(reading.clone(), price(rank))).reduce(better)?;
         let reading = of_group.1.clone();
-        let others =
-            self.guesses.pitches.iter().map(|&pitch| scored(reading.at(pitch, row.cell), price(1) + PITCH_PRICE));
+        let is_near = |pitch: &&f64| own.is_some_and(|own| (own.pitch - **pitch).abs() <= NEAR_M);
+        let near = self.pitches.iter().filter(is_near);
+        let others = near.map(|&pitch| scored(reading.at(pitch, row.cell), price(1) + PITCH_PRICE));
         Some(others.fold(of_group, better).1)
     }
 }
@@ -264,14 +282,13 @@ mod tests {
         let tile_cells = grid.width().max(grid.height());
         let regions = RegionMap { tile_cells, columns: 1, rows: 1, tiles: vec![0], regions: vec![region] };
         let watch = Watch::unwatched();
-        let site = Site::of(&grid, &watch).expect("nobody stops it");
+        let site = Site::of(&grid, &regions, &watch).expect("nobody stops it");
         let frame = Frame::new(&grid, &regions, 0, 0.0, &site, &watch).expect("nobody stops it");
         let margin = frame.cells_of(-frame.start[0]);
         let rect = frame.whole().with(Axis::U, margin..margin + grid.width()).with(Axis::V, margin..margin + 20);
         let evidence = Evidence::of(&frame.patch(&rect, Axis::U), frame.cell, [0.7, 1.8]);
         let rows = [&evidence];
-        let guesses = Guesses::of(&rows, [0.8, 1.6]);
-        let readings = Rows { rows: &rows, guesses: &guesses }.read();
+        let readings = Rows { rows: &rows, pitches: pitch::candidates([0.8, 1.6]) }.read();
         let cut = readings[0].as_ref().map(|reading| reading.cut(&evidence));
         let places = cut.iter().flat_map(Comb::places).map(|place| format!("{}..{}", place.start, place.end));
         wanted.assert_eq(&places.collect::<Vec<_>>().join(" "));

@@ -12,7 +12,7 @@ use super::depth::{self, Body};
 use super::evidence::Evidence;
 use super::frame::{Axis, Frame, Rect};
 use super::gate;
-use super::pitch::Guesses;
+use super::pitch;
 use super::reading::{Reading, Rows};
 use super::{Parcel, PlotKind};
 use crate::watch::{Stopped, Watch};
@@ -125,9 +125,8 @@ fn comb_rows(
     watch: &Watch<'_>,
 ) -> Result<(), Stopped> {
     let all: Vec<&Evidence> = rows.iter().map(|row| &row.evidence).collect();
-    let guesses = Guesses::of(&all, hints.pitch);
     watch.check()?;
-    let readings = Rows { rows: &all, guesses: &guesses }.read();
+    let readings = Rows { rows: &all, pitches: pitch::candidates(hints.pitch) }.read();
     for (row, reading) in rows.iter().zip(readings) {
         match reading {
             Some(reading) => comb_row(frame, row, &reading, parcels),

@@ -8,10 +8,8 @@
 //! thin and straight; beside a cupboard or a bin it does not. So furniture parts rooms only where it nearly closes them,
 //! and wide openings do where walls say so. No direction is needed: slanted and curved walls are as good as any.
 //!
-//! Cost: O(cells log cells), and O(width^2) for each neck. Limits: an opening as wide as the room behind it is none; ground wider
+//! Cost: O(cells), and O(width^2) for each neck. Limits: an opening as wide as the room behind it is none; ground wider
 //! than [`WIDEST_M`] is never parted.
-
-use rayon::prelude::*;
 
 use super::ground::Ground;
 use super::nearest::Nearest;
@@ -55,31 +53,43 @@ impl Passage {
 }
 
 /// Finds the passages between rooms.
-pub(super) fn passages(ground: &Ground, clearance: &Nearest, watch: &Watch<'_>) -> Result<Vec<Passage>, Stopped> {
+pub(super) fn passages(ground: &Ground, watch: &Watch<'_>) -> Result<Vec<Passage>, Stopped> {
+    let clearance = Nearest::of(ground.width, ground.is_free.len(), |cell| !ground.is_free[cell], watch)?;
     let mut flood = Flood {
         ground,
-        clearance,
+        clearance: &clearance,
         basin_of: vec![NO_BASIN; ground.is_free.len()],
         is_ridge: vec![false; ground.is_free.len()],
         basins: Vec::new(),
         passages: Vec::new(),
     };
-    for (count, cell) in widest_first(ground, clearance).enumerate() {
-        if count.is_multiple_of(4096) {
-            watch.check()?;
-        }
-        flood.reach(cell);
+    for cells in widest_first(ground, &clearance).chunks(4096) {
+        watch.check()?;
+        cells.iter().for_each(|&cell| flood.reach(cell as usize));
     }
     Ok(flood.passages)
 }
 
-/// The cells of the ground by falling distance to the nearest obstacle; of equals the first one first.
-fn widest_first(ground: &Ground, clearance: &Nearest) -> impl Iterator<Item = usize> {
-    let narrowness = |cell: u32| u64::from(u32::MAX - clearance.squared[cell as usize]) << 32 | u64::from(cell);
-    let cells = (0..ground.is_free.len() as u32).filter(|&cell| ground.is_free[cell as usize]);
-    let mut keys: Vec<u64> = cells.map(narrowness).collect();
-    keys.par_sort_unstable();
-    keys.into_iter().map(|key| key as u32 as usize)
+/// The cells of the ground by falling distance to the nearest obstacle; of equals the first one first. Distances are few
+/// whole numbers, so they are counted, not compared.
+fn widest_first(ground: &Ground, clearance: &Nearest) -> Vec<u32> {
+    let squared = |cell: &u32| clearance.squared[*cell as usize] as usize;
+    let cells = || (0..ground.is_free.len() as u32).filter(|&cell| ground.is_free[cell as usize]);
+    let widest = cells().map(|cell| squared(&cell)).max().unwrap_or(0);
+    // Where the cells of each distance start; the widest ones first.
+    let mut starts = vec![0_u32; widest + 2];
+    cells().for_each(|cell| starts[squared(&cell)] += 1);
+    let mut wider = 0;
+    for start in starts.iter_mut().rev() {
+        wider += std::mem::replace(start, wider);
+    }
+    let mut sorted = vec![0; wider as usize];
+    for cell in cells() {
+        let next = &mut starts[squared(&cell)];
+        sorted[*next as usize] = cell;
+        *next += 1;
+    }
+    sorted
 }
 
 const NO_BASIN: u32 = u32::MAX;

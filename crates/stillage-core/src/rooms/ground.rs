@@ -6,6 +6,7 @@
 //! as thick as goods is a *stack*: shelves and piles of goods, which are no walls either, but keep their own ground.
 //! Cost: O(cells).
 
+use crate::components::{Component, Components, Neighbours};
 use crate::geometry::Point;
 use crate::grid::{Occupancy, OccupancyGrid};
 use crate::smallest_box::SmallestBox;
@@ -67,62 +68,36 @@ impl Ground {
 
     /// Turns small obstacles that touch no other into ground, and numbers larger ones that are stacks.
     fn tell_obstacles_apart(&mut self, watch: &Watch<'_>) -> Result<(), Stopped> {
-        let mut is_seen = vec![false; self.is_free.len()];
-        let (mut open, mut members) = (Vec::new(), Vec::new());
+        let size = [self.width, self.is_free.len()];
+        let obstacles = Components::of(size, Neighbours::Eight, |cell| !self.is_free[cell], watch)?;
         let mut stacks = 0;
-        for first in 0..self.is_free.len() {
-            if first % self.width == 0 {
-                watch.check()?;
-            }
-            if is_seen[first] || self.is_free[first] {
+        for obstacle in obstacles.iter() {
+            let [columns, rows] = obstacle.bounds();
+            if columns.start == 0 || rows.start == 0 || columns.end == self.width || rows.end == self.height {
                 continue;
             }
-            is_seen[first] = true;
-            open.push(first);
-            members.clear();
-            let (mut low, mut high) = ([usize::MAX; 2], [0; 2]);
-            while let Some(cell) = open.pop() {
-                members.push(cell);
-                let (column, row) = (cell % self.width, cell / self.width);
-                low = [low[0].min(column), low[1].min(row)];
-                high = [high[0].max(column + 1), high[1].max(row + 1)];
-                for row in row.saturating_sub(1)..self.height.min(row + 2) {
-                    for column in column.saturating_sub(1)..self.width.min(column + 2) {
-                        let near = row * self.width + column;
-                        if !is_seen[near] && !self.is_free[near] {
-                            is_seen[near] = true;
-                            open.push(near);
-                        }
-                    }
-                }
-            }
-            let touches_border = low.contains(&0) || high[0] == self.width || high[1] == self.height;
-            let diagonal = ((high[0] - low[0]) as f64).hypot((high[1] - low[1]) as f64) * self.cell;
-            if touches_border {
-                continue;
-            }
-            if diagonal < FURNITURE_M {
-                for &cell in &members {
-                    self.is_free[cell] = true;
-                }
-            } else if self.is_stack(&members) {
+            if obstacle.diagonal() * self.cell < FURNITURE_M {
+                obstacle.cells().for_each(|cell| self.is_free[cell] = true);
+            } else if is_stack(obstacle, self.cell) {
                 stacks += 1;
-                for &cell in &members {
-                    self.stacks[cell] = stacks;
-                }
+                obstacle.cells().for_each(|cell| self.stacks[cell] = stacks);
             }
         }
         Ok(())
     }
+}
 
-    /// Whether an obstacle is as thick and as full as goods.
-    fn is_stack(&self, members: &[usize]) -> bool {
-        let corners = members.iter().flat_map(|cell| {
-            let (column, row) = ((cell % self.width) as f64, (cell / self.width) as f64);
-            [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0, 1.0)].map(|(x, y)| Point::new(column + x, row + y) * self.cell)
-        });
-        let [long, short] = SmallestBox::around(&corners.collect::<Vec<_>>()).extent;
-        let area = members.len() as f64 * self.cell * self.cell;
-        short >= STACK_M && area >= STACK_FILL * long * short
+/// Whether an obstacle of cells of some side is as thick and as full as goods.
+fn is_stack(obstacle: Component<'_>, cell: f64) -> bool {
+    let area = obstacle.len() as f64 * cell * cell;
+    if area < STACK_FILL * STACK_M * STACK_M {
+        return false;
     }
+    let corners = obstacle.runs().iter().flat_map(|run| {
+        let [left, right] = [run.columns.start, run.columns.end].map(f64::from);
+        let [low, high] = [f64::from(run.row), f64::from(run.row) + 1.0];
+        [(left, low), (right, low), (left, high), (right, high)].map(|(x, y)| Point::new(x, y) * cell)
+    });
+    let [long, short] = SmallestBox::around(&corners.collect::<Vec<_>>()).extent;
+    short >= STACK_M && area >= STACK_FILL * long * short
 }

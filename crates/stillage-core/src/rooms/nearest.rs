@@ -30,6 +30,7 @@ impl Nearest {
         watch: &Watch<'_>,
     ) -> Result<Self, Stopped> {
         let height = cells.checked_div(width).unwrap_or(0);
+        // At first the row of the nearest target in the same column; then, line by line, its index.
         let mut rows = vec![NONE; cells];
         for row in 0..height {
             watch.check()?;
@@ -50,12 +51,14 @@ impl Nearest {
                 }
             }
         }
-        let mut nearest = Self { squared: vec![u32::MAX; cells], cell: vec![NONE; cells] };
+        let mut nearest = Self { squared: vec![u32::MAX; cells], cell: rows };
         let lines = nearest.squared.par_chunks_mut(width.max(1)).zip(nearest.cell.par_chunks_mut(width.max(1)));
-        lines.zip(rows.par_chunks(width.max(1))).enumerate().try_for_each_init(
-            Vec::new,
-            |envelope, (row, ((squared, cell), targets))| {
+        lines.enumerate().try_for_each_init(
+            || (Vec::new(), Vec::new()),
+            |(envelope, targets), (row, (squared, cell))| {
                 watch.check()?;
+                targets.clear();
+                targets.extend_from_slice(cell);
                 lower_envelope(row as i64, targets, envelope);
                 for (source, columns) in envelope.iter() {
                     for column in columns.clone() {

@@ -9,6 +9,7 @@ use std::collections::VecDeque;
 use super::flood::Passage;
 use super::ground::Ground;
 use super::nearest::{NONE, Nearest};
+use crate::components::{Components, Neighbours};
 use crate::watch::{Stopped, Watch};
 
 /// Smaller components are no rooms, square metres: a cupboard that one can stand in.
@@ -22,8 +23,8 @@ pub(super) struct Partition {
     pub count: usize,
     /// Room of each cell, row-major: 1 to `count`, 0 for none. Rooms are numbered by their first cell.
     pub rooms: Vec<u32>,
-    /// The nearest cell of a room's ground, near or far.
-    pub nearest: Nearest,
+    /// The nearest cell of a room's ground, near or far; [`NONE`] without rooms.
+    pub nearest: Vec<u32>,
 }
 
 impl Partition {
@@ -46,12 +47,12 @@ impl Partition {
                 _ => 0,
             })
             .collect();
-        Ok(Self { count, rooms: shared, nearest })
+        Ok(Self { count, rooms: shared, nearest: nearest.cell })
     }
 
     /// The room whose ground is nearest to a cell, however far; 0 without rooms.
     pub(super) fn nearest_room(&self, cell: usize) -> u32 {
-        let near = self.nearest.cell[cell];
+        let near = self.nearest[cell];
         if near == NONE { 0 } else { self.rooms[near as usize] }
     }
 }
@@ -72,33 +73,10 @@ fn cells_along(ground: &Ground, passage: &Passage) -> impl Iterator<Item = usize
 fn components(ground: &Ground, is_open: &[bool], watch: &Watch<'_>) -> Result<(usize, Vec<u32>), Stopped> {
     let least = (LEAST_ROOM_M2 / (ground.cell * ground.cell)).ceil() as usize;
     let (mut count, mut rooms) = (0, vec![0; is_open.len()]);
-    let mut is_seen = vec![false; is_open.len()];
-    let (mut open, mut members) = (Vec::new(), Vec::new());
-    for first in 0..is_open.len() {
-        if first % ground.width == 0 {
-            watch.check()?;
-        }
-        if is_seen[first] || !is_open[first] {
-            continue;
-        }
-        is_seen[first] = true;
-        open.push(first);
-        members.clear();
-        while let Some(cell) = open.pop() {
-            members.push(cell);
-            for near in beside(ground, cell) {
-                if is_open[near] && !is_seen[near] {
-                    is_seen[near] = true;
-                    open.push(near);
-                }
-            }
-        }
-        if members.len() >= least {
-            count += 1;
-            for &cell in &members {
-                rooms[cell] = count;
-            }
-        }
+    let found = Components::of([ground.width, is_open.len()], Neighbours::Four, |cell| is_open[cell], watch)?;
+    for room in found.iter().filter(|room| room.len() >= least) {
+        count += 1;
+        room.cells().for_each(|cell| rooms[cell] = count);
     }
     Ok((count as usize, rooms))
 }

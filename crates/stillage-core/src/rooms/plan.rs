@@ -10,7 +10,6 @@
 use super::Rooms;
 use super::flood::{self, Passage};
 use super::ground::Ground;
-use super::nearest::Nearest;
 use super::outline;
 use super::partition::Partition;
 use crate::decomposition::{self, Decomposition, PlotKind};
@@ -26,8 +25,8 @@ const DOOR_M: f64 = 1.6;
 
 /// A zone smaller than this is no hall beside a larger one, square metres: two rows and their aisles.
 const HALL_M2: f64 = 200.0;
-/// Share of the ground of a hall that is places at least; halls have 0.2 and more, a stray row of furniture less.
-const PLACES_SHARE: f64 = 0.1;
+/// Share of the ground of a hall that is places at least; halls have 0.08 and more, a stray row of furniture less.
+const PLACES_SHARE: f64 = 0.06;
 
 /// The lines of a site, what they enclose, and its rooms.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -51,8 +50,7 @@ pub fn plan(
     watch: &Watch<'_>,
 ) -> Result<SitePlan, Stopped> {
     let ground = Ground::of(grid, watch)?;
-    let clearance = Nearest::of(ground.width, ground.is_free.len(), |cell| !ground.is_free[cell], watch)?;
-    let passages = flood::passages(&ground, &clearance, watch)?;
+    let passages = flood::passages(&ground, watch)?;
     let partition = Partition::of(&ground, &passages, watch)?;
     let zones = Zones::of(&ground, &partition, &passages);
     let mut is_hall = vec![true; partition.count + 1];
@@ -175,7 +173,7 @@ fn kept(ground: &Ground, partition: &Partition, passages: &[Passage], is_hall: &
 fn with_stacks(rooms: &Rooms, ground: &Ground, partition: &Partition) -> Vec<u32> {
     let stack = |cell: usize| match ground.stacks[cell] {
         0 => 0,
-        _ if rooms.cells[partition.nearest.cell[cell] as usize] == 0 => 0,
+        _ if rooms.cells[partition.nearest[cell] as usize] == 0 => 0,
         stack => rooms.count as u32 + stack,
     };
     rooms.cells.iter().enumerate().map(|(cell, &room)| if room == 0 { stack(cell) } else { room }).collect()
