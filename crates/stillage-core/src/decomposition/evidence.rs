@@ -43,10 +43,6 @@ const LEVEL_FLOOR: f64 = 0.05;
 const USUAL_PLACE_M: f64 = 1.2;
 /// Content below which a place holds nothing, cells.
 const LEAST_CONTENT: f64 = 0.5;
-/// Window of the mean that is taken off before a row is compared with itself, metres: two places.
-const DETREND_WINDOW_M: f64 = 2.45;
-/// Smoothing of content before a row is compared with itself, metres.
-const REPEAT_SIGMA_M: f64 = 0.04;
 /// Known share of a column of cells below which nobody looked at it: sensors see the fronts at least.
 const LEAST_KNOWN: f64 = 0.04;
 /// Free share of a column of cells that is clear.
@@ -61,8 +57,6 @@ pub(super) struct Evidence {
     pub is_clear: Vec<bool>,
     /// Share of the depth that is occupied or unknown, beside its usual size hereabouts; none where nobody looked.
     pub content: Vec<f64>,
-    /// The same of the middle of the depth.
-    middle: Vec<f64>,
     /// How far the content of a place differs from its mirror image: by first cell, then by width from `least_width`.
     mirror: Vec<f32>,
     least_width: usize,
@@ -138,7 +132,6 @@ impl Evidence {
             border,
             is_clear,
             content: levelled(&gaussian(&whole, CONTENT_SIGMA_M / cell), cell),
-            middle: content,
             mirror,
             least_width,
             widths,
@@ -161,24 +154,6 @@ impl Evidence {
     pub(super) fn unevenness(&self, start: usize, width: usize) -> f64 {
         let at = width.saturating_sub(self.least_width).min(self.widths.saturating_sub(1));
         self.mirror.get(start * self.widths + at).copied().map_or(0.0, f64::from)
-    }
-
-    /// Products of the content with itself at every lag up to `most` cells, and what they would be for a perfect repeat.
-    pub(super) fn repeats(&self, most: usize) -> (Vec<f64>, Vec<f64>) {
-        let smooth = gaussian(&self.middle, REPEAT_SIGMA_M / self.cell);
-        let mean = mean_filter(&smooth, DETREND_WINDOW_M / self.cell);
-        let values: Vec<f64> = smooth.iter().zip(&mean).map(|(value, mean)| value - mean).collect();
-        (0..=most)
-            .map(|lag| {
-                let (Some(ahead), Some(behind)) = (values.get(lag..), values.get(..values.len().saturating_sub(lag)))
-                else {
-                    return (0.0, 0.0);
-                };
-                let product: f64 = ahead.iter().zip(behind).map(|(a, b)| a * b).sum();
-                let squares: f64 = ahead.iter().zip(behind).map(|(a, b)| f64::midpoint(a * a, b * b)).sum();
-                (product, squares)
-            })
-            .unzip()
     }
 }
 

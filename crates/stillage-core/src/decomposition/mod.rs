@@ -22,7 +22,6 @@ mod frame;
 mod gate;
 mod goods;
 mod lines;
-mod pitch;
 mod reading;
 mod rows;
 mod site;

@@ -12,8 +12,7 @@ use super::depth::{self, Body};
 use super::evidence::Evidence;
 use super::frame::{Axis, Frame, Rect};
 use super::gate;
-use super::pitch;
-use super::reading::{Reading, Rows};
+use super::reading::{self, Reading, Rows};
 use super::{Parcel, PlotKind};
 use crate::watch::{Stopped, Watch};
 
@@ -85,9 +84,14 @@ pub(super) fn lay_out(
             }
         }
         watch.check()?;
-        if is_periodic(frame, &rows, hints) {
+        if let Some(readings) = read(frame, &rows, hints, watch)? {
             parcels.append(&mut rests);
-            comb_rows(frame, &rows, hints, &mut parcels, watch)?;
+            for (row, reading) in rows.iter().zip(readings) {
+                match reading {
+                    Some(reading) => comb_row(frame, row, &reading, &mut parcels),
+                    None => parcels.push(Parcel::new(row.rect.clone(), PlotKind::Rest, Some(row.axis))),
+                }
+            }
         } else {
             let whole = |body: &&Body| Parcel::new(body.rect.clone(), PlotKind::Rest, Some(axis));
             parcels.extend(bodies.iter().map(whole));
@@ -109,31 +113,24 @@ fn in_region(frame: &Frame, layer: &Rect, axis: Axis) -> [Range<usize>; 3] {
     [along.start..along.start + first, along.start + first..along.start + end, along.start + end..along.end]
 }
 
-/// Whether these are rows of places, or walls and furniture, which are not cut.
-fn is_periodic(frame: &Frame, rows: &[Row], hints: &Hints) -> bool {
-    let evidence: Vec<&Evidence> = rows.iter().map(|row| &row.evidence).collect();
-    let patch = |row: usize| frame.patch(&rows[row].rect, rows[row].axis);
-    frame.cell <= COARSEST_CELL_M && gate::is_periodic(&evidence, patch, hints.widths(), hints.pitch)
-}
-
-/// Cuts the rows of one direction.
-fn comb_rows(
+/// A reading for each of the rows of one direction, if they are rows of places; walls and furniture are not read.
+fn read(
     frame: &Frame,
     rows: &[Row],
     hints: &Hints,
-    parcels: &mut Vec<Parcel>,
     watch: &Watch<'_>,
-) -> Result<(), Stopped> {
-    let all: Vec<&Evidence> = rows.iter().map(|row| &row.evidence).collect();
-    watch.check()?;
-    let readings = Rows { rows: &all, pitches: pitch::candidates(hints.pitch) }.read();
-    for (row, reading) in rows.iter().zip(readings) {
-        match reading {
-            Some(reading) => comb_row(frame, row, &reading, parcels),
-            None => parcels.push(Parcel::new(row.rect.clone(), PlotKind::Rest, Some(row.axis))),
-        }
+) -> Result<Option<Vec<Option<Reading>>>, Stopped> {
+    if frame.cell > COARSEST_CELL_M {
+        return Ok(None);
     }
-    Ok(())
+    let evidence: Vec<&Evidence> = rows.iter().map(|row| &row.evidence).collect();
+    let all = Rows { rows: &evidence, pitches: reading::pitches(hints.pitch) };
+    let Some(first) = all.in_common() else { return Ok(None) };
+    watch.check()?;
+    let patch = |row: usize| frame.patch(&rows[row].rect, rows[row].axis);
+    let is_periodic = gate::is_periodic(&evidence, patch, hints.widths(), &first, &all.pitches);
+    watch.check()?;
+    Ok(is_periodic.then(|| all.read(first)))
 }
 
 /// Cuts a row into parcels.
