@@ -220,23 +220,21 @@ impl<'a, const N: usize, P: Fn(usize, usize) -> Lanes<N>> Cutter<'a, P> {
     fn backward(&self, table: &Table<N>, lane: usize) -> Comb {
         let length = self.border.len();
         let (mut last, mut score, mut tooth) = (None, 0.0, Tooth::End);
-        let whole = self.gain[length];
-        let closing_gap = whole - (GAP_COST / 2.0) as f32;
+        let closing_gap = self.gain[length] - (GAP_COST / 2.0) as f32;
         if length > self.gap && closing_gap > 0.0 {
             (score, tooth) = (closing_gap, Tooth::Gap);
         }
-        for (at, best) in table.best.iter().enumerate() {
-            let left = length - 1 - at;
-            let mut offer = |offered: f32, kind: Tooth| {
-                if offered > score || last.is_none() && kind == Tooth::End && tooth == Tooth::End {
-                    (last, score, tooth) = (Some(at), offered, kind);
-                }
-            };
-            if left <= self.widest {
-                offer(best[lane] - self.loose_end * left as f32, Tooth::End);
-            }
-            if left >= self.gap {
-                offer(best[lane] + closing_gap - self.gain[at], Tooth::Gap);
+        if let Some(latest) = length.checked_sub(self.gap + 1)
+            && table.cleared[latest][lane] + closing_gap > score
+        {
+            (last, score) = (Some(self.gap_start(table, latest, lane)), table.cleared[latest][lane] + closing_gap);
+            tooth = Tooth::Gap;
+        }
+        for left in (0..=self.widest.min(length.saturating_sub(1))).rev() {
+            let Some(at) = length.checked_sub(left + 1) else { break };
+            let offered = table.best[at][lane] - self.loose_end * left as f32;
+            if offered > score || last.is_none() && tooth == Tooth::End {
+                (last, score, tooth) = (Some(at), offered, Tooth::End);
             }
         }
         let mut pieces = vec![(tooth, length)];

@@ -29,6 +29,7 @@ use crate::spec::{OrientationMethod, OrientationOptions};
 use crate::walls;
 use crate::watch::{Stopped, Watch};
 
+mod blocks;
 pub mod energy;
 mod gradient;
 mod mixture;
@@ -106,6 +107,10 @@ fn by_energy(grid: &OccupancyGrid, options: &OrientationOptions, watch: &Watch<'
         if angles.iter().all(|&other| line_angle_between(angle, other) >= separation) {
             angles.push(angle);
         }
+    }
+    for pair in blocks::pairs(grid, if enough { &goods } else { &all }, &angles, watch)? {
+        let both = [pair, pair + PI / 2.0].map(fold_half_turn);
+        angles.extend(both);
     }
     if angles.is_empty() {
         return Ok(Orientations::default());

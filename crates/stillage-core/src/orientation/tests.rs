@@ -29,6 +29,15 @@ fn energy_finds_turned_racks_and_nothing_else() {
 }
 
 #[test]
+fn energy_finds_the_direction_of_a_part() {
+    let part = Hall { center: [150.0, 150.0], size: [60.0, 56.0], angle_deg: 13.0 };
+    let rest = [([95.0, 55.0], [180.0, 100.0]), ([55.0, 150.0], [100.0, 80.0])];
+    let [low, high] = rest.map(|(center, size)| Hall { center, size, angle_deg: 0.0 });
+    let found = find_by_energy(&test_maps::draw(&[low, high, part], [200.0, 200.0], 0.1));
+    assert!(error_deg(&found.angles, &[-90.0, -77.0, 0.0, 13.0]) < 0.05, "{:?}", found.angles);
+}
+
+#[test]
 fn energy_finds_no_direction_in_grids_without_structure() {
     for cell in [Occupancy::Free, Occupancy::Occupied, Occupancy::Unknown] {
         for (width, height) in [(0, 0), (0, 5), (5, 0), (1, 1), (70, 130)] {

@@ -118,24 +118,32 @@ impl Flood<'_> {
         let around = self.ground.around(cell);
         let mut met = [NO_BASIN; 8];
         let mut count = 0;
+        let mut last = NO_BASIN;
         for near in around {
-            if self.basin_of[near] != NO_BASIN {
-                let basin = self.root(self.basin_of[near]);
-                if !met[..count].contains(&basin) {
-                    met[count] = basin;
-                    count += 1;
-                }
+            let basin = self.basin_of[near];
+            if basin == NO_BASIN || basin == last {
+                continue;
+            }
+            last = basin;
+            let basin = self.root(basin);
+            if !met[..count].contains(&basin) {
+                met[count] = basin;
+                count += 1;
             }
         }
-        let squared = self.clearance.squared[cell];
         let Some(&widest) =
             met[..count].iter().min_by_key(|&&basin| (std::cmp::Reverse(self.basins[basin as usize].peak), basin))
         else {
             self.basin_of[cell] = self.basins.len() as u32;
-            self.basins.push(Basin { parent: self.basins.len() as u32, peak: squared });
+            self.basins.push(Basin { parent: self.basins.len() as u32, peak: self.clearance.squared[cell] });
             return;
         };
+        self.basin_of[cell] = widest;
+        if count == 1 {
+            return;
+        }
         let is_known_neck = around.iter().any(|&near| self.is_ridge[near]);
+        self.is_ridge[cell] = is_known_neck;
         for &basin in met[..count].iter().filter(|&&basin| basin != widest) {
             match self.neck(cell, self.basins[basin as usize].peak, is_known_neck) {
                 Neck::Open => self.basins[basin as usize].parent = widest,
@@ -146,8 +154,6 @@ impl Flood<'_> {
                 Neck::Known => {}
             }
         }
-        self.is_ridge[cell] |= is_known_neck && count > 1;
-        self.basin_of[cell] = widest;
     }
 
     fn root(&mut self, mut basin: u32) -> u32 {

@@ -53,8 +53,8 @@ pub fn plan(
     let passages = flood::passages(&ground, watch)?;
     let partition = Partition::of(&ground, &passages, watch)?;
     let zones = Zones::of(&ground, &partition, &passages);
-    let mut is_hall = vec![true; partition.count + 1];
-    let mut rooms = Rooms::default();
+    let mut is_hall = zones.may_be_halls();
+    let mut rooms = kept(&ground, &partition, &passages, &is_hall);
     let rows = loop {
         let rows = if is_hall.contains(&true) {
             let grid = if rooms.count == 0 { grid } else { &without(grid, &rooms) };
@@ -62,14 +62,14 @@ pub fn plan(
         } else {
             Decomposition::default()
         };
-        // Furniture that repeats by chance does so less when the rows of the next room are gone.
-        let halls = zones.halls(&ground, &partition, &rows);
-        let is_settled = halls.iter().zip(&is_hall).skip(1).all(|(is_still, was)| is_still == was);
-        is_hall.iter_mut().zip(halls).for_each(|(is_hall, is_still)| *is_hall &= is_still);
-        rooms = kept(&ground, &partition, &passages, &is_hall);
+        let holds_places = zones.hold_places(&ground, &partition, &rows);
+        let is_settled = (1..is_hall.len()).all(|room| !is_hall[room] || holds_places[room]);
         if is_settled {
             break rows;
         }
+        // Furniture that repeats by chance does so less when the rows of the next room are gone.
+        is_hall.iter_mut().zip(holds_places).for_each(|(is_hall, holds_places)| *is_hall &= holds_places);
+        rooms = kept(&ground, &partition, &passages, &is_hall);
     };
     if rooms.count == 0 {
         return Ok(SitePlan { lines: rows.lines, plots: rows.plots, rooms });
@@ -99,16 +99,12 @@ fn sides(ground: &Ground, partition: &Partition, passage: &Passage) -> [u32; 2] 
 struct Zones {
     /// Zone of each room by its smallest room; entry 0 is for no room.
     of: Vec<usize>,
-    /// Ground of each room, with its share of the walls, square metres.
+    /// Ground of each zone, with its share of the walls, square metres.
     areas: Vec<f64>,
 }
 
 impl Zones {
     fn of(ground: &Ground, partition: &Partition, passages: &[Passage]) -> Self {
-        let mut areas = vec![0.0; partition.count + 1];
-        for &room in &partition.rooms {
-            areas[room as usize] += ground.cell * ground.cell;
-        }
         let mut of: Vec<usize> = (0..=partition.count).collect();
         // A neck without a wall at either end is a gap between goods, however narrow.
         let is_gate = |passage: &&Passage| passage.wall_ends == 0 || passage.width(ground.cell) > DOOR_M;
@@ -118,11 +114,23 @@ impl Zones {
                 of.iter_mut().filter(|zone| **zone == one.max(other)).for_each(|zone| *zone = one.min(other));
             }
         }
+        let mut areas = vec![0.0; of.len()];
+        for &room in partition.rooms.iter().filter(|&&room| room != 0) {
+            areas[of[room as usize]] += ground.cell * ground.cell;
+        }
         Self { of, areas }
     }
 
-    /// For every room whether its zone is a hall: large, and with places on a good part of it.
-    fn halls(&self, ground: &Ground, partition: &Partition, rows: &Decomposition) -> Vec<bool> {
+    /// For every room whether its zone is large enough for a hall; entry 0, for no room, whether there are none.
+    fn may_be_halls(&self) -> Vec<bool> {
+        let largest = self.areas.iter().copied().fold(0.0, f64::max);
+        let is_large = |&zone: &usize| self.areas[zone] >= largest.min(HALL_M2);
+        let of_rooms = self.of.iter().skip(1).map(is_large);
+        std::iter::once(self.of.len() == 1).chain(of_rooms).collect()
+    }
+
+    /// For every room whether places lie on a good part of its zone.
+    fn hold_places(&self, ground: &Ground, partition: &Partition, rows: &Decomposition) -> Vec<bool> {
         let mut places = vec![0.0; self.of.len()];
         for plot in rows.plots.iter().filter(|plot| plot.kind == PlotKind::Place) {
             let [column, row] = [plot.bounds.center.x, plot.bounds.center.y].map(|side| (side / ground.cell) as usize);
@@ -132,13 +140,7 @@ impl Zones {
                 places[self.of[room]] += 4.0 * along * across;
             }
         }
-        let mut areas = vec![0.0; self.of.len()];
-        for (room, area) in self.areas.iter().enumerate().skip(1) {
-            areas[self.of[room]] += area;
-        }
-        let largest = areas.iter().copied().fold(0.0, f64::max);
-        let is_hall = |zone: usize| areas[zone] >= largest.min(HALL_M2) && places[zone] > PLACES_SHARE * areas[zone];
-        self.of.iter().map(|&zone| zone != 0 && is_hall(zone)).collect()
+        self.of.iter().map(|&zone| places[zone] > PLACES_SHARE * self.areas[zone]).collect()
     }
 }
 
