@@ -1,18 +1,25 @@
 //! What the cells say about edges: is something there, could one pass, is anything known.
 //!
 //! An edge is sampled every half cell, and across it every cell out to the support width, so that of the cells that its
-//! strip covers at most a corner is missed. (The author prunes edges by the occupied share within 5 px and by
-//! the distance image; see the paper's successor, map alignment 2017. Here nothing is pruned, the shares are reported.)
-//! Cost: O(length / cell x width / cell), in parallel by edges.
+//! strip covers at most a corner is missed. (The author prunes edges by the occupied share within 5 px and by the
+//! distance image; see the paper's successor, map alignment 2017. Here nothing is pruned, the shares are reported.) An
+//! edge is observed where signs of it stand along it: two posts of 0.09 m on the side of a place of 1.2 m, or more. A
+//! face is observed where most of its border is; both are interpolated else: what goods or floor it holds is another
+//! matter. Cost: O(length / cell x width / cell), in parallel by edges.
 
 use rayon::prelude::*;
 
 use super::{EdgeAnnotation, Evidence};
-use crate::arrangement::{EdgeId, Subdivision};
+use crate::arrangement::{EdgeId, FaceId, Subdivision};
 use crate::geometry::Vector;
 use crate::grid::{Occupancy, OccupancyGrid};
 use crate::spec::AnnotationOptions;
 use crate::watch::{Stopped, Watch};
+
+/// Share of the length of an edge along which signs of it stand at least.
+const SIGNS_SHARE: f64 = 0.15;
+/// Share of the border of a face that is observed at least.
+const MAJORITY: f64 = 0.5;
 
 /// Annotates every edge.
 pub(super) fn annotate_edges(
@@ -47,7 +54,7 @@ pub(super) fn annotate_edge(
     let at = |point: Vector| grid.at(floor(point.x), floor(point.y));
 
     let samples = (2.0 * length).ceil().max(1.0) as usize;
-    let (mut supported, mut open, mut observed, mut known) = (0_usize, 0_usize, 0_usize, 0_usize);
+    let (mut supported, mut open, mut known) = (0_usize, 0_usize, 0_usize);
     for sample in 0..samples {
         let place = start + along * ((sample as f64 + 0.5) / samples as f64);
         let sides = [at(place - beyond), at(place + beyond)];
@@ -61,15 +68,33 @@ pub(super) fn annotate_edge(
         }
         supported += usize::from(is_supported);
         open += usize::from(!is_supported && sides == [Occupancy::Free; 2]);
-        observed += usize::from(is_supported || !sides.contains(&Occupancy::Unknown));
     }
     let share = |count: usize, of: usize| count as f64 / of as f64;
+    let support = share(supported, samples);
     EdgeAnnotation {
-        support: share(supported, samples),
+        support,
         open: share(open, samples),
-        evidence: if 2 * observed >= samples { Evidence::Observed } else { Evidence::Interpolated },
+        evidence: if support >= SIGNS_SHARE { Evidence::Observed } else { Evidence::Interpolated },
         confidence: share(known, samples * (strip.len() + 2)),
     }
+}
+
+/// What the border of every face rests on; interpolated for the unbounded one.
+pub(super) fn evidence_of_faces(subdivision: &Subdivision, edges: &[EdgeAnnotation]) -> Vec<Evidence> {
+    let mut lengths = vec![[0.0; 2]; subdivision.face_count()];
+    for edge in subdivision.edges() {
+        let is_observed = edges[edge.index()].evidence == Evidence::Observed;
+        for side in subdivision.sides(edge) {
+            let [all, observed] = &mut lengths[side.index()];
+            *all += subdivision.length(edge);
+            *observed += if is_observed { subdivision.length(edge) } else { 0.0 };
+        }
+    }
+    let evidence = |(face, [all, observed]): (usize, [f64; 2])| {
+        let is_observed = face != FaceId::OUTER.index() && observed >= MAJORITY * all;
+        if is_observed { Evidence::Observed } else { Evidence::Interpolated }
+    };
+    lengths.into_iter().enumerate().map(evidence).collect()
 }
 
 /// Offsets from one bound to the other, evenly, at most a cell apart.

@@ -218,10 +218,6 @@ fn face_annotation(tally: &Tally, rings: &[Vec<Point>], categories: &CategoryMap
         region: region.map_or(RegionMap::NONE, |region| region as u8),
         kind: None,
         confidence,
-        evidence: if total > 0 && 2 * u64::from(tally.known()) >= u64::from(total) {
-            Evidence::Observed
-        } else {
-            Evidence::Interpolated
-        },
+        evidence: Evidence::Interpolated,
     }
 }

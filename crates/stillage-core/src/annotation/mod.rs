@@ -1,7 +1,7 @@
 //! Annotation: what the cells say about faces and edges (paper, II-B).
 //!
-//! [`CellFaces`] tells the face of each cell; [`annotate`] measures faces and edges and gives each face its category: by
-//! clustering faces, or by the vote of their cells as in the paper.
+//! [`CellFaces`] tells the face of each cell; [`annotate`] measures faces and edges and gives each face its category:
+//! by clustering faces, or by the vote of their cells as in the paper.
 
 mod edges;
 mod faces;
@@ -30,12 +30,13 @@ use crate::segmentation::RegionMap;
 use crate::spec::{AnnotationMethod, AnnotationOptions};
 use crate::watch::{Stopped, Watch};
 
-/// How sure the geometry of a face or edge is.
+/// What the geometry of a face or edge rests on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Evidence {
-    /// Cells of the map show it.
+    /// Goods, posts or walls along the border show it.
     Observed,
-    /// It follows from its surroundings only (a line continued through open or unknown space).
+    /// It follows from its surroundings only: from the pitch of a row, or a line continued through open or unknown
+    /// space.
     Interpolated,
 }
 
@@ -73,7 +74,7 @@ pub struct FaceAnnotation {
     pub kind: Option<PlotKind>,
     /// Share of the category in force among the votes, or in the distribution of the face, 0 to 1.
     pub confidence: f64,
-    /// Whether cells show it.
+    /// Whether most of its border is observed.
     pub evidence: Evidence,
 }
 
@@ -92,7 +93,7 @@ pub struct EdgeAnnotation {
     pub support: f64,
     /// Share of its length along which free cells lie on both sides and none occupied: where one could pass.
     pub open: f64,
-    /// Whether cells show it.
+    /// Whether cells along it show it.
     pub evidence: Evidence,
     /// 0 (nothing is known along it) to 1 (all of it is known).
     pub confidence: f64,
@@ -199,5 +200,7 @@ pub fn annotate(
     let relax = |relaxation| membership::relax(&mut faces, subdivision, kinds.clusters, relaxation, watch);
     let relaxation = options.relaxation.map(relax).transpose()?;
     let edges = edges::annotate_edges(grid, subdivision, options, watch)?;
+    let evidence = edges::evidence_of_faces(subdivision, &edges);
+    faces.iter_mut().zip(evidence).for_each(|(face, evidence)| face.evidence = evidence);
     Ok(Annotations { faces, categories: kinds, edges, relaxation })
 }

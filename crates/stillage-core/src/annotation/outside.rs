@@ -1,5 +1,5 @@
-//! The ground outside the site: unexplored faces that a chain of such faces joins with the unbounded one, or with a hole
-//! in the regions (a courtyard that nobody saw).
+//! The ground outside the site: unexplored faces that a chain of such faces joins with the unbounded one, or with a
+//! hole in the regions (a courtyard that nobody saw).
 //!
 //! The decomposition covers whole tiles, and beams end at walls and goods: both leave faces without a free cell. Those
 //! among known places hold something, those around the site hold nothing anyone knows of, so the two are told apart

@@ -228,6 +228,21 @@ fn edges_are_supported_open_or_unknown() {
     assert!(edges.iter().all(|edge| (0.0..=1.0).contains(&edge.support)));
 }
 
+/// A hall with walls all around, and a rectangle cut out of its open floor.
+#[test]
+fn what_nothing_stands_along_follows_from_its_surroundings() {
+    let cut_out = [[6.0, 3.0, 12.0, 3.0], [12.0, 3.0, 12.0, 6.0], [12.0, 6.0, 6.0, 6.0], [6.0, 6.0, 6.0, 3.0]];
+    let subdivision = boxed([0.5, 0.5, 21.5, 8.5], &cut_out);
+    let wall = "#".repeat(22) + "\n";
+    let picture = wall.clone() + &format!("#{}#\n", "0".repeat(20)).repeat(7) + &wall;
+    let (faces, edges) = annotated(&picture, &subdivision);
+    let observed = edges.iter().filter(|edge| edge.evidence == Evidence::Observed).count();
+    assert_eq!((edges.len(), observed), (8, 4));
+    let evidence: Vec<(f64, Evidence)> = faces[1..].iter().map(|face| (face.area, face.evidence)).collect();
+    assert!(evidence.contains(&(18.0, Evidence::Interpolated)), "{evidence:?}");
+    assert!(evidence.contains(&(150.0, Evidence::Observed)), "{evidence:?}");
+}
+
 #[test]
 fn the_number_of_threads_is_of_no_consequence() {
     let slant: Vec<_> = (0..30).map(|line| [f64::from(line) - 9.0, 0.0, f64::from(line), 20.0]).collect();

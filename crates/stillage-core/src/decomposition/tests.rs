@@ -126,6 +126,46 @@ fn a_row_ends_with_its_last_goods() {
 }
 
 #[test]
+fn a_passage_goes_through_every_row_that_has_room_for_it() {
+    // Three places wide, and closed by the first row only.
+    let is_empty = |place: usize| (7..10).contains(&(place % 16)) && place / 16 > 0;
+    let hall = PalletHall { places: 16, double_rows: 3, is_empty };
+    let found = decomposed(&hall.grid());
+    let in_passage = |plot: &&Plot| (plot.bounds.center.x - (LANE + 8.5 * PITCH)).abs() < 1.5 * PITCH;
+    let of = |kind: PlotKind| found.plots.iter().filter(in_passage).filter(|plot| plot.kind == kind).count();
+    assert_eq!(of(PlotKind::Place), 3, "those of the first row");
+    assert!(of(PlotKind::Gap) >= 5, "one piece of each other row at least");
+}
+
+/// A hall in ground that nobody saw, but for a yard behind a gate in its left wall.
+#[test]
+fn open_floor_reaches_as_far_as_it_was_seen() {
+    const YARD: usize = 100;
+    let hall = PalletHall { places: 12, double_rows: 2, is_empty: |_| false }.grid();
+    let (columns, rows) = (hall.width() + YARD, hall.height() + 40);
+    let is_yard = |column: usize, row: usize| column < YARD + 4 && (60..130).contains(&row);
+    let cell = |index: usize| {
+        let (column, row) = (index % columns, index / columns);
+        match (column.checked_sub(YARD), row.checked_sub(20)) {
+            _ if is_yard(column, row) => Occupancy::Free,
+            (Some(column), Some(row)) if row < hall.height() => hall.row(row)[column],
+            _ => Occupancy::Unknown,
+        }
+    };
+    let grid = OccupancyGrid::new(columns, rows, *hall.frame(), (0..columns * rows).map(cell).collect());
+    let found = decomposed(&grid);
+    let is_open = |plot: &&Plot| matches!(plot.kind, PlotKind::Aisle | PlotKind::Lane | PlotKind::Gap);
+    let mut yard = 0;
+    for plot in found.plots.iter().filter(is_open) {
+        let (column, row) = grid.cell_at(plot.bounds.center).expect("in the grid");
+        assert_eq!(grid.row(row)[column], Occupancy::Free, "{plot:?}");
+        yard += usize::from(is_yard(column, row));
+    }
+    assert!(yard > 0, "the yard is open floor of its own");
+    assert_eq!(found.plots.iter().filter(|plot| plot.kind == PlotKind::Place).count(), 48, "none out there");
+}
+
+#[test]
 fn rooms_are_not_combed() {
     let room = "
         ##############################
@@ -141,9 +181,9 @@ fn rooms_are_not_combed() {
     // Five cells of 0.1 m for each character.
     let wide = |line: &str| line.trim().chars().flat_map(|symbol| [symbol; 5]).collect::<String>() + "\n";
     let fine: String = room.lines().filter(|line| !line.trim().is_empty()).map(|line| wide(line).repeat(5)).collect();
-    check(&OccupancyGrid::from_ascii(&fine, 0.1), &expect!["0 Place, 0 Aisle, 1 Lane, 0 Gap, 2 Rest"]);
+    check(&OccupancyGrid::from_ascii(&fine, 0.1), &expect!["0 Place, 0 Aisle, 1 Lane, 0 Gap, 4 Rest"]);
     // And too coarse to tell.
-    check(&OccupancyGrid::from_ascii(room, 0.5), &expect!["0 Place, 0 Aisle, 1 Lane, 0 Gap, 2 Rest"]);
+    check(&OccupancyGrid::from_ascii(room, 0.5), &expect!["0 Place, 0 Aisle, 1 Lane, 0 Gap, 4 Rest"]);
 }
 
 #[test]

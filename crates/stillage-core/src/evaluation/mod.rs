@@ -1,21 +1,22 @@
 //! Truth against result: Table III of the paper, made precise.
 //!
 //! Source: the paper, section III-C and Table III, which counts pallet cells that are detected correctly, with
-//! "systematic" and other errors. Departures: the paper looks whether a place is labelled right; whether it is *one face*
-//! is what a user of the places needs, so both are told, and much more.
+//! "systematic" and other errors. Departures: the paper looks whether a place is labelled right; whether it is *one
+//! face* is what a user of the places needs, so both are told, and much more.
 //!
 //! - A place is found *strictly* when one face labelled pallet cell has an intersection over union above one half with
-//!   it; *laxly* when its centre lies in such a face of less than twice its area; *by area* when more than half of it is
-//!   covered by such faces, which is nearest to the paper's count. Faces cut small pass the last two: never rest on them.
+//!   it; *laxly* when its centre lies in such a face of less than twice its area; *by area* when more than half of it
+//!   is covered by such faces, which is nearest to the paper's count. Faces cut small pass the last two: never rest on
+//!   them.
 //! - A *systematic* miss is a place that is missed laxly and was empty: no shape shows it.
 //! - Only places count whose surroundings the robot saw by half or more; the paper leaves unexplored margins out.
-//! - *Precision* is the share of faces labelled pallet cell that strictly fit a true place. Faces below a quarter of the
-//!   median place are slivers, counted apart. *F1* of strict recall and precision is the figure to go by.
+//! - *Precision* is the share of faces labelled pallet cell that strictly fit a true place. Faces below a quarter of
+//!   the median place are slivers, counted apart. *F1* of strict recall and precision is the figure to go by.
 //! - Cogency is compared with what the true labels imply, by length of the edges.
 //!
-//! Areas are those of the polygons, not of cells. [`evaluate`] tells all; behind it, [`Evaluator`] compares the geometry
-//! once; [`Evaluator::score`] then reads any labels against it in milliseconds, and [`Evaluator::decision`] takes the one decision per category that a
-//! person who knows the truth would take.
+//! Areas are those of the polygons, not of cells. [`evaluate`] tells all; behind it, [`Evaluator`] compares the
+//! geometry once; [`Evaluator::score`] then reads any labels against it in milliseconds, and [`Evaluator::decision`]
+//! takes the one decision per category that a person who knows the truth would take.
 //!
 //! Cost: O(true areas x faces they meet), seconds for a site of 6,000 places. Limits: true areas of one label must not
 //! overlap.

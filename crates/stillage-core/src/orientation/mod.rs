@@ -33,6 +33,7 @@ mod blocks;
 pub mod energy;
 mod gradient;
 mod mixture;
+pub(crate) mod slope;
 
 #[cfg(test)]
 mod tests;
@@ -60,6 +61,9 @@ const ACROSS_DEG: f64 = 2.0;
 /// Smallest contrast in deviations of what scattered cells would give. Random grids reach 4.4, a lone bar of eight cells
 /// 5.7, a drawn floor plan of 60 cells 15, real maps 50 and more.
 const MIN_DEVIATIONS: f64 = 5.0;
+
+/// Directions are square to one another within this, degrees: better than any of them is known before the fit.
+const SQUARE_DEG: f64 = 0.3;
 
 /// Fewest occupied cells that are no wall and have a say of their own: a dozen pallets.
 const LEAST_GOODS: usize = 500;
@@ -115,6 +119,10 @@ fn by_energy(grid: &OccupancyGrid, options: &OrientationOptions, watch: &Watch<'
     if angles.is_empty() {
         return Ok(Orientations::default());
     }
+    let is_square =
+        |angle: f64| angles.iter().any(|&other| PI / 2.0 - line_angle_between(angle, other) <= SQUARE_DEG.to_radians());
+    let fit = |&angle: &f64| slope::fit(&all, angle, is_square(angle), watch).map(fold_half_turn);
+    let mut angles: Vec<f64> = angles.iter().map(fit).collect::<Result<_, _>>()?;
     angles.sort_by(f64::total_cmp);
     Ok(Orientations { angles, histogram, mixture: Vec::new() })
 }

@@ -23,9 +23,22 @@ fn energy_finds_turned_racks_and_nothing_else() {
         let found = find_by_energy(&hall(angle_deg));
         let across = if angle_deg > 0.0 { angle_deg - 90.0 } else { angle_deg + 90.0 };
         assert_eq!(found.angles.len(), 2, "{angle_deg}: {:?}", found.angles);
-        assert!(error_deg(&found.angles, &[angle_deg, across]) < 0.1, "{angle_deg}: {:?}", found.angles);
+        assert!(error_deg(&found.angles, &[angle_deg, across]) < 0.02, "{angle_deg}: {:?}", found.angles);
         assert!((found.histogram.iter().sum::<f64>() - 1.0).abs() < 1e-9);
     }
+}
+
+#[test]
+fn lines_tell_hundredths_of_a_degree_from_wherever_the_fit_starts() {
+    let grid = hall(17.3);
+    let samples = OccupiedSample::of_parts(&grid, 1, |_, _| Some(0), energy::SAMPLE_CELLS, &Watch::unwatched());
+    let sample = samples.unwrap().swap_remove(0);
+    for start_deg in [17.2_f64, 17.27, 17.36, 17.4] {
+        let fitted_deg = slope::fit(&sample, start_deg.to_radians(), true, &Watch::unwatched()).unwrap().to_degrees();
+        assert!((fitted_deg - 17.3).abs() < 0.01, "from {start_deg}: {fitted_deg}");
+    }
+    let nothing = slope::fit(&OccupiedSample::default(), 0.3, true, &Watch::unwatched()).unwrap();
+    assert_eq!(nothing.to_bits(), 0.3_f64.to_bits());
 }
 
 #[test]

@@ -65,7 +65,9 @@ pub(super) fn passages(ground: &Ground, watch: &Watch<'_>) -> Result<Vec<Passage
     };
     for cells in widest_first(ground, &clearance).chunks(4096) {
         watch.check()?;
-        cells.iter().for_each(|&cell| flood.reach(cell as usize));
+        for &cell in cells {
+            flood.reach(cell as usize);
+        }
     }
     Ok(flood.passages)
 }

@@ -17,6 +17,7 @@ use crate::geometry::{OrientedBox, Point};
 use crate::grid::{Occupancy, OccupancyGrid};
 use crate::linalg::PrincipalComponents;
 use crate::orientation::energy::OccupiedSample;
+use crate::orientation::slope;
 use crate::orientation::{self, Orientations};
 use crate::spec::{AnalysisOptions, RegionMethod, RegionOptions};
 use crate::watch::{Stopped, Watch};
@@ -117,7 +118,7 @@ fn by_energy(
     let mut orientations = Vec::with_capacity(count);
     for (region, sample) in samples.iter().enumerate() {
         orientations.push(match found.pairs.get(region) {
-            Some(&pair) => directions::both(sample.refine_pair(pair, watch)?),
+            Some(&pair) => directions::both(slope::fit(sample, sample.refine_pair(pair, watch)?, true, watch)?),
             None => global.angles.clone(),
         });
     }

@@ -31,7 +31,8 @@ pub enum Functionality {
     WorkPlace,
 }
 
-/// A label that a person may give to places. Table II writes it `co: corridor, drivable & storage access, co & ju & pc`.
+/// A label that a person may give to places. Table II writes it `co: corridor, drivable & storage access, co & ju &
+/// pc`.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "camelCase")]
 pub struct Label {

@@ -1,8 +1,9 @@
 //! Aisles end where the places along them do.
 //!
-//! A band serves a row along its places only: where it runs on without any it is open floor, and so is what is left of it
-//! beside the aisles of its rows where there is room for more: a row that is missing, or a lane before a row. How wide an
-//! aisle is, the bands with places on both sides tell; on which side the rest lies, the rows of the other blocks.
+//! A band serves a row along its places only: where it runs on without any it is open floor, and so is what is left of
+//! it beside the aisles of its rows where there is room for more: a row that is missing, or a lane before a row. How
+//! wide an aisle is, the bands with places on both sides tell; on which side the rest lies, the rows of the other
+//! blocks.
 //!
 //! Cost: O(bands x places). Limits: a band between a row and a wall is all aisle, up to twice as wide as others.
 
@@ -42,7 +43,9 @@ pub(super) fn end(frame: &Frame, parcels: Vec<Parcel>) -> Vec<Parcel> {
     let stretches: Vec<Stretch> = bands.iter().flat_map(|band| band.stretches(frame)).collect();
     if let Some(width) = usual_width(&stretches) {
         let aisles = Aisles { width, strip: frame.cells_of(OPEN_STRIP_M), borders: Borders::of(frame, &ended) };
-        stretches.into_iter().for_each(|stretch| aisles.cut(stretch, &mut ended));
+        for stretch in stretches {
+            aisles.cut(stretch, &mut ended);
+        }
     } else {
         ended.extend(stretches.into_iter().map(Stretch::whole));
     }

@@ -1,8 +1,7 @@
 //! Which pieces of the rows are no places.
 //!
 //! - Ground outside the site holds no goods: the comb runs on behind walls, where a robot looked out of a door.
-//! - A passage seldom ends in a row. Where one row has a gap, pieces of the rows beside it that vehicles find room on
-//!   are the same passage: empty places and open floor look alike, and only together rows tell them apart.
+//! - Passages that several rows share are no places ([`super::passages`]).
 //! - A row of goods ends where its last sign does, and no row goes through a wall: bare pieces beyond are open floor.
 //!
 //! Cost: O(cells of the rows). Limits: an empty place at the end of a row without a post is given up, since nothing
@@ -13,18 +12,14 @@ use std::ops::Range;
 
 use super::super::frame::{Axis, Cell, Frame};
 use super::super::{Parcel, PlotKind};
+use super::passages;
 
-/// Share of a piece that must lie in the site: goods hide as much of their place where they are seen from one side only.
+/// Share of a piece that must lie in the site: goods hide as much of their place where they are seen from one side
+/// only.
 const SITE_SHARE: f64 = 0.3;
 /// The same where most of the row lies in the site, and only its end is seen badly.
 const SITE_SHARE_OF_END: f64 = 0.1;
 const MAJORITY: f64 = 0.5;
-/// Narrowest passage that several rows share, metres: two empty places are none.
-const PASSAGE_M: f64 = 2.6;
-/// Rows with at most one aisle between them, metres.
-const NEXT_ROW_M: f64 = 5.0;
-/// Share of a piece that a passage covers, and on which vehicles find room.
-const PASSAGE_SHARE: f64 = 0.75;
 /// What reaches this far into a piece from its inner neighbour is the neighbour's: overhang and drift, metres.
 const OVERHANG_M: f64 = 0.25;
 /// A post at the outer border of a piece may stand so far beyond it, metres.
@@ -45,18 +40,22 @@ pub(super) fn end(frame: &Frame, parcels: Vec<Parcel>) -> Vec<Parcel> {
     let (pieces, mut ended): (Vec<Parcel>, Vec<Parcel>) = parcels.into_iter().partition(is_of_row);
     for axis in Axis::BOTH {
         let mut rows = Row::all(pieces.iter().filter(|piece| piece.axis == Some(axis)), axis);
-        rows.iter_mut().for_each(|row| row.leave_out(frame));
-        open_passages(frame, &mut rows);
-        rows.into_iter().for_each(|row| row.end(frame, &mut ended));
+        for row in &mut rows {
+            row.leave_out(frame);
+        }
+        passages::open(frame, &mut rows);
+        for row in rows {
+            row.end(frame, &mut ended);
+        }
     }
     ended
 }
 
 /// Pieces that follow one another.
-struct Row {
-    axis: Axis,
-    across: Range<usize>,
-    pieces: Vec<Parcel>,
+pub(super) struct Row {
+    pub axis: Axis,
+    pub across: Range<usize>,
+    pub pieces: Vec<Parcel>,
 }
 
 impl Row {
@@ -76,7 +75,7 @@ impl Row {
         rows
     }
 
-    fn along(&self, piece: &Parcel) -> Range<usize> {
+    pub(super) fn along(&self, piece: &Parcel) -> Range<usize> {
         piece.rect.range(self.axis).clone()
     }
 
@@ -91,36 +90,6 @@ impl Row {
                 place.kind = PlotKind::Rest;
             }
         }
-    }
-
-    /// The gaps wide enough for a passage.
-    fn passages(&self, least: usize) -> impl Iterator<Item = Range<usize>> {
-        let gaps = self.pieces.iter().filter(|piece| piece.kind == PlotKind::Gap).map(|piece| self.along(piece));
-        gaps.filter(move |gap| gap.len() >= least)
-    }
-
-    /// Opens the pieces of a passage where vehicles find room on them; says which part of the passage that is.
-    fn open(&mut self, frame: &Frame, passage: &Range<usize>, least: usize) -> Option<Range<usize>> {
-        let share = |one: usize, of: usize| one as f64 / of.max(1) as f64;
-        let is_open = |piece: &Parcel| {
-            let along = piece.rect.range(self.axis);
-            let covered = along.end.min(passage.end).saturating_sub(along.start.max(passage.start));
-            share(covered, along.len()) >= PASSAGE_SHARE && frame.share(&piece.rect, Cell::is_drivable) >= PASSAGE_SHARE
-        };
-        let open: Vec<bool> = self.pieces.iter().map(is_open).collect();
-        let first = open.iter().position(|&is_open| is_open)?;
-        let last = open.iter().rposition(|&is_open| is_open)?;
-        let found = self.along(&self.pieces[first]).start..self.along(&self.pieces[last]).end;
-        let mut pieces = self.pieces[first..=last].iter_mut().zip(&open[first..=last]);
-        if found.len() < least || pieces.any(|(_, is_open)| !is_open) {
-            return None;
-        }
-        let mut is_new = false;
-        for piece in &mut self.pieces[first..=last] {
-            is_new |= piece.kind != PlotKind::Gap;
-            piece.kind = PlotKind::Gap;
-        }
-        is_new.then_some(found)
     }
 
     /// Makes open floor of the bare pieces at both ends, and before and behind every wall.
@@ -193,26 +162,5 @@ impl Row {
         let least = self.across.len();
         let is_wall = |(ground, seen): (usize, usize)| ground > least && seen as f64 >= WALL_SHARE * ground as f64;
         ground.into_iter().zip(seen).map(is_wall).collect()
-    }
-}
-
-/// Goes on with every gap through the rows beside it.
-fn open_passages(frame: &Frame, rows: &mut [Row]) {
-    let (least, next) = (frame.cells_of(PASSAGE_M), frame.cells_of(NEXT_ROW_M));
-    let mut waiting: Vec<(usize, Range<usize>)> = Vec::new();
-    for (number, row) in rows.iter().enumerate() {
-        waiting.extend(row.passages(least).map(|gap| (number, gap)));
-    }
-    while let Some((from, passage)) = waiting.pop() {
-        let across = rows[from].across.clone();
-        for (number, row) in rows.iter_mut().enumerate() {
-            let distance = row.across.start.saturating_sub(across.end).max(across.start.saturating_sub(row.across.end));
-            if number != from
-                && distance <= next
-                && let Some(found) = row.open(frame, &passage, least)
-            {
-                waiting.push((number, found));
-            }
-        }
     }
 }

@@ -1,0 +1,95 @@
+//! Open floor reaches as far as it was seen.
+//!
+//! Lanes are cut as rectangles from side to side of the frame, so they run on through walls into ground that nobody
+//! saw, and past it into what a robot saw through a door. Each is cut again where most of its lines change from free to
+//! not free, in the direction that tells the two apart best, until its parts are one or the other.
+//!
+//! Source: the recursive XY-cut of [`super::super::blocks`]. Cost: O(cells of the lanes x cuts). Limits: walls aslant
+//! leave steps.
+
+use std::ops::Range;
+
+use super::super::frame::{Axis, Cell, Frame, Rect};
+use super::super::{Parcel, PlotKind};
+
+/// Share of a line, or of a part, that is free where it was seen.
+const MAJORITY: f64 = 0.5;
+/// Narrowest part, metres, and the same at the sides, where a wall and what is behind it is cut off.
+const PART_M: f64 = 1.0;
+const SIDE_M: f64 = 0.3;
+/// No lane is cut deeper.
+const MOST_CUTS: usize = 4;
+
+/// Cuts the lanes; what nobody saw of them is no floor.
+pub(super) fn cut(frame: &Frame, parcels: Vec<Parcel>) -> Vec<Parcel> {
+    let mut parts = Vec::new();
+    for parcel in parcels {
+        if parcel.kind == PlotKind::Lane {
+            cut_lane(frame, parcel, 0, &mut parts);
+        } else {
+            parts.push(parcel);
+        }
+    }
+    parts
+}
+
+fn cut_lane(frame: &Frame, lane: Parcel, depth: usize, parts: &mut Vec<Parcel>) {
+    let profiles = Axis::BOTH.map(|axis| (axis, free_shares(frame, &lane.rect, axis)));
+    let cuts = profiles.into_iter().map(|(axis, shares)| (axis, contrast(&shares), runs(frame, &shares)));
+    let best = cuts.filter(|(_, _, runs)| runs.len() > 1).max_by(|one, other| one.1.total_cmp(&other.1));
+    match best {
+        Some((axis, _, runs)) if depth < MOST_CUTS => {
+            let start = lane.rect.range(axis).start;
+            for run in runs {
+                let rect = lane.rect.with(axis, start + run.start..start + run.end);
+                cut_lane(frame, Parcel { rect, ..lane.clone() }, depth + 1, parts);
+            }
+        }
+        _ => {
+            let is_seen = frame.share(&lane.rect, Cell::is_free) >= MAJORITY;
+            parts.push(Parcel { kind: if is_seen { PlotKind::Lane } else { PlotKind::Rest }, ..lane });
+        }
+    }
+}
+
+/// Free share of every line across `axis`.
+fn free_shares(frame: &Frame, rect: &Rect, axis: Axis) -> Vec<f64> {
+    let mut free = vec![0_usize; rect.range(axis).len()];
+    for v in rect.v.clone() {
+        for (column, cell) in frame.row(v)[rect.u.clone()].iter().enumerate() {
+            free[if axis == Axis::U { column } else { v - rect.v.start }] += usize::from(cell.is_free());
+        }
+    }
+    let length = rect.range(axis.other()).len().max(1) as f64;
+    free.into_iter().map(|free| free as f64 / length).collect()
+}
+
+/// How clearly lines are free or not, 0 to 1.
+fn contrast(shares: &[f64]) -> f64 {
+    shares.iter().map(|share| (2.0 * share - 1.0).abs()).sum::<f64>() / shares.len().max(1) as f64
+}
+
+/// Runs of lines that are mostly free, or mostly not; short ones belong to their neighbours.
+fn runs(frame: &Frame, shares: &[f64]) -> Vec<Range<usize>> {
+    let mut is_free: Vec<bool> = shares.iter().map(|&share| share >= MAJORITY).collect();
+    let (part, side) = (frame.cells_of(PART_M), frame.cells_of(SIDE_M));
+    let short = ranges(&is_free).into_iter().filter(|run| {
+        let is_side = run.start == 0 || run.end == shares.len();
+        run.len() < if is_side { side } else { part }
+    });
+    for run in short.collect::<Vec<_>>() {
+        let like = run.start.checked_sub(1).or(Some(run.end).filter(|&end| end < shares.len()));
+        let value = like.map_or(is_free[run.start], |like| is_free[like]);
+        is_free[run].fill(value);
+    }
+    ranges(&is_free)
+}
+
+fn ranges(values: &[bool]) -> Vec<Range<usize>> {
+    let mut start = 0;
+    let range = |run: &[bool]| {
+        start += run.len();
+        start - run.len()..start
+    };
+    values.chunk_by(PartialEq::eq).map(range).collect()
+}

@@ -1,0 +1,90 @@
+//! Orientations to hundredths of a degree: the common slope of the points about every sharp line.
+//!
+//! The energy of a hall is nearly the same over a tenth of a degree, for a line of 30 m then leaves its bin by one cell
+//! only. Its points tell more: each sharp line of the projection is fitted by least squares, all lines with one slope,
+//! those along the direction and those across it together where the two are square. Long lines count most. Where the
+//! energy tells the two directions apart, as it does on drawings, it is right: the fit is taken where it costs next to
+//! nothing. Drawn halls come out exact to 0.01 degrees, where the energy alone is 0.05 off. Cost: O(sample).
+
+use std::f64::consts::FRAC_PI_2;
+
+use super::energy::OccupiedSample;
+use crate::watch::{Stopped, Watch};
+
+/// Turns of fitting; the slope that is left falls to a third in each.
+const TURNS: usize = 6;
+/// Share of the energy that a fitted direction keeps at least: scanned maps keep 0.99, drawings with goods that stand
+/// askew 0.88 to 0.96.
+const KEPT_ENERGY: f64 = 0.98;
+/// Deviations of a Poisson count that a line stands out (3 to 12 do alike).
+const DEVIATIONS: f64 = 6.0;
+/// Bins to either side of a maximum that belong to its line: what the direction is off, and drift.
+const SIDE: usize = 2;
+
+/// The direction near `angle`, radians, of the lines that a sample shows; `is_square` when there are lines across it at a
+/// right angle.
+///
+/// # Errors
+/// [`Stopped`] when the watch says so.
+pub(crate) fn fit(sample: &OccupiedSample, angle: f64, is_square: bool, watch: &Watch<'_>) -> Result<f64, Stopped> {
+    let mut fitted = angle;
+    for _ in 0..TURNS {
+        let mut sums = moments(sample, fitted);
+        if is_square {
+            let across = moments(sample, fitted + FRAC_PI_2);
+            sums = [sums[0] + across[0], sums[1] + across[1]];
+        }
+        if sums[1] > 0.0 {
+            fitted += sums[0] / sums[1];
+        }
+    }
+    let mut angles = vec![angle, fitted];
+    if is_square {
+        angles.extend([angle + FRAC_PI_2, fitted + FRAC_PI_2]);
+    }
+    let energies = sample.energies(&angles, watch)?;
+    let [before, after] = [0, 1].map(|at| energies[at..].iter().step_by(2).sum::<f64>());
+    Ok(if after >= KEPT_ENERGY * before { fitted } else { angle })
+}
+
+/// Sums over all sharp lines along a direction, each about its mean: of u v and of u u, with u along and v across.
+fn moments(sample: &OccupiedSample, angle: f64) -> [f64; 2] {
+    let (sine, cosine) = angle.sin_cos();
+    let place = |&[x, y]: &[f32; 2]| {
+        let (x, y) = (f64::from(x), f64::from(y));
+        [cosine * x + sine * y, cosine * y - sine * x]
+    };
+    let low = sample.points().iter().map(|point| place(point)[1]).fold(f64::INFINITY, f64::min);
+    let mut bins: Vec<u32> = Vec::new();
+    for point in sample.points() {
+        let bin = (place(point)[1] - low) as usize;
+        bins.resize(bins.len().max(bin + 1), 0);
+        bins[bin] += 1;
+    }
+    let line_of = lines(&bins);
+    let mut lines = vec![[0.0; 5]; bins.len()];
+    for [u, v] in sample.points().iter().map(place) {
+        if let Some(line) = line_of[(v - low) as usize] {
+            let v = v - low - line as f64;
+            lines[line] = std::array::from_fn(|sum| lines[line][sum] + [1.0, u, v, u * v, u * u][sum]);
+        }
+    }
+    lines.iter().filter(|line| line[0] > 0.0).fold([0.0; 2], |[product, square], &[count, u, v, of_both, of_u]| {
+        [product + of_both - u * v / count, square + of_u - u * u / count]
+    })
+}
+
+/// For every bin the sharp line that it belongs to, by its own bin: a maximum far above chance, or near one.
+fn lines(bins: &[u32]) -> Vec<Option<usize>> {
+    let mean = bins.iter().map(|&count| f64::from(count)).sum::<f64>() / bins.len().max(1) as f64;
+    let around = |at: usize, reach: usize| at.saturating_sub(reach)..bins.len().min(at + reach + 1);
+    let is_line = |&at: &usize| {
+        let stands_out = f64::from(bins[at]) > mean + DEVIATIONS * mean.sqrt();
+        stands_out && bins[around(at, SIDE + 1)].iter().all(|&other| other <= bins[at])
+    };
+    let mut line_of = vec![None; bins.len()];
+    for at in (0..bins.len()).filter(is_line) {
+        line_of[around(at, SIDE)].fill(Some(at));
+    }
+    line_of
+}
