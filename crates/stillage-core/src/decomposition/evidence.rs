@@ -36,9 +36,9 @@ const POST_WEIGHTS: [f64; 2] = [2.5, 1.5];
 const HIDDEN_SHARE: f64 = 0.2;
 /// Smoothing of content before its two halves are compared, metres: goods stand askew by that much.
 const MIRROR_SIGMA_M: f64 = 0.06;
-/// Window in which content is levelled, metres: a place. What is less than the floor is nothing: half a cell of a row.
-const LEVEL_WINDOW_M: f64 = 1.2;
-const LEVEL_FLOOR: f64 = 0.02;
+/// Window in which content is levelled, metres: two places. What is less than the floor is nothing: a cell of a row.
+const LEVEL_WINDOW_M: f64 = 2.0;
+const LEVEL_FLOOR: f64 = 0.05;
 /// Width of a place in which the usual content is counted, metres.
 const USUAL_PLACE_M: f64 = 1.2;
 /// Content below which a place holds nothing, cells.
