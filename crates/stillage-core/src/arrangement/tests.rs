@@ -8,7 +8,10 @@ use proptest::prelude::*;
 
 use super::lattice::LatticePoint;
 use super::*;
-use crate::geometry::Point;
+use crate::geometry::{Point, direction, fold_half_turn, normal};
+use crate::grid::OccupancyGrid;
+use crate::radiography::Line;
+use crate::segmentation::RegionMap;
 
 fn segment(number: u32, [x0, y0, x1, y1]: [f64; 4]) -> SourceSegment {
     SourceSegment { start: Point::new(x0, y0), end: Point::new(x1, y1), source: EdgeSource::Line(number) }
@@ -363,7 +366,7 @@ fn segment_sets() -> impl Strategy<Value = Vec<[f64; 4]>> {
     let few_directions =
         (0_u8..4, -4_i8..4, -6.0..6.0, 0.1..9.0).prop_map(|(turn, offset, start, length): (_, _, f64, f64)| {
             let angle = f64::from(turn) * 0.8 + 0.1;
-            let [along, across] = [crate::geometry::direction(angle), crate::geometry::normal(angle)];
+            let [along, across] = [direction(angle), normal(angle)];
             let foot = Point::from(across * f64::from(offset));
             let [start, end] = [foot + along * start, foot + along * (start + length)];
             [start.x, start.y, end.x, end.y]
@@ -425,5 +428,34 @@ proptest! {
                 prop_assert_eq!(crate::geometry::ring_area(ring) > 0.0, number == 0);
             }
         }
+    }
+}
+
+/// The side of a room as a line of no region, as rooms give it.
+fn border_of_room([start, end]: [Point; 2]) -> Line {
+    let orientation = fold_half_turn((end.y - start.y).atan2(end.x - start.x));
+    let mut extent = [start, end].map(|corner| direction(orientation).dot(&corner.coords));
+    extent.sort_by(f64::total_cmp);
+    let offset = normal(orientation).dot(&start.coords);
+    Line { region: RegionMap::NONE, orientation, offset, support: 0.0, extents: vec![extent] }
+}
+
+proptest! {
+    #[test]
+    fn a_round_room_is_one_face_however_blunt_its_corners(
+        corners in 5_usize..90,
+        (x, y) in (20.0..30.0, 20.0..30.0),
+        radius in 4.0..15.0,
+        turn in 0.0..1.0,
+    ) {
+        let grid = OccupancyGrid::from_ascii(&format!("{}\n", ".".repeat(100)).repeat(100), 0.5);
+        let regions = RegionMap { tile_cells: 100, columns: 1, rows: 1, tiles: vec![RegionMap::NONE], regions: vec![] };
+        let corner = |at: usize| {
+            let angle = (at as f64 + turn) / corners as f64 * std::f64::consts::TAU;
+            Point::new(x, y) + direction(angle) * radius
+        };
+        let lines: Vec<Line> = (0..corners).map(|at| border_of_room([corner(at), corner(at + 1)])).collect();
+        let subdivision = arranged(&source_segments(&grid, &regions, &lines, &[]));
+        prop_assert_eq!(subdivision.face_count(), 2);
     }
 }
