@@ -36,14 +36,13 @@ const POST_WEIGHTS: [f64; 2] = [2.5, 1.5];
 const HIDDEN_SHARE: f64 = 0.2;
 /// Smoothing of content before its two halves are compared, metres: goods stand askew by that much.
 const MIRROR_SIGMA_M: f64 = 0.06;
+/// Window in which content is levelled, metres: two places. What is less than the floor is nothing: a cell of a row.
+const LEVEL_WINDOW_M: f64 = 2.0;
+const LEVEL_FLOOR: f64 = 0.05;
 /// Width of a place in which the usual content is counted, metres.
 const USUAL_PLACE_M: f64 = 1.2;
 /// Content below which a place holds nothing, cells.
 const LEAST_CONTENT: f64 = 0.5;
-/// Window of the mean that is taken off before a row is compared with itself, metres: two places.
-const DETREND_WINDOW_M: f64 = 2.45;
-/// Smoothing of content before a row is compared with itself, metres.
-const REPEAT_SIGMA_M: f64 = 0.04;
 /// Known share of a column of cells below which nobody looked at it: sensors see the fronts at least.
 const LEAST_KNOWN: f64 = 0.04;
 /// Free share of a column of cells that is clear.
@@ -56,10 +55,9 @@ pub(super) struct Evidence {
     pub border: Vec<f64>,
     /// Nothing stands here, in the whole depth.
     pub is_clear: Vec<bool>,
-    /// Share of the depth that is occupied or unknown, none where nobody looked: of each row of a bundle in turn.
+    /// Share of the depth that is occupied or unknown, beside its usual size hereabouts, none where nobody looked: of each
+    /// row of a bundle in turn.
     pub content: Vec<f64>,
-    /// The same of the middle of the depth.
-    middle: Vec<f64>,
     /// How far the content of a place differs from its mirror image: by first cell, then by width from `least_width`.
     mirror: Vec<f32>,
     least_width: usize,
@@ -134,8 +132,7 @@ impl Evidence {
         Self {
             border,
             is_clear,
-            content: gaussian(&whole, CONTENT_SIGMA_M / cell),
-            middle: content,
+            content: levelled(&gaussian(&whole, CONTENT_SIGMA_M / cell), cell),
             mirror,
             least_width,
             widths,
@@ -149,19 +146,18 @@ impl Evidence {
         let mut bundle = rows.next().unwrap_or_default();
         let mut count = 1.0;
         for row in rows {
-            let add =
-                |sum: &mut [f64], values: &[f64]| sum.iter_mut().zip(values).for_each(|(sum, value)| *sum += value);
-            add(&mut bundle.border, &row.border);
-            add(&mut bundle.middle, &row.middle);
+            bundle.border.iter_mut().zip(&row.border).for_each(|(sum, value)| *sum += value);
             bundle.mirror.iter_mut().zip(&row.mirror).for_each(|(sum, value)| *sum += value);
             bundle.is_clear.iter_mut().zip(&row.is_clear).for_each(|(all, is_clear)| *all &= is_clear);
             bundle.content.extend(row.content);
             count += 1.0;
         }
-        for values in [&mut bundle.border, &mut bundle.middle] {
-            values.iter_mut().for_each(|value| *value /= count);
+        for value in &mut bundle.border {
+            *value /= count;
         }
-        bundle.mirror.iter_mut().for_each(|value| *value /= count as f32);
+        for value in &mut bundle.mirror {
+            *value /= count as f32;
+        }
         bundle
     }
 
@@ -186,24 +182,14 @@ impl Evidence {
         let at = width.saturating_sub(self.least_width).min(self.widths.saturating_sub(1));
         self.mirror.get(start * self.widths + at).copied().map_or(0.0, f64::from)
     }
+}
 
-    /// Products of the content with itself at every lag up to `most` cells, and what they would be for a perfect repeat.
-    pub(super) fn repeats(&self, most: usize) -> (Vec<f64>, Vec<f64>) {
-        let smooth = gaussian(&self.middle, REPEAT_SIGMA_M / self.cell);
-        let mean = mean_filter(&smooth, DETREND_WINDOW_M / self.cell);
-        let values: Vec<f64> = smooth.iter().zip(&mean).map(|(value, mean)| value - mean).collect();
-        (0..=most)
-            .map(|lag| {
-                let (Some(ahead), Some(behind)) = (values.get(lag..), values.get(..values.len().saturating_sub(lag)))
-                else {
-                    return (0.0, 0.0);
-                };
-                let product: f64 = ahead.iter().zip(behind).map(|(a, b)| a * b).sum();
-                let squares: f64 = ahead.iter().zip(behind).map(|(a, b)| f64::midpoint(a * a, b * b)).sum();
-                (product, squares)
-            })
-            .unzip()
-    }
+/// Content as a share of its root mean square around each cell, so that the three legs of a pallet say as much as the
+/// solid box beside it, which has some ten times the content.
+fn levelled(content: &[f64], cell: f64) -> Vec<f64> {
+    let squares: Vec<f64> = content.iter().map(|content| content * content).collect();
+    let level = mean_filter(&squares, LEVEL_WINDOW_M / cell);
+    content.iter().zip(level).map(|(content, square)| content / (square.max(0.0).sqrt() + LEVEL_FLOOR)).collect()
 }
 
 /// See [`Evidence::unevenness`].

@@ -25,7 +25,6 @@ mod goods;
 mod layers;
 mod lines;
 mod pieces;
-mod pitch;
 mod reading;
 mod rows;
 mod site;

@@ -18,7 +18,6 @@ use rayon::prelude::*;
 use super::comb::{self, Comb, Lanes};
 use super::evidence::Evidence;
 use super::goods::{self, Goods};
-use super::pitch;
 
 /// Length along which the noise of content is the same, metres: goods off their mark, and the smoothing.
 const CORRELATION_M: f64 = 0.2;
@@ -41,8 +40,22 @@ const MOST_READINGS: usize = 6;
 const ENOUGH_M: f64 = 400.0;
 /// A row's own pitch is known to this, metres.
 const NEAR_M: f64 = 0.03;
-/// The pitches are tried at every second candidate first.
+/// Step of the pitches that are tried, metres; every second one is tried first.
+const STEP_M: f64 = 0.025;
 const STRIDE: usize = 2;
+/// Rows shorter than this many places say nothing of their pitch.
+const LEAST_PLACES: f64 = 2.2;
+
+/// The pitches that are tried within `range`, metres.
+pub(super) fn pitches(range: [f64; 2]) -> Vec<f64> {
+    let count = ((range[1] - range[0]) / STEP_M).round() as usize + 1;
+    (0..count).map(|index| range[0] + index as f64 * STEP_M).collect()
+}
+
+/// Whether a row is long enough to tell whether it has a pitch, metres.
+fn tells(row: &Evidence, pitch: f64) -> bool {
+    row.length() >= LEAST_PLACES * pitch
+}
 
 /// A way to read rows.
 #[derive(Debug, Clone)]
@@ -101,19 +114,29 @@ fn weight(noise: f64, cell: f64) -> f64 {
 impl Reading {
     /// Cuts a row.
     pub(super) fn cut(&self, row: &Evidence) -> Comb {
-        self.cut_and_score(row, self.noise).0
+        self.cut_and_account(row, self.noise).0
+    }
+
+    /// The score of a row at the best of some pitches, and what borders and widths have in it.
+    pub(super) fn best_fit(&self, row: &Evidence, pitches: &[f64]) -> (f64, f64) {
+        let fit = |&pitch: &f64| {
+            let (_, account) = self.at(pitch, row.cell).cut_and_account(row, self.noise);
+            (account.score(self.noise), account.structure)
+        };
+        let fits = pitches.iter().step_by(STRIDE).map(fit);
+        fits.reduce(|best, other| if other.0 > best.0 { other } else { best }).unwrap_or_default()
     }
 
     fn score(&self, row: &Evidence, noise: f64) -> f64 {
-        self.cut_and_score(row, noise).1
+        self.cut_and_account(row, noise).1.score(noise)
     }
 
-    fn cut_and_score(&self, row: &Evidence, noise: f64) -> (Comb, f64) {
+    fn cut_and_account(&self, row: &Evidence, noise: f64) -> (Comb, Account) {
         let explained = goods::explained([&self.goods], row);
         let [comb] = cut(row, self.pitch, &explained, [noise]);
         let mut account = Account::default();
         account.add(row, &comb, |twice| explained[twice][0], noise);
-        (comb, account.score(noise))
+        (comb, account)
     }
 
     /// The same goods at another pitch.
@@ -175,10 +198,15 @@ pub(super) struct Rows<'a> {
 }
 
 impl Rows<'_> {
-    /// A reading for each row; none where rows are too short to tell or show nothing.
-    pub(super) fn read(&self) -> Vec<Option<Reading>> {
+    /// The reading that explains all rows best; none where they are too short to tell.
+    pub(super) fn in_common(&self) -> Option<Reading> {
         let all: Vec<usize> = (0..self.rows.len()).collect();
-        let Some(first) = self.best(&self.sample(&all)) else { return vec![None; self.rows.len()] };
+        self.best(&self.sample(&all))
+    }
+
+    /// A reading for each row, `first` being that of all in common; none where rows show nothing.
+    pub(super) fn read(&self, first: Reading) -> Vec<Option<Reading>> {
+        let all: Vec<usize> = (0..self.rows.len()).collect();
         let noise = first.noise;
         let own: Vec<Option<Reading>> = all.par_iter().map(|&row| self.best(&[row])).collect();
         let mut readings = vec![first];
@@ -230,8 +258,7 @@ impl Rows<'_> {
     /// Rows read at a pitch, with goods as guessed and by quarters of a place further.
     fn fits(&self, of: &[usize], at: usize) -> Vec<(usize, Reading, Account)> {
         let pitch = self.pitches[at];
-        let rows: Vec<&Evidence> =
-            of.iter().map(|&row| self.rows[row]).filter(|row| pitch::tells(row, pitch)).collect();
+        let rows: Vec<&Evidence> = of.iter().map(|&row| self.rows[row]).filter(|row| tells(row, pitch)).collect();
         let Some(cell) = rows.first().map(|row| row.cell) else { return Vec::new() };
         let guess = |row: &&Evidence| -> Vec<usize> {
             let [comb] = comb::cut(row, pitch, comb::even(row));
@@ -289,8 +316,9 @@ mod tests {
         let rect = frame.whole().with(Axis::U, margin..margin + grid.width()).with(Axis::V, margin..margin + 20);
         let evidence = Evidence::of(&frame.patch(&rect, Axis::U), frame.cell, [0.7, 1.8]);
         let rows = [&evidence];
-        let readings = Rows { rows: &rows, pitches: pitch::candidates([0.8, 1.6]) }.read();
-        let cut = readings[0].as_ref().map(|reading| reading.cut(&evidence));
+        let rows = Rows { rows: &rows, pitches: pitches([0.8, 1.6]) };
+        let reading = rows.in_common().and_then(|first| rows.read(first).remove(0));
+        let cut = reading.map(|reading| reading.cut(&evidence));
         let places = cut.iter().flat_map(Comb::places).map(|place| format!("{}..{}", place.start, place.end));
         wanted.assert_eq(&places.collect::<Vec<_>>().join(" "));
     }

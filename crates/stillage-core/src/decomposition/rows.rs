@@ -15,8 +15,7 @@ use super::frame::{Axis, Frame, Rect};
 use super::gate;
 use super::layers::{self, Stack};
 use super::pieces;
-use super::pitch;
-use super::reading::Rows;
+use super::reading::{self, Reading, Rows};
 use super::{Parcel, PlotKind};
 use crate::watch::{Stopped, Watch};
 
@@ -89,16 +88,30 @@ pub(super) fn lay_out(
         let (mut rows, mut rests) = (Vec::new(), Vec::new());
         for (body, layers) in bodies.iter().zip(layers::cut(frame, &bodies, depth, hints.depth, watch)?) {
             watch.check()?;
-            let rest_of = |rest| Parcel::new(body.rect.with(axis.other(), rest), PlotKind::Rest, Some(axis));
-            rests.extend(layers.rests.into_iter().map(rest_of));
-            rows.extend(layers.stacks.into_iter().map(|stack| Row::of(body, stack)));
+            let rest_of = |rest| Parcel::new(rest, PlotKind::Rest, Some(axis));
+            rests.extend(layers.rests.into_iter().map(|rest| rest_of(body.rect.with(axis.other(), rest))));
+            for stack in layers.stacks {
+                let row = Row::of(body, stack);
+                let [before, within, after] = in_region(frame, &row.rect, axis).map(|part| row.rect.with(axis, part));
+                rests.extend([before, after].into_iter().filter(|rest| !rest.range(axis).is_empty()).map(rest_of));
+                if !within.range(axis).is_empty() {
+                    rows.push(Row { rect: within, ..row });
+                }
+            }
         }
         let evidence: Vec<Evidence> = rows.iter().map(|row| row.evidence(frame, hints)).collect();
         watch.check()?;
-        if is_periodic(frame, &rows, &evidence, hints) {
+        if let Some(readings) = read(frame, &rows, &evidence, hints, watch)? {
             parcels.append(&mut rests);
-            comb_rows(frame, &rows, &evidence, hints, &mut parcels);
-            watch.check()?;
+            for ((row, evidence), reading) in rows.iter().zip(&evidence).zip(readings) {
+                match reading {
+                    Some(reading) => {
+                        let pieces = pieces::of_comb(&reading.cut(evidence), reading.pitch, frame);
+                        parcels.extend(parcels_of(row, pieces));
+                    }
+                    None => parcels.push(Parcel::new(row.rect.clone(), PlotKind::Rest, Some(row.axis))),
+                }
+            }
         } else {
             let whole = |body: &&Body| Parcel::new(body.rect.clone(), PlotKind::Rest, Some(axis));
             parcels.extend(bodies.iter().map(whole));
@@ -107,32 +120,44 @@ pub(super) fn lay_out(
     Ok(parcels)
 }
 
-/// Whether these are rows of places, or walls and furniture, which are not cut.
-fn is_periodic(frame: &Frame, rows: &[Row], evidence: &[Evidence], hints: &Hints) -> bool {
+/// The parts of a layer before, within and behind its region: a region is bounded by tiles, its blocks are rectangles, and
+/// what the next region holds stands in another direction.
+fn in_region(frame: &Frame, layer: &Rect, axis: Axis) -> [Range<usize>; 3] {
+    let patch = frame.patch(layer, axis);
+    let along = layer.range(axis);
+    let is_within = |&column: &usize| {
+        2 * (0..patch.height).filter(|&row| patch.row(row)[column].is_inside()).count() >= patch.height
+    };
+    let first = (0..patch.width).find(is_within).unwrap_or(patch.width);
+    let end = (first..patch.width).rfind(is_within).map_or(first, |last| last + 1);
+    [along.start..along.start + first, along.start + first..along.start + end, along.start + end..along.end]
+}
+
+/// A reading for each of the rows of one direction, if they are rows of places; walls and furniture are not read.
+fn read(
+    frame: &Frame,
+    rows: &[Row],
+    evidence: &[Evidence],
+    hints: &Hints,
+    watch: &Watch<'_>,
+) -> Result<Option<Vec<Option<Reading>>>, Stopped> {
+    if frame.cell > COARSEST_CELL_M {
+        return Ok(None);
+    }
+    let evidence: Vec<&Evidence> = evidence.iter().collect();
+    let all = Rows { rows: &evidence, pitches: reading::pitches(hints.pitch) };
+    let Some(first) = all.in_common() else { return Ok(None) };
+    watch.check()?;
     let patch = |row: usize| frame.patch(&rows[row].rect, rows[row].axis);
     // A stack speaks as a whole: each of its layers by itself may be too empty to tell.
     let stacks = (0..rows.len()).filter(|&row| rows[row].layers.len() > 1);
     let wholes: BTreeMap<usize, Evidence> =
         stacks.map(|row| (row, Evidence::of(&patch(row), frame.cell, hints.widths()))).collect();
-    let evidence: Vec<&Evidence> =
-        evidence.iter().enumerate().map(|(row, evidence)| wholes.get(&row).unwrap_or(evidence)).collect();
-    frame.cell <= COARSEST_CELL_M
-        && gate::is_periodic(&evidence, |row| rows[row].layers.len(), patch, hints.widths(), hints.pitch)
-}
-
-/// Cuts the rows of one direction.
-fn comb_rows(frame: &Frame, rows: &[Row], evidence: &[Evidence], hints: &Hints, parcels: &mut Vec<Parcel>) {
-    let all: Vec<&Evidence> = evidence.iter().collect();
-    let readings = Rows { rows: &all, pitches: pitch::candidates(hints.pitch) }.read();
-    for ((row, evidence), reading) in rows.iter().zip(evidence).zip(readings) {
-        match reading {
-            Some(reading) => {
-                let pieces = pieces::of_comb(&reading.cut(evidence), reading.pitch, frame);
-                parcels.extend(parcels_of(row, pieces));
-            }
-            None => parcels.push(Parcel::new(row.rect.clone(), PlotKind::Rest, Some(row.axis))),
-        }
-    }
+    let seen: Vec<&Evidence> = (0..rows.len()).map(|row| wholes.get(&row).unwrap_or(evidence[row])).collect();
+    let layers = |row: usize| rows[row].layers.len();
+    let is_periodic = gate::is_periodic(&seen, layers, patch, hints.widths(), &first, &all.pitches);
+    watch.check()?;
+    Ok(is_periodic.then(|| all.read(first)))
 }
 
 /// The pieces of a row as parcels.
