@@ -60,9 +60,9 @@ pub(super) fn by_direction(
     let is_wall = walls::find(grid, watch)?;
     let no_wall = |column: usize, row: usize| (!is_wall[row * grid.width() + column]).then_some(0);
     let goods = OccupiedSample::of_parts(grid, 1, no_wall, SAMPLE_CELLS, watch)?.swap_remove(0);
-    let of_goods = energies(grid, tiles, &goods, &pairs, watch)?;
+    let of_goods = energies(grid, tiles, &goods, &pairs, |_| true, watch)?;
     let all = OccupiedSample::of_parts(grid, 1, |_, _| Some(0), SAMPLE_CELLS, watch)?.swap_remove(0);
-    let of_all = energies(grid, tiles, &all, &pairs, watch)?;
+    let of_all = energies(grid, tiles, &all, &pairs, |tile| of_goods[tile].is_none(), watch)?;
     let mut labels = vec![NONE; tiles.known.len()];
     for tile in tiles.known_tiles() {
         let best = of_goods[tile].as_ref().or(of_all[tile].as_ref()).map(|energies| {
@@ -101,12 +101,13 @@ fn pairs(global: &Orientations) -> Vec<f64> {
     pairs
 }
 
-/// Energy of each pair around each tile; `None` where there is too little, or nothing near.
+/// Energy of each pair around each tile that is asked for; `None` where there is too little, or nothing near.
 fn energies(
     grid: &OccupancyGrid,
     tiles: &Tiles,
     sample: &OccupiedSample,
     pairs: &[f64],
+    is_asked: impl Fn(usize) -> bool + Sync,
     watch: &Watch<'_>,
 ) -> Result<Vec<Option<Vec<f64>>>, Stopped> {
     let side = tiles.tile_cells as f64;
@@ -120,6 +121,9 @@ fn energies(
         .map(|tile| {
             if tile % 64 == 0 {
                 watch.check()?;
+            }
+            if !is_asked(tile) {
+                return Ok(None);
             }
             let (column, row) = (tile % tiles.columns, tile / tiles.columns);
             let center = [(column as f64 + 0.5) * side, (row as f64 + 0.5) * side];
