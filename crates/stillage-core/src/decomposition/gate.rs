@@ -124,7 +124,7 @@ mod tests {
 
     fn are_certain(excesses: &[f64]) -> bool {
         let row = |excess: &f64| Excess { total: excess * 10.0, length: 10.0 };
-        is_certain(&excesses.iter().map(row).collect::<Vec<_>>())
+        is_certain(&excesses.iter().map(row).collect::<Vec<_>>(), excesses.len())
     }
 
     #[test]
