@@ -1,14 +1,15 @@
 //! The decomposition of a map into places: aisles first, then rows, then the cells of each row.
 //!
 //! ```text
-//! grid ── frame (one per region, turned into its direction) ── drivable ── blocks ── rows ── comb ── lines
+//! grid ── frame (one per region, turned into its direction) ── drivable ── blocks ── layers ── rows ── comb ── ends ── lines
 //! ```
 //!
 //! The paper (II-B) cuts a region by infinite lines through the peaks of its radiograms. That labels areas well and cuts
 //! few pallet cells right, since peaks sit on goods and racks drift. Here straight drivable bands are found first
-//! ([`blocks`]); what lies between two of them is a body of one or more rows ([`rows`]); the cells of a row come from the
-//! evidence for their borders ([`evidence`], [`comb`]) and from the goods in them, which are alike ([`goods`],
-//! [`reading`]), and every line ends where its evidence does ([`lines`]).
+//! ([`blocks`]); what lies between two of them is a body of one or more layers ([`depth`], [`layers`], [`across`]). If its
+//! rows repeat themselves ([`gate`]), their cells come from the evidence for borders ([`evidence`], [`comb`]) and from the
+//! goods in them, which are alike ([`goods`], [`reading`]). Rows and aisles end where their signs do ([`ends`]), and so
+//! does every line ([`lines`]).
 //!
 //! Everything is in metres; the result does not depend on the number of threads. Cost: O(cells + row cells x pitches).
 
