@@ -12,7 +12,7 @@ use super::energy::OccupiedSample;
 use crate::watch::{Stopped, Watch};
 
 /// Turns of fitting; the slope that is left falls to a third in each.
-const TURNS: usize = 6;
+const TURNS: usize = 4;
 /// Share of the energy that a fitted direction keeps at least: scanned maps keep 0.99, drawings with goods that stand
 /// askew 0.88 to 0.96.
 const KEPT_ENERGY: f64 = 0.98;

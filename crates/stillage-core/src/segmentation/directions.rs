@@ -24,7 +24,7 @@ use crate::walls;
 use crate::watch::{Stopped, Watch};
 
 /// Occupied cells of the whole map that are sampled.
-const SAMPLE_CELLS: usize = 400_000;
+const SAMPLE_CELLS: usize = 200_000;
 /// Pairs closer than this are one, degrees (the least separation of orientations is 6).
 const SAME_PAIR_DEG: f64 = 3.0;
 /// Radius of the ground around a tile that is looked at, and the weight's standard deviation, metres.
