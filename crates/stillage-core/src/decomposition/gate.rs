@@ -25,7 +25,7 @@ use super::reading::Reading;
 
 /// Least excess of many rows, and what the excess of one row must be above it, logarithms of a likelihood per metre.
 const LEAST_EXCESS: f64 = 0.25;
-const LEAST_EXCESS_OF_ONE: f64 = 3.2;
+const LEAST_EXCESS_OF_ONE: f64 = 2.8;
 /// Standard errors by which the mean must be above that: fifteen of sixteen are no further off.
 const CERTAIN: f64 = 1.5;
 /// How much more borders count than goods, for furniture has a shape but no borders.
