@@ -15,15 +15,13 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
+use super::evidence::{LEAST_KNOWN, UNKNOWN_CONTENT};
 use super::frame::{Axis, Cell, Frame, Patch, Rect};
+use super::reading::{self, GOODS_PRICE, LEAST_NOISE, PLACE_PRICE};
 use crate::watch::{Stopped, Watch};
 
 /// Width of a strip, metres: goods show in every one, and few lanes lie in it.
 const STRIP_M: f64 = 0.5;
-/// What an unknown cell counts as content beside an occupied one (accuracy study: goods hide what is in them).
-const UNKNOWN_CONTENT: f64 = 0.6;
-/// Known share of a line of a strip below which nobody looked at it.
-const LEAST_KNOWN: f64 = 0.04;
 /// Step of the depths that are tried, metres, and how far depths of one kind are apart.
 const DEPTH_STEP_M: f64 = 0.025;
 const ALIKE_M: f64 = 0.04;
@@ -34,16 +32,8 @@ const FLUE_M: f64 = 0.4;
 const FLUE_STEP_M: f64 = 0.05;
 /// Share of the last layer before a wall that may lie in what stands behind it.
 const BEHIND_SHARE: f64 = 0.1;
-/// Length along which the noise of content is the same, metres: goods off their mark.
-const CORRELATION_M: f64 = 0.2;
-/// Share of the energy that is noise even where goods explain all of it.
-const LEAST_NOISE: f64 = 0.15;
 /// Share of the energy that goods explain at least: walls that run across a body are explained by less.
 const LEAST_EXPLAINED: f64 = 0.5;
-/// Price of a place of a strip: how full it is, half a logarithm of its cells.
-const PLACE_PRICE: f64 = 1.5;
-/// Price of a depth of a body's own: its shape of goods, a dozen values of half a logarithm each.
-const DEPTH_PRICE: f64 = 25.0;
 
 /// A deep body as strips across its rows.
 pub(super) struct Strips {
@@ -191,7 +181,7 @@ impl Strips {
         }
         let cells = (self.lines * self.content.len()).max(1) as f64;
         let noise = (energy - most).max(LEAST_NOISE * energy).max(f64::MIN_POSITIVE) / cells;
-        let weight = self.cell / (2.0 * CORRELATION_M * noise);
+        let weight = reading::weight(noise, self.cell);
         let price = PLACE_PRICE * self.content.len() as f64;
         let score = |(lattice, layers): (Lattice, Vec<f64>)| {
             let score = layers.iter().map(|explained| explained * weight - price).sum();
@@ -236,7 +226,7 @@ impl Choice {
     fn at(&self, depth: f64) -> Option<(f64, Lattice)> {
         let price = |lattice: &Lattice| {
             let is_alike = (lattice.depth * self.cell - depth).abs() <= ALIKE_M;
-            if is_alike { 0.0 } else { DEPTH_PRICE }
+            if is_alike { 0.0 } else { GOODS_PRICE }
         };
         let priced = self.scored.iter().map(|(score, lattice)| (score - price(lattice), *lattice));
         priced.filter(|(score, _)| *score > 0.0).reduce(|best, other| if other.0 > best.0 { other } else { best })

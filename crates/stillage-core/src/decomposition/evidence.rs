@@ -13,7 +13,7 @@ const FACE_M: f64 = 0.15;
 /// Share of the depth at either side that is not the middle.
 const RIM_SHARE: f64 = 0.25;
 /// What an unknown cell counts as content beside an occupied one (accuracy study: goods hide what is in them).
-const UNKNOWN_CONTENT: f64 = 0.6;
+pub(super) const UNKNOWN_CONTENT: f64 = 0.6;
 /// Smoothing of content and posts, metres (accuracy study).
 const CONTENT_SIGMA_M: f64 = 0.04;
 const POST_SIGMA_M: f64 = 0.03;
@@ -44,7 +44,7 @@ const USUAL_PLACE_M: f64 = 1.2;
 /// Content below which a place holds nothing, cells.
 const LEAST_CONTENT: f64 = 0.5;
 /// Known share of a column of cells below which nobody looked at it: sensors see the fronts at least.
-const LEAST_KNOWN: f64 = 0.04;
+pub(super) const LEAST_KNOWN: f64 = 0.04;
 /// Free share of a column of cells that is clear.
 const CLEAR_SHARE: f64 = 0.9;
 

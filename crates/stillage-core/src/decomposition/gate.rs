@@ -22,6 +22,7 @@ use rayon::prelude::*;
 use super::evidence::Evidence;
 use super::frame::Patch;
 use super::reading::Reading;
+use crate::orientation::energy::mix;
 
 /// Least excess of many rows, and what the excess of one row must be above it, logarithms of a likelihood per metre.
 const LEAST_EXCESS: f64 = 0.25;
@@ -108,14 +109,6 @@ fn shuffled(row: &Patch, cell: f64, seed: u64) -> Patch {
     let order: Vec<usize> = pieces.into_iter().flatten().collect();
     let cells = (0..row.height).flat_map(|y| order.iter().map(move |&x| row.row(y)[x])).collect();
     Patch { width: row.width, height: row.height, cells }
-}
-
-/// The finalizer of `SplitMix64` (G. L. Steele, D. Lea and C. H. Flood, OOPSLA 2014, doi 10.1145/2660193.2660195).
-fn mix(value: u64) -> u64 {
-    let value = value.wrapping_add(0x9E37_79B9_7F4A_7C15);
-    let value = (value ^ (value >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-    let value = (value ^ (value >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-    value ^ (value >> 31)
 }
 
 #[cfg(test)]

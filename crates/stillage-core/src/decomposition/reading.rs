@@ -22,15 +22,15 @@ use super::goods::{self, Goods};
 /// Length along which the noise of content is the same, metres: goods off their mark, and the smoothing.
 const CORRELATION_M: f64 = 0.2;
 /// Share of the energy that is noise even where goods explain all of it.
-const LEAST_NOISE: f64 = 0.15;
+pub(super) const LEAST_NOISE: f64 = 0.15;
 /// Noise before anything is explained, as a share of the energy.
 const FIRST_NOISE: f64 = 0.4;
 /// Turns of cutting and learning; there is no change worth it afterwards.
 const TURNS: usize = 2;
 /// Price of a place: whether it is full and how wide it is, half a logarithm of its cells.
-const PLACE_PRICE: f64 = 1.5;
+pub(super) const PLACE_PRICE: f64 = 1.5;
 /// Price of a shape of goods of a row's own: its dozen values, each half a logarithm of the cells of a row.
-const GOODS_PRICE: f64 = 25.0;
+pub(super) const GOODS_PRICE: f64 = 25.0;
 /// Price of another reading that is there already, and of a pitch of a row's own.
 const READING_PRICE: f64 = 5.0;
 const PITCH_PRICE: f64 = 10.0;
@@ -107,7 +107,7 @@ impl Account {
 }
 
 /// What energy counts in a logarithm of a likelihood.
-fn weight(noise: f64, cell: f64) -> f64 {
+pub(super) fn weight(noise: f64, cell: f64) -> f64 {
     cell / (2.0 * CORRELATION_M * noise)
 }
 
