@@ -325,23 +325,11 @@ impl Profile {
     /// Lines along `axis`.
     pub(super) fn of(frame: &Frame, rect: &Rect, axis: Axis) -> Self {
         let lines = rect.range(axis.other()).len();
-        let ground = counts(frame, rect, axis, Cell::is_inside);
-        let drivable = counts(frame, rect, axis, |cell| cell.is_inside() && cell.is_drivable());
-        let occupied = counts(frame, rect, axis, |cell| cell.is_inside() && cell.is_occupied());
+        let ground = frame.counts(rect, axis, Cell::is_inside);
+        let drivable = frame.counts(rect, axis, |cell| cell.is_inside() && cell.is_drivable());
+        let occupied = frame.counts(rect, axis, |cell| cell.is_inside() && cell.is_occupied());
         let at = |line: Option<usize>| line.and_then(|line| occupied.get(line)).copied().map_or(0.0, f64::from);
         let smooth = |line: usize| (at(line.checked_sub(1)) + 2.0 * at(Some(line)) + at(Some(line + 1))) / 4.0;
         Self { ground, drivable, occupied: (0..lines).map(smooth).collect() }
-    }
-}
-
-/// How many cells of each line along `axis` are something.
-fn counts(frame: &Frame, rect: &Rect, axis: Axis, is: impl Fn(Cell) -> bool) -> Vec<u32> {
-    let rows = rect.v.clone().map(|row| &frame.row(row)[rect.u.clone()]);
-    match axis {
-        Axis::U => rows.map(|cells| cells.iter().map(|&cell| u32::from(is(cell))).sum()).collect(),
-        Axis::V => rows.fold(vec![0; rect.u.len()], |mut counts, cells| {
-            counts.iter_mut().zip(cells).for_each(|(count, &cell)| *count += u32::from(is(cell)));
-            counts
-        }),
     }
 }

@@ -75,13 +75,8 @@ impl Body {
 
 /// Share of the two sides along `axis` with room for a vehicle before them.
 fn front_shares(frame: &Frame, rect: &Rect, axis: Axis) -> [f64; 2] {
-    let across = rect.range(axis.other());
-    let [near, far] = FRONT_STRIP_M.map(|metres| frame.cells_of(metres));
-    let end = if axis == Axis::U { frame.rows } else { frame.columns };
-    let low = across.start.saturating_sub(far)..across.start.saturating_sub(near);
-    let high = (across.end + near).min(end)..(across.end + far).min(end);
-    [low, high].map(|strip| {
-        let patch = frame.patch(&rect.with(axis.other(), strip), axis);
+    frame.beside(rect, axis, FRONT_STRIP_M.map(|metres| frame.cells_of(metres))).map(|strip| {
+        let patch = frame.patch(&strip, axis);
         let has_room = |column: &usize| (0..patch.height).any(|row| patch.row(row)[*column].is_drivable());
         (0..patch.width).filter(has_room).count() as f64 / patch.width.max(1) as f64
     })

@@ -202,6 +202,27 @@ impl Frame {
         self.count(rect, is) as f64 / (rect.u.len() * rect.v.len()).max(1) as f64
     }
 
+    /// How many cells of each line of a rectangle along `axis` are so.
+    pub fn counts(&self, rect: &Rect, axis: Axis, is: impl Fn(Cell) -> bool) -> Vec<u32> {
+        let rows = rect.v.clone().map(|row| &self.row(row)[rect.u.clone()]);
+        match axis {
+            Axis::U => rows.map(|cells| cells.iter().map(|&cell| u32::from(is(cell))).sum()).collect(),
+            Axis::V => rows.fold(vec![0; rect.u.len()], |mut counts, cells| {
+                counts.iter_mut().zip(cells).for_each(|(count, &cell)| *count += u32::from(is(cell)));
+                counts
+            }),
+        }
+    }
+
+    /// The strips beside a rectangle at its low and high side along `axis`, from near to far, cells; cut off at the
+    /// border of the frame.
+    pub fn beside(&self, rect: &Rect, axis: Axis, [near, far]: [usize; 2]) -> [Rect; 2] {
+        let (across, end) = (rect.range(axis.other()), self.whole().range(axis.other()).end);
+        let low = across.start.saturating_sub(far)..across.start.saturating_sub(near);
+        let high = (across.end + near).min(end)..(across.end + far).min(end);
+        [low, high].map(|strip| rect.with(axis.other(), strip))
+    }
+
     /// A part of the frame with its rows along `axis`.
     pub fn patch(&self, rect: &Rect, axis: Axis) -> Patch {
         let (along, across) = (rect.range(axis), rect.range(axis.other()));

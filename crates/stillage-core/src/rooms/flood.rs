@@ -72,8 +72,8 @@ pub(super) fn passages(ground: &Ground, watch: &Watch<'_>) -> Result<Vec<Passage
     Ok(flood.passages)
 }
 
-/// The cells of the ground by falling distance to the nearest obstacle; of equals the first one first. Distances are few
-/// whole numbers, so they are counted, not compared.
+/// The cells of the ground by falling distance to the nearest obstacle; of equals the first one first. Squared
+/// distances are whole numbers up to a quarter of the number of cells, so they are counted, not compared.
 fn widest_first(ground: &Ground, clearance: &Nearest) -> Vec<u32> {
     let squared = |cell: &u32| clearance.squared[*cell as usize] as usize;
     let cells = || (0..ground.is_free.len() as u32).filter(|&cell| ground.is_free[cell as usize]);

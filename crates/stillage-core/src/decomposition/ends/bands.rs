@@ -111,12 +111,8 @@ impl Band {
 
 /// Whether the site ends at the low and at the high side of a band.
 fn walls(frame: &Frame, rect: &Rect, axis: Axis) -> [bool; 2] {
-    let across = rect.range(axis.other());
-    let [near, far] = BEYOND_M.map(|metres| frame.cells_of(metres));
-    let end = frame.whole().range(axis.other()).end;
-    let low = across.start.saturating_sub(far)..across.start.saturating_sub(near);
-    let high = (across.end + near).min(end)..(across.end + far).min(end);
-    [low, high].map(|beyond| frame.share(&rect.with(axis.other(), beyond), Cell::is_inside) < GROUND_SHARE)
+    let beyond = frame.beside(rect, axis, BEYOND_M.map(|metres| frame.cells_of(metres)));
+    beyond.map(|strip| frame.share(&strip, Cell::is_inside) < GROUND_SHARE)
 }
 
 /// Closes the stretches without places that are shorter than `least`.

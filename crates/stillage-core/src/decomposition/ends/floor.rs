@@ -54,14 +54,9 @@ fn cut_lane(frame: &Frame, lane: Parcel, depth: usize, parts: &mut Vec<Parcel>) 
 
 /// Free share of every line across `axis`.
 fn free_shares(frame: &Frame, rect: &Rect, axis: Axis) -> Vec<f64> {
-    let mut free = vec![0_usize; rect.range(axis).len()];
-    for v in rect.v.clone() {
-        for (column, cell) in frame.row(v)[rect.u.clone()].iter().enumerate() {
-            free[if axis == Axis::U { column } else { v - rect.v.start }] += usize::from(cell.is_free());
-        }
-    }
     let length = rect.range(axis.other()).len().max(1) as f64;
-    free.into_iter().map(|free| free as f64 / length).collect()
+    let free = frame.counts(rect, axis.other(), Cell::is_free);
+    free.into_iter().map(|free| f64::from(free) / length).collect()
 }
 
 /// How clearly lines are free or not, 0 to 1.
