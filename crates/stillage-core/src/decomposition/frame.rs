@@ -135,6 +135,26 @@ impl Frame {
         Ok(frame)
     }
 
+    /// The frame of a grid that is all of its site, drawn in characters, and the rectangle that it takes there.
+    #[cfg(test)]
+    pub(super) fn of_picture(picture: &str, cell: f64) -> (Self, Rect) {
+        use crate::{geometry::OrientedBox, segmentation::Region};
+        let grid = OccupancyGrid::from_ascii(picture, cell);
+        let bounds = OrientedBox { center: Point::origin(), half_extents: [0.0; 2], angle: 0.0 };
+        let region = Region { orientations: vec![0.0], bounds, share: 1.0 };
+        let tile_cells = grid.width().max(grid.height());
+        let regions = RegionMap { tile_cells, columns: 1, rows: 1, tiles: vec![0], regions: vec![region] };
+        let watch = Watch::unwatched();
+        let site = Site::of(&grid, &regions, &watch).expect("nobody stops it");
+        let frame = Self::new(&grid, &regions, 0, 0.0, &site, &watch).expect("nobody stops it");
+        let side = |axis: usize, cells: usize| {
+            let margin = frame.cells_of(-frame.start[axis]);
+            margin..margin + cells
+        };
+        let rect = Rect { u: side(0, grid.width()), v: side(1, grid.height()) };
+        (frame, rect)
+    }
+
     /// A frame around the tiles of a region.
     fn empty(grid: &OccupancyGrid, regions: &RegionMap, region: u8, angle: f64) -> Self {
         let side = regions.tile_cells as f64 * grid.resolution();

@@ -21,6 +21,10 @@ const DEEP_ROOM: f64 = 1.5;
 const DEEPER: f64 = 1.15;
 /// Occupied share of a line of cells that makes it a wall.
 const WALL_SHARE: f64 = 0.5;
+/// A wall behind goods is seen between them only: occupied share of what is seen of its line, and how much that is at
+/// least. Of the goods themselves one sees the gaps as well.
+const SEEN_WALL_SHARE: f64 = 0.8;
+const LEAST_SEEN: f64 = 0.05;
 /// How far in front of a wall hits are scattered, metres, and the share of a line that they take at least.
 const SCATTER_M: f64 = 0.2;
 const SCATTER_SHARE: f64 = 0.08;
@@ -125,10 +129,15 @@ fn room(frame: &Frame, body: &Body, depth: f64) -> Range<usize> {
     let patch = frame.patch(&body.rect.with(body.axis.other(), across.clone()), body.axis);
     let is_wall = |y: &usize| {
         let from_front = if low_front { *y } else { patch.height - 1 - y };
-        let is_full = patch.occupied_share(*y..y + 1) >= WALL_SHARE;
+        let [occupied, known] = [patch.occupied_share(*y..y + 1), patch.known_share(*y..y + 1)];
+        let shines_through = known >= LEAST_SEEN && occupied >= SEEN_WALL_SHARE * known;
         // Nearer to the front than a place is deep, a line may be the front of goods: those let the robot see between them.
         let is_beyond_goods = from_front as f64 * frame.cell >= THIN_SHARE * depth;
-        is_full && (is_beyond_goods || !sees_between_goods(frame, &patch, *y, low_front))
+        if is_beyond_goods {
+            occupied >= WALL_SHARE || shines_through
+        } else {
+            occupied >= WALL_SHARE && !sees_between_goods(frame, &patch, *y, low_front)
+        }
     };
     // Rays scatter at a wall.
     let reach = frame.cells_of(SCATTER_M);
@@ -150,4 +159,55 @@ fn sees_between_goods(frame: &Frame, patch: &Patch, line: usize, low_front: bool
     let behind = if low_front { line + near..line + far } else { line.saturating_sub(far)..line.saturating_sub(near) };
     let seen = patch.known_share(behind.start.min(patch.height)..behind.end.min(patch.height));
     (SEEN_BETWEEN_GOODS[0]..SEEN_BETWEEN_GOODS[1]).contains(&seen)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::frame::Axis;
+    use super::*;
+
+    /// How many lines of a body that has an aisle above it may hold goods, in cells of 0.05 m.
+    fn check(picture: &str, lines: usize) {
+        let (frame, rect) = Frame::of_picture(picture, 0.05);
+        let body = Body { rect, axis: Axis::U, fronts: [false, true] };
+        assert_eq!(room(&frame, &body, 0.5).len(), lines);
+    }
+
+    #[test]
+    fn goods_end_at_a_wall_that_shows_between_them() {
+        check(
+            "
+            ####.####.####.####.####
+            #??#.#??#.#??#.#??#.#??#
+            #??#.#??#.#??#.#??#.#??#
+            #??#.#??#.#??#.#??#.#??#
+            #??#.#??#.#??#.#??#.#??#
+            #??#.#??#.#??#.#??#.#??#
+            #??#.#??#.#??#.#??#.#??#
+            ????.????.????.????.????
+            ????#????#????#????#????
+            ????????????????????????
+            ????????????????????????
+            ",
+            8,
+        );
+    }
+
+    #[test]
+    fn goods_that_show_the_gaps_behind_them_go_on() {
+        check(
+            "
+            ####.####.####.####.####
+            #??#.#??#.#??#.#??#.#??#
+            #??#.#??#.#??#.#??#.#??#
+            #??#.#??#.#??#.#??#.#??#
+            #??#.#??#.#??#.#??#.#??#
+            #??#.#??#.#??#.#??#.#??#
+            ????.????.????.????.????
+            ???#.#??#.#??#.#??#.#???
+            ????.????.????.????.????
+            ",
+            9,
+        );
+    }
 }

@@ -25,6 +25,7 @@ mod gate;
 mod goods;
 mod layers;
 mod lines;
+mod opening;
 mod pieces;
 mod reading;
 mod rows;

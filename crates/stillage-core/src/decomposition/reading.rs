@@ -295,25 +295,11 @@ impl Rows<'_> {
 #[cfg(test)]
 mod tests {
     use super::super::frame::{Axis, Frame};
-    use super::super::site::Site;
     use super::*;
-    use crate::geometry::{OrientedBox, Point};
-    use crate::grid::OccupancyGrid;
-    use crate::segmentation::{Region, RegionMap};
-    use crate::watch::Watch;
 
     /// Borders of the places that a row drawn in cells of 5 cm is cut into.
     fn check(row: &str, wanted: &expect_test::Expect) {
-        let grid = OccupancyGrid::from_ascii(&format!("{row}\n").repeat(20), 0.05);
-        let bounds = OrientedBox { center: Point::origin(), half_extents: [0.0; 2], angle: 0.0 };
-        let region = Region { orientations: vec![0.0], bounds, share: 1.0 };
-        let tile_cells = grid.width().max(grid.height());
-        let regions = RegionMap { tile_cells, columns: 1, rows: 1, tiles: vec![0], regions: vec![region] };
-        let watch = Watch::unwatched();
-        let site = Site::of(&grid, &regions, &watch).expect("nobody stops it");
-        let frame = Frame::new(&grid, &regions, 0, 0.0, &site, &watch).expect("nobody stops it");
-        let margin = frame.cells_of(-frame.start[0]);
-        let rect = frame.whole().with(Axis::U, margin..margin + grid.width()).with(Axis::V, margin..margin + 20);
+        let (frame, rect) = Frame::of_picture(&format!("{row}\n").repeat(20), 0.05);
         let evidence = Evidence::of(&frame.patch(&rect, Axis::U), frame.cell, [0.7, 1.8]);
         let rows = [&evidence];
         let rows = Rows { rows: &rows, pitches: pitches([0.8, 1.6]) };

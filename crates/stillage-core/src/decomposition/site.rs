@@ -1,15 +1,18 @@
 //! What belongs to the site: everything but the unexplored ground that reaches the border of the map.
 //!
 //! Unknown cells behind goods and between racks lie in the site, those around the building do not. The ground outside is
-//! filled in blocks of a quarter of a metre that hold no known cell, so that it does not leak in through gaps between
-//! goods, nor is it stopped by single rays that leak out. Cost: O(cells).
+//! filled in blocks of a quarter of a metre that hold no known cell, by a square wider than a place: so it does not leak
+//! in through gaps between goods, nor into goods before a wall that shows only between them. Cost: O(cells).
 
+use super::opening;
 use crate::grid::{Occupancy, OccupancyGrid};
 use crate::segmentation::RegionMap;
 use crate::watch::{Stopped, Watch};
 
 /// Side of a block, metres: wider than the gaps between goods.
 const BLOCK_M: f64 = 0.25;
+/// Side of the square that fills the ground outside, blocks: wider than a place.
+const SQUARE: usize = 5;
 
 /// The ground of a grid that lies in its site, by region.
 pub(super) struct Site {
@@ -23,7 +26,7 @@ impl Site {
     pub(super) fn of(grid: &OccupancyGrid, regions: &RegionMap, watch: &Watch<'_>) -> Result<Self, Stopped> {
         let side = ((BLOCK_M / grid.resolution()).round() as usize).max(1);
         let columns = grid.width().div_ceil(side);
-        let is_outside = outside(&known_blocks(grid, side, watch)?, columns);
+        let is_outside = outside(&known_blocks(grid, side, watch)?, columns, watch)?;
         let mut site =
             Self { width: grid.width(), height: grid.height(), regions: vec![RegionMap::NONE; grid.cells().len()] };
         for (row, line) in site.regions.chunks_exact_mut(site.width.max(1)).enumerate() {
@@ -60,30 +63,36 @@ fn known_blocks(grid: &OccupancyGrid, side: usize, watch: &Watch<'_>) -> Result<
     Ok(is_known)
 }
 
-/// The blocks that nobody saw and that reach the border over others like them.
-fn outside(is_known: &[bool], columns: usize) -> Vec<bool> {
+/// The blocks that nobody saw and that the square covers on its way in from beyond the border.
+fn outside(is_known: &[bool], columns: usize, watch: &Watch<'_>) -> Result<Vec<bool>, Stopped> {
     let rows = is_known.len().checked_div(columns).unwrap_or(0);
-    let mut is_outside = vec![false; is_known.len()];
-    let on_border = |block: &usize| {
-        let (column, row) = (block % columns, block / columns);
-        column == 0 || row == 0 || column + 1 == columns || row + 1 == rows
+    // Nobody saw what is beyond the border.
+    let [across, down] = [columns, rows].map(|side| side + 2 * SQUARE);
+    let block = |padded: usize| {
+        let (column, row) = ((padded % across).wrapping_sub(SQUARE), (padded / across).wrapping_sub(SQUARE));
+        (column < columns && row < rows).then(|| row * columns + column)
     };
-    let mut open: Vec<usize> = (0..is_known.len()).filter(on_border).filter(|&block| !is_known[block]).collect();
-    for &block in &open {
-        is_outside[block] = true;
-    }
-    while let Some(block) = open.pop() {
-        let (column, row) = (block % columns, block / columns);
-        let left = (column > 0).then(|| block - 1);
-        let right = (column + 1 < columns).then_some(block + 1);
-        let below = (row > 0).then(|| block - columns);
-        let above = (row + 1 < rows).then_some(block + columns);
-        for next in [left, right, below, above].into_iter().flatten() {
-            if !is_outside[next] && !is_known[next] {
-                is_outside[next] = true;
+    let is_unseen = |padded: usize| block(padded).is_none_or(|block| !is_known[block]);
+    let fits = opening::squares([across, down], SQUARE, is_unseen, watch)?;
+    let first = (SQUARE - 1) * (across + 1);
+    let mut is_reached = vec![false; fits.len()];
+    is_reached[first] = true;
+    let mut open = vec![first];
+    while let Some(at) = open.pop() {
+        // Squares end within the padding at the least, so each has neighbours on all sides but after the last.
+        for next in [at - 1, at + 1, at - across, at + across] {
+            if fits.get(next) == Some(&true) && !is_reached[next] {
+                is_reached[next] = true;
                 open.push(next);
             }
         }
     }
-    is_outside
+    let mut is_outside = vec![false; is_known.len()];
+    let mark = |padded: usize| {
+        if let Some(block) = block(padded) {
+            is_outside[block] = true;
+        }
+    };
+    opening::cover(&is_reached, across, SQUARE, mark, watch)?;
+    Ok(is_outside)
 }

@@ -90,6 +90,38 @@ fn empty_places_are_places_too() {
     check(&hall.grid(), &expect!["48 Place, 3 Aisle, 2 Lane, 0 Gap, 4 Rest of 1.20 x 1.10 m"]);
 }
 
+/// A row of boxes before a wall and four double rows, 21 places each, in cells of 0.05 m. Boxes of 1.05 x 1.2 m show
+/// their outlines and nothing of what is in them; the wall shows between them only.
+#[test]
+fn goods_before_a_wall_that_they_hide_lie_in_the_site() {
+    let [columns, rows, pitch, depth, front] = [600, 598, 24, 24, 102];
+    let cell = |index: usize| {
+        let (column, row) = (index % columns, index / columns);
+        let goes_along_rows = (48..552).contains(&column);
+        let is_box = column % pitch < 21;
+        // How far behind the front of its row the cell is.
+        let behind = match row.checked_sub(front + 60) {
+            None => (front - row.min(front)).checked_sub(1),
+            Some(row) => Some(row % 108).filter(|&row| row < 2 * depth).map(|row| row.min(2 * depth - 1 - row)),
+        }
+        .filter(|_| goes_along_rows);
+        let is_wall = !(72..rows - 2).contains(&row) || !(2..columns - 2).contains(&column);
+        match behind {
+            Some(behind) if is_box && behind < depth => {
+                let is_outline = behind == 0 || [0, 20].contains(&(column % pitch));
+                if is_outline { Occupancy::Occupied } else { Occupancy::Unknown }
+            }
+            Some(_) if is_box => Occupancy::Unknown,
+            _ if row < 70 => Occupancy::Unknown,
+            _ if is_wall => Occupancy::Occupied,
+            _ => Occupancy::Free,
+        }
+    };
+    let frame = GridFrame { resolution: 0.05, origin: Point::origin(), yaw: 0.0 };
+    let grid = OccupancyGrid::new(columns, rows, frame, (0..columns * rows).map(cell).collect());
+    check(&grid, &expect!["188 Place, 5 Aisle, 2 Lane, 0 Gap, 6 Rest of 1.20 x 1.20 m"]);
+}
+
 /// Four double rows of bare racks 24 m long, with posts at one distance from one another, cells.
 fn racks(distance: usize) -> OccupancyGrid {
     let (columns, rows) = (600, 480);

@@ -1,0 +1,55 @@
+//! Openings: what squares that fit into some cells can cover (G. Matheron 1975), in running lengths.
+//!
+//! The squares lie along the grid, so both halves take one pass over the cells. Cost: O(cells), whatever the side.
+
+use crate::watch::{Stopped, Watch};
+
+/// Whether a square of `side` cells that ends at a cell, its upper right one, fits into those for which `is_open` holds;
+/// row-major.
+pub(super) fn squares(
+    [columns, rows]: [usize; 2],
+    side: usize,
+    is_open: impl Fn(usize) -> bool,
+    watch: &Watch<'_>,
+) -> Result<Vec<bool>, Stopped> {
+    let side = side.max(1);
+    // First along the rows: cells that end an open run of the side. Then along the columns: squares that fit.
+    let mut depth = vec![0_u32; columns];
+    let mut fits = vec![false; columns * rows];
+    for row in 0..rows {
+        watch.check()?;
+        let mut run = 0;
+        for (column, depth) in depth.iter_mut().enumerate() {
+            let cell = row * columns + column;
+            run = if is_open(cell) { run + 1 } else { 0 };
+            *depth = if run >= side { *depth + 1 } else { 0 };
+            fits[cell] = *depth as usize >= side;
+        }
+    }
+    Ok(fits)
+}
+
+/// Marks the cells that squares cover, which end at their upper right cell.
+pub(super) fn cover(
+    squares: &[bool],
+    columns: usize,
+    side: usize,
+    mut mark: impl FnMut(usize),
+    watch: &Watch<'_>,
+) -> Result<(), Stopped> {
+    let side = side.max(1);
+    let mut height_left = vec![0_usize; columns];
+    for (row, ends) in squares.chunks_exact(columns.max(1)).enumerate().rev() {
+        watch.check()?;
+        let mut width_left = 0;
+        for column in (0..columns).rev() {
+            let left = &mut height_left[column];
+            *left = if ends[column] { side } else { left.saturating_sub(1) };
+            width_left = if *left > 0 { side } else { usize::saturating_sub(width_left, 1) };
+            if width_left > 0 {
+                mark(row * columns + column);
+            }
+        }
+    }
+    Ok(())
+}
