@@ -2,7 +2,8 @@
 //!
 //! Every place of a rack must be reached, so what is thin enough between two aisles is one row, or two back to back. What
 //! is deeper - double-deep racks, block storage, marked floors - and what stands before a wall may have any number of
-//! layers, which [`super::across`] finds. Layers that are reached from one side form a stack: their lanes run through all
+//! layers, which [`super::across`] finds; it may reach into the aisles before it, for the outer layers of a block that is
+//! filled from within hold few goods. Layers that are reached from one side form a stack: their lanes run through all
 //! of them, so they are cut together, and end together.
 //!
 //! Cost: O(cells of the bodies), and that of the layers. Limits: where goods hide what is behind them, the usual depth of
@@ -12,13 +13,17 @@ use std::ops::Range;
 
 use super::across::{self, Strips};
 use super::depth::{Body, THIN_SHARE, thickest_pair};
-use super::frame::{Frame, Patch};
+use super::frame::{Cell, Frame, Patch};
 use crate::watch::{Stopped, Watch};
 
 /// A body with room for more than this many rows is more than one row.
 const DEEP_ROOM: f64 = 1.5;
 /// Rows are at most so many times as deep as usual.
 const DEEPER: f64 = 1.15;
+/// How far a deep body reaches into the aisles at most, as a multiple of the depth of a place, and occupied share of a
+/// line with goods.
+const MOST_REACH: f64 = 3.5;
+const GOODS_SHARE: f64 = 0.01;
 /// Occupied share of a line of cells that makes it a wall.
 const WALL_SHARE: f64 = 0.5;
 /// A wall behind goods is seen between them only: occupied share of what is seen of its line, and how much that is at
@@ -58,17 +63,22 @@ pub(super) fn cut(
         thickness >= if is_single_front { DEEP_ROOM * depth } else { thickest_pair(range[1].min(DEEPER * depth)) }
     };
     let deep: Vec<usize> = (0..bodies.len()).filter(|&body| is_deep(bodies[body], &rooms[body])).collect();
-    let strips = |&body: &usize| {
-        let Body { rect, axis, fronts } = bodies[body];
-        Strips::of(frame, &rect.with(axis.other(), rooms[body].clone()), *axis, *fronts)
+    let reaches: Vec<Range<usize>> = deep.iter().map(|&body| reach(frame, bodies[body], &rooms[body], depth)).collect();
+    let strips = |(&body, reach): (&usize, &Range<usize>)| {
+        let (Body { rect, axis, fronts }, room) = (bodies[body], &rooms[body]);
+        let mut options = vec![room.clone(), reach.start..room.end, room.start..reach.end, reach.clone()];
+        options.sort_by_key(|room| (room.start, room.end));
+        options.dedup();
+        Strips::of(frame, &rect.with(axis.other(), reach.clone()), *axis, *fronts, &options)
     };
-    let strips: Vec<Strips> = deep.iter().map(strips).collect();
-    let mut read = deep.iter().zip(across::layers(&strips, range, watch)?).peekable();
-    let cut = |(index, (body, room)): (usize, (&&Body, Range<usize>))| match read.next_if(|&(&deep, _)| deep == index) {
-        Some((_, layers)) if layers.len() > 1 => deep_layers(body, &room, layers),
-        Some(_) if body.fronts[0] == body.fronts[1] => Layers { stacks: Vec::new(), rests: vec![body.across()] },
-        _ => shallow_layers(frame, body, room, depth),
-    };
+    let strips: Vec<Strips> = deep.iter().zip(&reaches).map(strips).collect();
+    let mut read = deep.iter().zip(reaches).zip(across::layers(&strips, range, watch)?).peekable();
+    let cut =
+        |(index, (body, room)): (usize, (&&Body, Range<usize>))| match read.next_if(|&((&deep, _), _)| deep == index) {
+            Some(((_, reach), layers)) if layers.len() > 1 => deep_layers(body, &reach, layers),
+            Some(_) if body.fronts[0] == body.fronts[1] => Layers { stacks: Vec::new(), rests: vec![body.across()] },
+            _ => shallow_layers(frame, body, room, depth),
+        };
     Ok(bodies.iter().zip(rooms).enumerate().map(cut).collect())
 }
 
@@ -117,6 +127,33 @@ fn halves(mut stack: Stack) -> Vec<Stack> {
     }
     let far = stack.split_off(stack.len() / 2);
     vec![stack, far]
+}
+
+/// How far a deep body may reach into the aisles before it: few goods stand in the outer layers of a block that is filled
+/// from within.
+fn reach(frame: &Frame, body: &Body, room: &Range<usize>, depth: f64) -> Range<usize> {
+    let lines = frame.whole().range(body.axis.other()).clone();
+    let far = frame.cells_of(MOST_REACH * depth);
+    let around = room.start.saturating_sub(far)..(room.end + far).min(lines.end);
+    let occupied = frame.counts(&body.rect.with(body.axis.other(), around.clone()), body.axis, Cell::is_occupied);
+    let length = body.rect.range(body.axis).len() as f64;
+    let holds_goods = |line: &usize| f64::from(occupied[line - around.start]) >= GOODS_SHARE * length;
+    let gap = frame.cells_of(THIN_SHARE * depth);
+    let outermost = |border: usize, beyond: &mut dyn Iterator<Item = usize>| {
+        let mut last = border;
+        for line in beyond {
+            if holds_goods(&line) {
+                last = line;
+            } else if line.abs_diff(last) > gap {
+                return last;
+            }
+        }
+        border
+    };
+    let start = outermost(room.start, &mut (around.start..room.start).rev());
+    let end = outermost(room.end - 1, &mut (room.end..around.end)) + 1;
+    let [low, high] = body.fronts;
+    (if low { start } else { room.start })..(if high { end } else { room.end })
 }
 
 /// The part of a body that may hold goods: all of it, or what lies before the wall on the side without an aisle.

@@ -13,7 +13,7 @@ use super::depth::{self, Body};
 use super::evidence::Evidence;
 use super::frame::{Axis, Frame, Rect};
 use super::gate;
-use super::layers::{self, Stack};
+use super::layers::{self, Layers, Stack};
 use super::pieces;
 use super::reading::{self, Reading, Rows};
 use super::{Parcel, PlotKind};
@@ -85,31 +85,20 @@ pub(super) fn lay_out(
     let depth = depth::usual(frame, &bodies, hints.depth);
     for axis in Axis::BOTH {
         let bodies: Vec<&Body> = bodies.iter().filter(|body| body.axis == axis).collect();
-        let (mut rows, mut rests) = (Vec::new(), Vec::new());
-        for (body, layers) in bodies.iter().zip(layers::cut(frame, &bodies, depth, hints.depth, watch)?) {
-            watch.check()?;
-            let rest_of = |rest| Parcel::new(rest, PlotKind::Rest, Some(axis));
-            rests.extend(layers.rests.into_iter().map(|rest| rest_of(body.rect.with(axis.other(), rest))));
-            for stack in layers.stacks {
-                let row = Row::of(body, stack);
-                let [before, within, after] = in_region(frame, &row.rect, axis).map(|part| row.rect.with(axis, part));
-                rests.extend([before, after].into_iter().filter(|rest| !rest.range(axis).is_empty()).map(rest_of));
-                if !within.range(axis).is_empty() {
-                    rows.push(Row { rect: within, ..row });
-                }
-            }
-        }
-        let evidence: Vec<Evidence> = rows.iter().map(|row| row.evidence(frame, hints)).collect();
+        let layers = layers::cut(frame, &bodies, depth, hints.depth, watch)?;
+        let standing = Standing::of(frame, &bodies, layers);
+        let evidence: Vec<Evidence> = standing.rows.iter().map(|row| row.evidence(frame, hints)).collect();
         watch.check()?;
-        if let Some(readings) = read(frame, &rows, &evidence, hints, watch)? {
-            parcels.append(&mut rests);
-            for ((row, evidence), reading) in rows.iter().zip(&evidence).zip(readings) {
+        if let Some(readings) = read(frame, &standing.rows, &evidence, hints, watch)? {
+            parcels = standing.reaching.iter().fold(parcels, |parcels, row| without(parcels, row, axis));
+            parcels.extend(standing.rests);
+            for ((row, evidence), reading) in standing.rows.iter().zip(&evidence).zip(readings) {
                 match reading {
                     Some(reading) => {
                         let pieces = pieces::of_comb(&reading.cut(evidence), reading.pitch, frame);
                         parcels.extend(parcels_of(row, pieces));
                     }
-                    None => parcels.push(Parcel::new(row.rect.clone(), PlotKind::Rest, Some(row.axis))),
+                    None => parcels.push(Parcel::new(row.rect.clone(), PlotKind::Rest, Some(axis))),
                 }
             }
         } else {
@@ -118,6 +107,49 @@ pub(super) fn lay_out(
         }
     }
     Ok(parcels)
+}
+
+/// What stands in the bodies of one direction.
+#[derive(Default)]
+struct Standing {
+    rows: Vec<Row>,
+    rests: Vec<Parcel>,
+    /// Rows that reach into the aisles before their body.
+    reaching: Vec<Rect>,
+}
+
+impl Standing {
+    fn of(frame: &Frame, bodies: &[&Body], layers: Vec<Layers>) -> Self {
+        let mut standing = Self::default();
+        for (body, layers) in bodies.iter().zip(layers) {
+            let axis = body.axis;
+            let rest_of = |rest| Parcel::new(rest, PlotKind::Rest, Some(axis));
+            standing.rests.extend(layers.rests.into_iter().map(|rest| rest_of(body.rect.with(axis.other(), rest))));
+            for stack in layers.stacks {
+                let row = Row::of(body, stack);
+                let (own, across) = (row.rect.range(axis.other()), body.across());
+                if own.start < across.start || own.end > across.end {
+                    standing.reaching.push(row.rect.clone());
+                }
+                let [before, within, after] = in_region(frame, &row.rect, axis).map(|part| row.rect.with(axis, part));
+                let beside = [before, after].into_iter().filter(|rest| !rest.range(axis).is_empty());
+                standing.rests.extend(beside.map(rest_of));
+                if !within.range(axis).is_empty() {
+                    standing.rows.push(Row { rect: within, ..row });
+                }
+            }
+        }
+        standing
+    }
+}
+
+/// Parcels without the ground of a row: deep rows may reach into the aisles before them.
+fn without(parcels: Vec<Parcel>, row: &Rect, axis: Axis) -> Vec<Parcel> {
+    let rest = |parcel: Parcel| {
+        let rects = parcel.rect.without(row, axis);
+        rects.into_iter().map(move |rect| Parcel { rect, ..parcel.clone() })
+    };
+    parcels.into_iter().flat_map(rest).collect()
 }
 
 /// The parts of a layer before, within and behind its region: a region is bounded by tiles, its blocks are rectangles, and
