@@ -15,8 +15,9 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
+use super::depth::Body;
 use super::evidence::{LEAST_KNOWN, UNKNOWN_CONTENT};
-use super::frame::{Axis, Cell, Frame, Patch, Rect};
+use super::frame::{Cell, Frame, Patch};
 use super::reading::{self, GOODS_PRICE, LEAST_NOISE, PLACE_PRICE};
 use crate::watch::{Stopped, Watch};
 
@@ -39,9 +40,10 @@ const LEAST_EXPLAINED: f64 = 0.5;
 pub(super) struct Strips {
     /// Content by strip and line, from the low side on.
     content: Vec<Vec<f64>>,
-    lines: usize,
-    /// The lines that layers may fill: any of these.
-    rooms: Vec<Range<usize>>,
+    /// Line of the frame that the first one is.
+    low: usize,
+    /// The lines of the frame that the layers fill: one of these.
+    extents: Vec<Range<usize>>,
     cell: f64,
     fronts: [bool; 2],
 }
@@ -50,7 +52,7 @@ pub(super) struct Strips {
 #[derive(Debug, Clone, PartialEq)]
 struct Lattice {
     /// The lines that the layers fill.
-    room: Range<usize>,
+    extent: Range<usize>,
     depth: f64,
     count: usize,
     flue: f64,
@@ -71,9 +73,9 @@ impl Lattice {
         (self.depth.ceil() as usize).max(1)
     }
 
-    /// A line of the room, counted from the side that the lattice begins at.
+    /// A line of the extent, counted from the side that the lattice begins at.
     fn line(&self, line: usize) -> usize {
-        if self.from_high { self.room.end - 1 - line } else { self.room.start + line }
+        if self.from_high { self.extent.end - 1 - line } else { self.extent.start + line }
     }
 
     /// Lines of each layer, each with its distance from the middle of the place: goods are even.
@@ -82,7 +84,7 @@ impl Lattice {
         let of_layer = |layer: usize| {
             let [start, end] = self.layer(layer);
             let middle = f64::midpoint(start, end);
-            let lines = start.round() as usize..(end.round() as usize).min(self.room.len());
+            let lines = start.round() as usize..(end.round() as usize).min(self.extent.len());
             let line = |line: usize| (self.line(line), ((line as f64 + 0.5 - middle).abs() as usize).min(bins - 1));
             lines.map(line).collect()
         };
@@ -100,11 +102,11 @@ impl Lattice {
             if 2 * index == self.count {
                 start -= half;
             }
-            let [start, end] = [start, end].map(|at| (at.round() as usize).min(self.room.len()));
+            let [start, end] = [start, end].map(|at| (at.round() as usize).min(self.extent.len()));
             if self.from_high {
-                self.room.end - end..self.room.end - start
+                self.extent.end - end..self.extent.end - start
             } else {
-                self.room.start + start..self.room.start + end
+                self.extent.start + start..self.extent.start + end
             }
         };
         let mut ranges: Vec<_> = (0..self.count).map(range).collect();
@@ -114,34 +116,39 @@ impl Lattice {
 }
 
 impl Strips {
-    /// Cuts a rectangle into strips across the rows along `axis`; layers fill one of some rooms in it, given by lines of
-    /// the frame.
-    pub(super) fn of(frame: &Frame, rect: &Rect, axis: Axis, fronts: [bool; 2], rooms: &[Range<usize>]) -> Self {
-        let low = rect.range(axis.other()).start;
-        let rooms = rooms.iter().map(|room| room.start - low..room.end - low).collect();
-        let patch = frame.patch(rect, axis);
+    /// Cuts a body into strips across its rows; its layers fill one of some extents, which may reach out of it.
+    pub(super) fn of(frame: &Frame, body: &Body, extents: &[Range<usize>]) -> Self {
+        let low = extents.iter().map(|extent| extent.start).min().unwrap_or(0);
+        let high = extents.iter().map(|extent| extent.end).max().unwrap_or(low);
+        let patch = frame.patch(&body.rect.with(body.axis.other(), low..high), body.axis);
         let count = patch.width.div_ceil(frame.cells_of(STRIP_M).max(1));
         let strip = |index: usize| {
             let columns = patch.width * index / count..patch.width * (index + 1) / count;
             (0..patch.height).map(|line| content(&patch, line, &columns)).collect()
         };
-        Self { content: (0..count).map(strip).collect(), lines: patch.height, rooms, cell: frame.cell, fronts }
+        Self {
+            content: (0..count).map(strip).collect(),
+            low,
+            extents: extents.to_vec(),
+            cell: frame.cell,
+            fronts: body.fronts,
+        }
     }
 
-    /// All ways to fill the rooms with layers of a depth within a range, metres.
+    /// All ways to fill the extents with layers of a depth within a range, metres.
     fn lattices(&self, range: [f64; 2]) -> Vec<Lattice> {
-        self.rooms.iter().flat_map(|room| self.lattices_in(room, range)).collect()
+        self.extents.iter().flat_map(|extent| self.lattices_in(extent, range)).collect()
     }
 
-    fn lattices_in(&self, room: &Range<usize>, range: [f64; 2]) -> Vec<Lattice> {
-        let lines = room.len() as f64;
+    fn lattices_in(&self, extent: &Range<usize>, range: [f64; 2]) -> Vec<Lattice> {
+        let lines = extent.len() as f64;
         let mut lattices = Vec::new();
         if lines * self.cell > MOST_LAYERS as f64 * range[1] {
             return lattices;
         }
         let from_high = self.fronts == [false, true];
         let lattice =
-            |depth: f64, count: usize, flue: f64| Lattice { room: room.clone(), depth, count, flue, from_high };
+            |depth: f64, count: usize, flue: f64| Lattice { extent: extent.clone(), depth, count, flue, from_high };
         if self.fronts[0] == self.fronts[1] {
             let flues = (0..=(FLUE_M / FLUE_STEP_M).round() as usize).map(|step| step as f64 * FLUE_STEP_M / self.cell);
             for flue in flues {
@@ -169,14 +176,14 @@ impl Strips {
         let layers = lattice.lines();
         let (mut shape, mut sizes) = (vec![0.0; lattice.bins()], vec![0.0_f64; lattice.bins()]);
         for &(line, bin) in layers.iter().flatten() {
-            shape[bin] += self.content.iter().map(|strip| strip[line]).sum::<f64>();
+            shape[bin] += self.content.iter().map(|strip| strip[line - self.low]).sum::<f64>();
             sizes[bin] += 1.0;
         }
         shape.iter_mut().zip(&sizes).for_each(|(value, size)| *value /= size.max(1.0));
         let of_layer = |lines: &Vec<(usize, usize)>| {
             let square: f64 = lines.iter().map(|&(_, bin)| shape[bin] * shape[bin]).sum();
             let of_strip = |strip: &Vec<f64>| {
-                let product: f64 = lines.iter().map(|&(line, bin)| strip[line] * shape[bin]).sum();
+                let product: f64 = lines.iter().map(|&(line, bin)| strip[line - self.low] * shape[bin]).sum();
                 product * product / square.max(f64::MIN_POSITIVE)
             };
             self.content.iter().map(of_strip).sum()
@@ -193,7 +200,7 @@ impl Strips {
         if most < LEAST_EXPLAINED * energy {
             return Vec::new();
         }
-        let cells = (self.lines * self.content.len()).max(1) as f64;
+        let cells = self.content.iter().map(Vec::len).sum::<usize>().max(1) as f64;
         let noise = (energy - most).max(LEAST_NOISE * energy).max(f64::MIN_POSITIVE) / cells;
         let weight = reading::weight(noise, self.cell);
         let price = PLACE_PRICE * self.content.len() as f64;
@@ -214,7 +221,7 @@ fn content(patch: &Patch, line: usize, columns: &Range<usize>) -> f64 {
     if 1.0 - unknown < LEAST_KNOWN { 0.0 } else { share(Cell::is_occupied) + UNKNOWN_CONTENT * unknown }
 }
 
-/// The layers of deep bodies, by body, as lines from their low side on; depths in metres. None where nothing fits.
+/// The layers of bodies, as ranges of lines of the frame, ascending; depths in metres. None where nothing fits.
 pub(super) fn layers(bodies: &[Strips], range: [f64; 2], watch: &Watch<'_>) -> Result<Vec<Vec<Range<usize>>>, Stopped> {
     let score = |body: &Strips| watch.check().map(|()| Choice { scored: body.scored(range), cell: body.cell });
     let choices: Vec<Choice> = bodies.par_iter().map(score).collect::<Result<_, _>>()?;
@@ -251,11 +258,11 @@ mod tests {
 
     /// Strips drawn from left to right, four lines to a character: goods (#), half of them hidden (+), nothing (.).
     fn check(picture: &[&str], fronts: [bool; 2], wanted: &expect_test::Expect) {
-        check_rooms(picture, fronts, &[0], wanted);
+        check_extents(picture, fronts, &[0], wanted);
     }
 
-    /// The same with rooms from some lines on.
-    fn check_rooms(picture: &[&str], fronts: [bool; 2], starts: &[usize], wanted: &expect_test::Expect) {
+    /// The same with extents from some lines on.
+    fn check_extents(picture: &[&str], fronts: [bool; 2], starts: &[usize], wanted: &expect_test::Expect) {
         let content = |symbol| match symbol {
             '#' => 1.0,
             '+' => 0.5,
@@ -264,8 +271,8 @@ mod tests {
         let strip = |row: &&str| row.chars().flat_map(|symbol| [content(symbol); 4]).collect::<Vec<f64>>();
         let content: Vec<Vec<f64>> = picture.iter().map(strip).collect();
         let lines = content[0].len();
-        let rooms = starts.iter().map(|&start| start..lines).collect();
-        let body = Strips { content, lines, rooms, cell: 0.05, fronts };
+        let extents = starts.iter().map(|&start| start..lines).collect();
+        let body = Strips { content, low: 0, extents, cell: 0.05, fronts };
         let found = layers(&[body], [0.8, 1.45], &Watch::unwatched()).expect("nobody stops it");
         let found = found[0].iter().map(|layer| format!("{}..{}", layer.start, layer.end));
         wanted.assert_eq(&found.collect::<Vec<_>>().join(" "));
@@ -287,13 +294,13 @@ mod tests {
         let pallet = "#.++.#";
         let lane = |first: &str| first.to_owned() + &pallet.repeat(3);
         let (free, full, thing) = (lane("......"), lane(pallet), lane("...#.."));
-        check_rooms(
+        check_extents(
             &[&free, &full, &free, &full, &free],
             [true, false],
             &[24, 0],
             &expect_test::expect!["0..24 24..48 48..72 72..96"],
         );
-        check_rooms(
+        check_extents(
             &[&free, &thing, &free, &free, &free],
             [true, false],
             &[24, 0],

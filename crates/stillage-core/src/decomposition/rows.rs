@@ -123,17 +123,19 @@ impl Standing {
         let mut standing = Self::default();
         for (body, layers) in bodies.iter().zip(layers) {
             let axis = body.axis;
-            let rest_of = |rest| Parcel::new(rest, PlotKind::Rest, Some(axis));
-            standing.rests.extend(layers.rests.into_iter().map(|rest| rest_of(body.rect.with(axis.other(), rest))));
+            let across = body.across();
+            let part = |range, kind| Parcel::new(body.rect.with(axis.other(), range), kind, Some(axis));
+            standing.rests.extend(layers.floors.into_iter().map(|floor| part(floor, PlotKind::Aisle)));
+            standing.rests.extend(layers.rests.into_iter().map(|rest| part(rest, PlotKind::Rest)));
             for stack in layers.stacks {
                 let row = Row::of(body, stack);
-                let (own, across) = (row.rect.range(axis.other()), body.across());
+                let own = row.rect.range(axis.other());
                 if own.start < across.start || own.end > across.end {
                     standing.reaching.push(row.rect.clone());
                 }
                 let [before, within, after] = in_region(frame, &row.rect, axis).map(|part| row.rect.with(axis, part));
                 let beside = [before, after].into_iter().filter(|rest| !rest.range(axis).is_empty());
-                standing.rests.extend(beside.map(rest_of));
+                standing.rests.extend(beside.map(|rest| Parcel::new(rest, PlotKind::Rest, Some(axis))));
                 if !within.range(axis).is_empty() {
                     standing.rows.push(Row { rect: within, ..row });
                 }
