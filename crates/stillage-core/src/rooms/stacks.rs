@@ -54,7 +54,7 @@ impl Stacks {
         let mut is_between = vec![false; cells.len()];
         for angle in [angle, angle + FRAC_PI_2] {
             for_each_line([width, grid.height()], angle, watch, |line| {
-                mark_between(line, &is_open, rooms, &mut is_between)
+                mark_between(line, &is_open, rooms, &mut is_between);
             })?;
         }
         let is_thick = opened(is_between, width, DEPTH_M / cell, watch)?;
