@@ -119,16 +119,32 @@ impl Reading {
 
     /// The score of a row at the best of some pitches, and what borders and widths have in it.
     pub(super) fn best_fit(&self, row: &Evidence, pitches: &[f64]) -> (f64, f64) {
+        let account = self.fitted(row, pitches).account(row);
+        (account.score(self.noise), account.structure)
+    }
+
+    /// The same goods at that of some pitches which suits a row best.
+    pub(super) fn fitted(&self, row: &Evidence, pitches: &[f64]) -> Self {
         let fit = |&pitch: &f64| {
-            let (_, account) = self.at(pitch, row.cell).cut_and_account(row, self.noise);
-            (account.score(self.noise), account.structure)
+            let reading = self.at(pitch, row.cell);
+            (reading.score(row, self.noise), reading)
         };
         let fits = pitches.iter().step_by(STRIDE).map(fit);
-        fits.reduce(|best, other| if other.0 > best.0 { other } else { best }).unwrap_or_default()
+        fits.reduce(|best, other| if other.0 > best.0 { other } else { best }).map_or_else(|| self.clone(), |best| best.1)
+    }
+
+    /// Twice the middles of the places of a row that hold goods, cells.
+    pub(super) fn goods_in(&self, row: &Evidence) -> Vec<usize> {
+        let explained = goods::explained([&self.goods], row);
+        goods::middles(&self.cut(row)).filter(|&twice| explained[twice][0] > 0.0).collect()
     }
 
     fn score(&self, row: &Evidence, noise: f64) -> f64 {
         self.cut_and_account(row, noise).1.score(noise)
+    }
+
+    fn account(&self, row: &Evidence) -> Account {
+        self.cut_and_account(row, self.noise).1
     }
 
     fn cut_and_account(&self, row: &Evidence, noise: f64) -> (Comb, Account) {
