@@ -131,15 +131,21 @@ pub(super) fn lay_out(
     Ok(parcels)
 }
 
-/// Rows with what their cells say: stacks that share lanes, or each of their layers.
+/// Rows with what their cells say: stacks that share lanes, and the layers of those that do not.
 fn in_lanes(frame: &Frame, stacks: Vec<Row>, hints: &Hints) -> (Vec<Row>, Vec<Evidence>) {
     let evidence: Vec<Vec<Evidence>> = stacks.iter().map(|stack| stack.evidence(frame, hints)).collect();
-    let deep: Vec<&[Evidence]> = evidence.iter().map(Vec::as_slice).filter(|layers| layers.len() > 1).collect();
-    if lanes::are_shared(&deep, &reading::pitches(hints.pitch)) {
-        (stacks, evidence.into_iter().map(Evidence::bundle).collect())
-    } else {
-        (stacks.into_iter().flat_map(Row::into_layers).collect(), evidence.into_iter().flatten().collect())
+    let are_shared = lanes::are_shared(&evidence, &reading::pitches(hints.pitch));
+    let (mut rows, mut of_rows) = (Vec::new(), Vec::new());
+    for ((stack, evidence), is_shared) in stacks.into_iter().zip(evidence).zip(are_shared) {
+        if is_shared {
+            rows.push(stack);
+            of_rows.push(Evidence::bundle(evidence));
+        } else {
+            rows.extend(stack.into_layers());
+            of_rows.extend(evidence);
+        }
     }
+    (rows, of_rows)
 }
 
 /// The parts of a layer before, within and behind its region: a region is bounded by tiles, its blocks are rectangles, and
