@@ -78,15 +78,16 @@ mod tests {
         are_shared(&[layers.into()], &reading::pitches([0.8, 1.6]))[0]
     }
 
-    const FULL: &str = "..#######..#######..";
+    const FULL: &str = "..################..";
     const EMPTY: &str = "....................";
 
     #[test]
     fn goods_behind_goods_share_lanes() {
-        let front = [FULL, EMPTY, FULL, FULL, EMPTY, FULL, FULL].concat();
-        let behind = [FULL, FULL, EMPTY, FULL, FULL, EMPTY, FULL].concat();
-        assert!(check(&front, &behind));
-        assert!(!check(&front, &["..........", &behind[10..], &behind[..10]].concat()));
+        let half = &EMPTY[..10];
+        let front = [FULL, EMPTY, FULL, FULL, EMPTY, FULL, FULL, half].concat();
+        let behind = [FULL, FULL, FULL, FULL, FULL, EMPTY, FULL].concat();
+        assert!(check(&front, &[&behind, half].concat()));
+        assert!(!check(&front, &[half, &behind].concat()));
         assert!(check(EMPTY, EMPTY));
     }
 }
