@@ -24,6 +24,7 @@ mod extent;
 mod frame;
 mod gate;
 mod goods;
+mod lanes;
 mod layers;
 mod lines;
 mod opening;

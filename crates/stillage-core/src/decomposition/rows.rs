@@ -13,6 +13,7 @@ use super::depth::{self, Body};
 use super::evidence::Evidence;
 use super::frame::{Axis, Frame, Rect};
 use super::gate;
+use super::lanes;
 use super::layers::{self, Layers, Stack};
 use super::pieces;
 use super::reading::{self, Reading, Rows};
@@ -56,13 +57,23 @@ impl Row {
         Self { rect: body.rect.with(across, start..end), axis: body.axis, layers: stack }
     }
 
-    /// What the cells of the layers say together.
-    fn evidence(&self, frame: &Frame, hints: &Hints) -> Evidence {
+    /// What the cells of each layer say.
+    fn evidence(&self, frame: &Frame, hints: &Hints) -> Vec<Evidence> {
         let of_layer = |layer: &Range<usize>| {
             let rect = self.rect.with(self.axis.other(), layer.clone());
             Evidence::of(&frame.patch(&rect, self.axis), frame.cell, hints.widths())
         };
-        Evidence::bundle(self.layers.iter().map(of_layer))
+        self.layers.iter().map(of_layer).collect()
+    }
+
+    /// Each layer as a row of its own.
+    fn into_layers(self) -> impl Iterator<Item = Self> {
+        let Self { rect, axis, layers } = self;
+        layers.into_iter().map(move |layer| Self {
+            rect: rect.with(axis.other(), layer.clone()),
+            axis,
+            layers: vec![layer],
+        })
     }
 }
 
@@ -86,13 +97,14 @@ pub(super) fn lay_out(
     for axis in Axis::BOTH {
         let bodies: Vec<&Body> = bodies.iter().filter(|body| body.axis == axis).collect();
         let layers = layers::cut(frame, &bodies, depth, hints.depth, watch)?;
-        let standing = Standing::of(frame, &bodies, layers);
-        let evidence: Vec<Evidence> = standing.rows.iter().map(|row| row.evidence(frame, hints)).collect();
+        let Standing { stacks, rests, reaching } = Standing::of(frame, &bodies, layers);
         watch.check()?;
-        if let Some(readings) = read(frame, &standing.rows, &evidence, hints, watch)? {
-            parcels = standing.reaching.iter().fold(parcels, |parcels, row| without(parcels, row, axis));
-            parcels.extend(standing.rests);
-            for ((row, evidence), reading) in standing.rows.iter().zip(&evidence).zip(readings) {
+        let (rows, evidence) = in_lanes(frame, stacks, hints);
+        watch.check()?;
+        if let Some(readings) = read(frame, &rows, &evidence, hints, watch)? {
+            parcels = reaching.iter().fold(parcels, |parcels, row| without(parcels, row, axis));
+            parcels.extend(rests);
+            for ((row, evidence), reading) in rows.iter().zip(&evidence).zip(readings) {
                 match reading {
                     Some(reading) => {
                         let pieces = pieces::of_comb(&reading.cut(evidence), reading.pitch, frame);
@@ -112,7 +124,7 @@ pub(super) fn lay_out(
 /// What stands in the bodies of one direction.
 #[derive(Default)]
 struct Standing {
-    rows: Vec<Row>,
+    stacks: Vec<Row>,
     rests: Vec<Parcel>,
     /// Rows that reach into the aisles before their body.
     reaching: Vec<Rect>,
@@ -137,7 +149,7 @@ impl Standing {
                 let beside = [before, after].into_iter().filter(|rest| !rest.range(axis).is_empty());
                 standing.rests.extend(beside.map(|rest| Parcel::new(rest, PlotKind::Rest, Some(axis))));
                 if !within.range(axis).is_empty() {
-                    standing.rows.push(Row { rect: within, ..row });
+                    standing.stacks.push(Row { rect: within, ..row });
                 }
             }
         }
@@ -152,6 +164,23 @@ fn without(parcels: Vec<Parcel>, row: &Rect, axis: Axis) -> Vec<Parcel> {
         rects.into_iter().map(move |rect| Parcel { rect, ..parcel.clone() })
     };
     parcels.into_iter().flat_map(rest).collect()
+}
+
+/// Rows with what their cells say: stacks that share lanes, and the layers of those that do not.
+fn in_lanes(frame: &Frame, stacks: Vec<Row>, hints: &Hints) -> (Vec<Row>, Vec<Evidence>) {
+    let evidence: Vec<Vec<Evidence>> = stacks.iter().map(|stack| stack.evidence(frame, hints)).collect();
+    let are_shared = lanes::are_shared(&evidence, &reading::pitches(hints.pitch));
+    let (mut rows, mut of_rows) = (Vec::new(), Vec::new());
+    for ((stack, evidence), is_shared) in stacks.into_iter().zip(evidence).zip(are_shared) {
+        if is_shared {
+            rows.push(stack);
+            of_rows.push(Evidence::bundle(evidence));
+        } else {
+            rows.extend(stack.into_layers());
+            of_rows.extend(evidence);
+        }
+    }
+    (rows, of_rows)
 }
 
 /// The parts of a layer before, within and behind its region: a region is bounded by tiles, its blocks are rectangles, and
