@@ -35,8 +35,8 @@ const SCATTER_SHARE: f64 = 0.08;
 const BEHIND_M: [f64; 2] = [0.2, 0.5];
 const SEEN_BETWEEN_GOODS: [f64; 2] = [0.04, 0.7];
 
-/// The lines that the layers of a body may fill, where places are about `depth` deep within a range, metres; first those
-/// between aisles and walls.
+/// The lines that the layers of a body may fill, where places are about `depth` deep within a range, metres: first, and
+/// always, those between aisles and walls.
 pub(super) fn extents(frame: &Frame, body: &Body, depth: f64, range: [f64; 2]) -> Vec<Range<usize>> {
     let room = room(frame, body, depth);
     let far = if is_deep(frame, body, &room, depth, range) { frame.cells_of(MOST_REACH * depth) } else { 0 };

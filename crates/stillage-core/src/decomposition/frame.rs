@@ -73,9 +73,7 @@ impl Rect {
             Axis::V => Self { u: self.u.clone(), v: range },
         }
     }
-}
 
-impl Rect {
     /// What a hole leaves of it: its full width beside the hole along `axis`, and what is before and behind the hole.
     pub fn without(&self, hole: &Self, axis: Axis) -> Vec<Self> {
         let common = |axis: Axis| {
@@ -307,5 +305,23 @@ impl Patch {
     pub fn occupied_share(&self, rows: std::ops::Range<usize>) -> f64 {
         let is_occupied = |column: &usize| rows.clone().any(|row| self.row(row)[*column].is_occupied());
         (0..self.width).filter(is_occupied).count() as f64 / self.width.max(1) as f64
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_hole_leaves_what_is_beside_it() {
+        let rect = Rect { u: 0..10, v: 0..4 };
+        let left = |hole: Rect| {
+            let parts = rect.without(&hole, Axis::U).into_iter();
+            parts.map(|part| format!("{:?}x{:?}", part.u, part.v)).collect::<Vec<_>>().join(" ")
+        };
+        assert_eq!(left(Rect { u: 3..5, v: 2..9 }), "0..3x0..4 5..10x0..4 3..5x0..2");
+        assert_eq!(left(Rect { u: 3..5, v: 1..2 }), "0..3x0..4 5..10x0..4 3..5x0..1 3..5x2..4");
+        assert_eq!(left(Rect { u: 0..99, v: 0..99 }), "");
+        assert_eq!(left(Rect { u: 3..5, v: 4..5 }), "0..10x0..4");
     }
 }

@@ -65,7 +65,7 @@ pub(super) fn cut(
     let found = across::layers(&strips.collect::<Vec<_>>(), range, watch)?;
     let mut layers = Vec::with_capacity(bodies.len());
     for ((body, extents), found) in bodies.iter().zip(extents).zip(found) {
-        let [room, ..] = &extents[..] else { continue };
+        let room = &extents[0];
         layers.push(if !found.is_empty() {
             Layers::of(body, found)
         } else if is_deep(frame, body, room, depth, range) && body.fronts[0] == body.fronts[1] {
