@@ -95,11 +95,11 @@ fn opened(is_in: Vec<bool>, width: usize, diameter: f64, watch: &Watch<'_>) -> R
     // An obstacle begins half a cell before its middle.
     let reach = f64::midpoint(diameter, 1.0);
     let squared = reach * reach;
-    let from_outside = Nearest::of(width, is_in.len(), |cell| !is_in[cell], watch)?;
-    let is_middle = |cell: usize| is_in[cell] && f64::from(from_outside.squared[cell]) >= squared;
-    let from_middle = Nearest::of(width, is_in.len(), is_middle, watch)?;
-    let is_covered = |(is_in, &distance): (bool, &u32)| is_in && f64::from(distance) < squared;
-    Ok(is_in.into_iter().zip(&from_middle.squared).map(is_covered).collect())
+    let is_within = |distance: u32| f64::from(distance) < squared;
+    let from_outside = Nearest::of(width, is_in.len(), |cell| !is_in[cell], watch)?.squared;
+    let is_middle: Vec<bool> = from_outside.into_iter().map(|distance| !is_within(distance)).collect();
+    let from_middle = Nearest::of(width, is_in.len(), |cell| is_middle[cell], watch)?.squared;
+    Ok(is_in.into_iter().zip(from_middle).map(|(is_in, distance)| is_in && is_within(distance)).collect())
 }
 
 /// Marks the cells of a line between two open ones of one room.
