@@ -121,11 +121,7 @@ fn cells_of(blocks: &Blocks, block: usize) -> impl Iterator<Item = (i64, i64)> +
 }
 
 /// Where the blocks of the site lie that touch what juts out, cells.
-fn middle_of_neighbours(
-    blocks: &Blocks,
-    component: Component<'_>,
-    juts_out: impl Fn(usize) -> bool,
-) -> Option<Point> {
+fn middle_of_neighbours(blocks: &Blocks, component: Component<'_>, juts_out: impl Fn(usize) -> bool) -> Option<Point> {
     let (columns, count) = (blocks.columns, blocks.is_outside.len());
     let beside = |block: usize| {
         let left = (!block.is_multiple_of(columns)).then(|| block - 1);

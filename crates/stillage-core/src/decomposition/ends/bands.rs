@@ -1,9 +1,10 @@
 //! Aisles end where the places along them do.
 //!
-//! A band serves a row along its places only: where it runs on without any it is open floor, and so is what is left of
-//! it beside the aisles of its rows where there is room for more: a row that is missing, or a lane before a row. How
-//! wide an aisle is, the bands with places on both sides tell; on which side the rest lies, the rows of the other
-//! blocks.
+//! A band serves a row along its places only, and on beside what nobody saw: a row ends where it is seen to end. Where a
+//! band runs on without any row it is open floor, and so is what is left of it beside the aisles of its rows where there
+//! is room for more: a row that is missing, or a lane before a row. How wide an aisle is, the bands with places on both
+//! sides tell. On which side the rest lies, the rows of the other blocks do, or else which of its two rows has no other
+//! aisle. A band with room for two aisles and nothing else is two, each as long as its own row.
 //!
 //! Cost: O(bands x places). Limits: a band between a row and a wall is all aisle, up to twice as wide as others.
 
@@ -20,9 +21,14 @@ const OPEN_STRETCH_M: f64 = 1.9;
 const OPEN_END_M: f64 = 0.5;
 /// What is left beside an aisle is open floor from this width on, metres: the depth of a row that is missing.
 const OPEN_STRIP_M: f64 = 1.0;
-/// Where the ground ends that lies beyond the side of a band, metres, and the share of it that must be in the site.
+/// Where the ground ends that lies beyond the side of a band, metres, and the share of it that must be in the site, or
+/// free.
 const BEYOND_M: [f64; 2] = [0.3, 0.8];
 const GROUND_SHARE: f64 = 0.5;
+/// The same behind a row.
+const BEHIND_M: [f64; 2] = [0.3, 1.1];
+/// Two aisles side by side may be so much narrower than two usual ones.
+const TWO_AISLES_SHARE: f64 = 0.85;
 
 /// Cuts the bands where places stop to lie along them.
 pub(super) fn end(frame: &Frame, parcels: Vec<Parcel>) -> Vec<Parcel> {
@@ -43,9 +49,11 @@ pub(super) fn end(frame: &Frame, parcels: Vec<Parcel>) -> Vec<Parcel> {
     let stretches: Vec<Stretch> = bands.iter().flat_map(|band| band.stretches(frame)).collect();
     if let Some(width) = usual_width(&stretches) {
         let aisles = Aisles { width, strip: frame.cells_of(OPEN_STRIP_M), borders: Borders::of(frame, &ended) };
+        let mut parts = Vec::new();
         for stretch in stretches {
-            aisles.cut(stretch, &mut ended);
+            aisles.cut(frame, &ended, stretch, &mut parts);
         }
+        ended.extend(parts);
     } else {
         ended.extend(stretches.into_iter().map(Stretch::whole));
     }
@@ -76,6 +84,12 @@ impl Band {
                 side[start - along.start..end - along.start].fill(true);
             }
         }
+        let beyond = frame.beside(&band.rect, axis, BEYOND_M.map(|metres| frame.cells_of(metres)));
+        for (side, strip) in sides.iter_mut().zip(beyond) {
+            let free = frame.counts(&strip, axis.other(), Cell::is_free);
+            let depth = strip.range(axis.other()).len() as f64;
+            go_on(side, |line| f64::from(free[line]) < GROUND_SHARE * depth);
+        }
         Self { rect: band.rect, axis, sides, reach: 0..0 }
     }
 
@@ -90,20 +104,16 @@ impl Band {
 
     /// The stretches with and without places.
     fn stretches(&self, frame: &Frame) -> Vec<Stretch> {
-        let mut served: Vec<bool> = self.served().collect();
-        if served.contains(&true) {
-            close_gaps(&mut served[self.reach.clone()], frame.cells_of(OPEN_STRETCH_M));
-            close_gaps(&mut served, frame.cells_of(OPEN_END_M));
-        }
+        let served = closed(frame, self.served().collect(), &self.reach);
         let offset = self.rect.range(self.axis).start;
         let mut start = 0;
         let stretch = |run: &[bool]| {
             let range = start..start + run.len();
             start = range.end;
-            let is_front = |side: &Vec<bool>| run[0] && side[range.clone()].contains(&true);
             let rect = self.rect.with(self.axis, offset + range.start..offset + range.end);
-            let fronts = [is_front(&self.sides[0]), is_front(&self.sides[1])];
-            Stretch { walls: walls(frame, &rect, self.axis), rect, axis: self.axis, fronts }
+            let sides = [&self.sides[0], &self.sides[1]].map(|side| side[range.clone()].to_vec());
+            let fronts = [&sides[0], &sides[1]].map(|side| run[0] && side.contains(&true));
+            Stretch { walls: walls(frame, &rect, self.axis), rect, axis: self.axis, sides, fronts }
         };
         served.chunk_by(PartialEq::eq).map(stretch).collect()
     }
@@ -113,6 +123,27 @@ impl Band {
 fn walls(frame: &Frame, rect: &Rect, axis: Axis) -> [bool; 2] {
     let beyond = frame.beside(rect, axis, BEYOND_M.map(|metres| frame.cells_of(metres)));
     beyond.map(|strip| frame.share(&strip, Cell::is_inside) < GROUND_SHARE)
+}
+
+/// Lets places go on over the lines before the first and behind the last one for which `is_unseen` holds.
+fn go_on(served: &mut [bool], is_unseen: impl Fn(usize) -> bool) {
+    let (Some(first), Some(last)) = (served.iter().position(|&here| here), served.iter().rposition(|&here| here))
+    else {
+        return;
+    };
+    let before = (0..first).rev().take_while(|&line| is_unseen(line)).count();
+    let behind = (last + 1..served.len()).take_while(|&line| is_unseen(line)).count();
+    served[first - before..first].fill(true);
+    served[last + 1..last + 1 + behind].fill(true);
+}
+
+/// Lines with places, and the empty places between and beside them.
+fn closed(frame: &Frame, mut served: Vec<bool>, reach: &Range<usize>) -> Vec<bool> {
+    if served.contains(&true) {
+        close_gaps(&mut served[reach.clone()], frame.cells_of(OPEN_STRETCH_M));
+        close_gaps(&mut served, frame.cells_of(OPEN_END_M));
+    }
+    served
 }
 
 /// Closes the stretches without places that are shorter than `least`.
@@ -134,6 +165,8 @@ fn close_gaps(served: &mut [bool], least: usize) {
 struct Stretch {
     rect: Rect,
     axis: Axis,
+    /// The same by line.
+    sides: [Vec<bool>; 2],
     fronts: [bool; 2],
     walls: [bool; 2],
 }
@@ -147,10 +180,96 @@ impl Stretch {
         Parcel::new(self.rect.with(self.axis.other(), across), kind, Some(self.axis))
     }
 
+    /// One aisle, and open floor on both sides of it.
+    fn one_aisle(&self, aisle: Range<usize>, parcels: &mut Vec<Parcel>) {
+        let across = self.across();
+        for floor in [across.start..aisle.start, aisle.end..across.end] {
+            if !floor.is_empty() {
+                parcels.push(self.part(floor, PlotKind::Lane));
+            }
+        }
+        parcels.push(self.part(aisle, PlotKind::Aisle));
+    }
+
+    /// The aisle of the row on one side, as long as the row.
+    fn aisle(&self, frame: &Frame, across: Range<usize>, side: usize, parcels: &mut Vec<Parcel>) {
+        let served = self.sides[side].clone();
+        let reach = 0..served.iter().rposition(|&here| here).map_or(0, |last| last + 1);
+        let reach = served.iter().position(|&here| here).unwrap_or(reach.end)..reach.end;
+        let mut start = self.rect.range(self.axis).start;
+        for run in closed(frame, served, &reach).chunk_by(PartialEq::eq) {
+            let part = self.part(across.clone(), if run[0] { PlotKind::Aisle } else { PlotKind::Lane });
+            let along = start..start + run.len();
+            start = along.end;
+            parcels.push(Parcel { rect: part.rect.with(self.axis, along), ..part });
+        }
+    }
+
+    /// How much the rows at the low and the high side need an aisle here: most with no way to their other side, less with
+    /// more rows there, least with open floor.
+    fn needs(&self, frame: &Frame, rows: &[Parcel]) -> [Need; 2] {
+        let contact = frame.cells_of(CONTACT_M);
+        let (along, across) = (self.rect.range(self.axis), self.across());
+        let meets = |place: &Rect| {
+            let (beside, depth) = (place.range(self.axis), place.range(self.axis.other()));
+            let is_beside = beside.start < along.end && along.start < beside.end;
+            [depth.end.abs_diff(across.start), depth.start.abs_diff(across.end)]
+                .map(|distance| is_beside && distance <= contact)
+        };
+        let mut lengths = [[0; 3]; 2];
+        let is_place = |one: &&Parcel| one.kind == PlotKind::Place && one.axis == Some(self.axis);
+        for place in rows.iter().filter(is_place) {
+            let behind = frame.beside(&place.rect, self.axis, BEHIND_M.map(|metres| frame.cells_of(metres)));
+            for ((is_front, behind), lengths) in meets(&place.rect).into_iter().zip(&behind).zip(&mut lengths) {
+                if is_front {
+                    lengths[Need::of(frame, behind, rows) as usize] += place.rect.range(self.axis).len();
+                }
+            }
+        }
+        lengths.map(|[none, some, all]| {
+            if all >= none + some {
+                Need::All
+            } else if none >= some {
+                Need::None
+            } else {
+                Need::Some
+            }
+        })
+    }
+
     /// All of it is what places along it say.
     fn whole(self) -> Parcel {
         let kind = if self.fronts == [false; 2] { PlotKind::Lane } else { PlotKind::Aisle };
         self.part(self.across(), kind)
+    }
+}
+
+/// How much a row needs the aisle on one of its sides.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Need {
+    /// Its other side is open floor.
+    None,
+    /// Other rows stand behind it.
+    Some,
+    /// Nothing leads to its other side.
+    All,
+}
+
+impl Need {
+    /// By what lies behind a place.
+    fn of(frame: &Frame, behind: &Rect, rows: &[Parcel]) -> Self {
+        let touches = |one: &Range<usize>, other: &Range<usize>| one.start < other.end && other.start < one.end;
+        let is_there = |place: &Parcel| {
+            place.kind == PlotKind::Place
+                && Axis::BOTH.iter().all(|&axis| touches(place.rect.range(axis), behind.range(axis)))
+        };
+        if rows.iter().any(is_there) {
+            Self::Some
+        } else if frame.share(behind, Cell::is_drivable) >= GROUND_SHARE {
+            Self::None
+        } else {
+            Self::All
+        }
     }
 }
 
@@ -206,39 +325,48 @@ struct Aisles {
 
 impl Aisles {
     /// Cuts what lies beyond the reach of the aisles off a stretch.
-    fn cut(&self, stretch: Stretch, parcels: &mut Vec<Parcel>) {
+    fn cut(&self, frame: &Frame, rows: &[Parcel], stretch: Stretch, parcels: &mut Vec<Parcel>) {
         let across = stretch.across();
-        let Some(floor) = self.floor(&stretch).filter(|floor| !floor.is_empty()) else {
-            parcels.push(stretch.whole());
-            return;
-        };
-        for aisle in [across.start..floor.start, floor.end..across.end] {
-            if !aisle.is_empty() {
-                parcels.push(stretch.part(aisle, PlotKind::Aisle));
+        let (start, end, width) = (across.start, across.end, self.width);
+        let has_room = |aisles: usize, more: usize| across.len() >= aisles * width + more;
+        let is_two = across.len() as f64 >= 2.0 * TWO_AISLES_SHARE * width as f64;
+        let room_before_wall = |is_wall: bool| if is_wall { width } else { self.strip };
+        match stretch.fronts {
+            [true, true] if has_room(2, self.strip) => {
+                stretch.aisle(frame, start..start + width, 0, parcels);
+                parcels.push(stretch.part(start + width..end - width, PlotKind::Lane));
+                stretch.aisle(frame, end - width..end, 1, parcels);
             }
+            [true, true] if has_room(1, self.strip) => match self.only_aisle(frame, rows, &stretch) {
+                Some(aisle) => stretch.one_aisle(aisle, parcels),
+                None if is_two => {
+                    let middle = start.midpoint(end);
+                    stretch.aisle(frame, start..middle, 0, parcels);
+                    stretch.aisle(frame, middle..end, 1, parcels);
+                }
+                None => parcels.push(stretch.whole()),
+            },
+            [true, false] if has_room(1, room_before_wall(stretch.walls[1])) => {
+                stretch.one_aisle(start..start + width, parcels);
+            }
+            [false, true] if has_room(1, room_before_wall(stretch.walls[0])) => {
+                stretch.one_aisle(end - width..end, parcels);
+            }
+            _ => parcels.push(stretch.whole()),
         }
-        parcels.push(stretch.part(floor, PlotKind::Lane));
     }
 
-    /// The part of a stretch that no aisle needs.
-    fn floor(&self, stretch: &Stretch) -> Option<Range<usize>> {
+    /// Where the only aisle of a stretch with places on both sides lies, if anything tells.
+    fn only_aisle(&self, frame: &Frame, rows: &[Parcel], stretch: &Stretch) -> Option<Range<usize>> {
         let across = stretch.across();
-        let has_room = |aisles: usize, more: usize| across.len() >= aisles * self.width + more;
-        match stretch.fronts {
-            [true, true] if has_room(2, self.strip) => Some(across.start + self.width..across.end - self.width),
-            [true, true] if has_room(1, self.strip) => {
-                let floors = [across.start..across.end - self.width, across.start + self.width..across.end];
-                let [low, high] = [floors[0].end, floors[1].start].map(|line| self.borders.at(stretch.axis, line));
-                let [below, above] = floors;
-                (low != high).then_some(if low > high { below } else { above })
-            }
-            [true, false] if has_room(1, if stretch.walls[1] { self.width } else { self.strip }) => {
-                Some(across.start + self.width..across.end)
-            }
-            [false, true] if has_room(1, if stretch.walls[0] { self.width } else { self.strip }) => {
-                Some(across.start..across.end - self.width)
-            }
-            _ => None,
+        let [low, high] = [across.start..across.start + self.width, across.end - self.width..across.end];
+        let [beside_low, beside_high] = [low.end, high.start].map(|line| self.borders.at(stretch.axis, line));
+        let needs = stretch.needs(frame, rows);
+        let is_low = (beside_low, needs[0]).cmp(&(beside_high, needs[1]));
+        match is_low {
+            std::cmp::Ordering::Greater => Some(low),
+            std::cmp::Ordering::Less => Some(high),
+            std::cmp::Ordering::Equal => None,
         }
     }
 }
