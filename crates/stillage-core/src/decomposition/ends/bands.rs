@@ -88,7 +88,7 @@ impl Band {
         for (side, strip) in sides.iter_mut().zip(beyond) {
             let free = frame.counts(&strip, axis.other(), Cell::is_free);
             let depth = strip.range(axis.other()).len() as f64;
-            go_on(side, |line| f64::from(free[line]) < GROUND_SHARE * depth);
+            go_on(side, |line| f64::from(free[line]) >= GROUND_SHARE * depth, frame.cells_of(OPEN_END_M));
         }
         Self { rect: band.rect, axis, sides, reach: 0..0 }
     }
@@ -125,14 +125,25 @@ fn walls(frame: &Frame, rect: &Rect, axis: Axis) -> [bool; 2] {
     beyond.map(|strip| frame.share(&strip, Cell::is_inside) < GROUND_SHARE)
 }
 
-/// Lets places go on over the lines before the first and behind the last one for which `is_unseen` holds.
-fn go_on(served: &mut [bool], is_unseen: impl Fn(usize) -> bool) {
+/// Lets places go on before the first and behind the last one as far as no stretch of `least` lines was seen free.
+fn go_on(served: &mut [bool], is_free: impl Fn(usize) -> bool, least: usize) {
     let (Some(first), Some(last)) = (served.iter().position(|&here| here), served.iter().rposition(|&here| here))
     else {
         return;
     };
-    let before = (0..first).rev().take_while(|&line| is_unseen(line)).count();
-    let behind = (last + 1..served.len()).take_while(|&line| is_unseen(line)).count();
+    let unseen = |lines: &mut dyn Iterator<Item = usize>| {
+        let (mut end, mut free) = (0, 0);
+        for (count, line) in lines.enumerate() {
+            free = if is_free(line) { free + 1 } else { 0 };
+            if free >= least {
+                break;
+            }
+            end = if free == 0 { count + 1 } else { end };
+        }
+        end
+    };
+    let before = unseen(&mut (0..first).rev());
+    let behind = unseen(&mut (last + 1..served.len()));
     served[first - before..first].fill(true);
     served[last + 1..last + 1 + behind].fill(true);
 }
@@ -216,14 +227,13 @@ impl Stretch {
             [depth.end.abs_diff(across.start), depth.start.abs_diff(across.end)]
                 .map(|distance| is_beside && distance <= contact)
         };
-        let mut lengths = [[0; 3]; 2];
         let is_place = |one: &&Parcel| one.kind == PlotKind::Place && one.axis == Some(self.axis);
-        for place in rows.iter().filter(is_place) {
-            let behind = frame.beside(&place.rect, self.axis, BEHIND_M.map(|metres| frame.cells_of(metres)));
-            for ((is_front, behind), lengths) in meets(&place.rect).into_iter().zip(&behind).zip(&mut lengths) {
-                if is_front {
-                    lengths[Need::of(frame, behind, rows) as usize] += place.rect.range(self.axis).len();
-                }
+        let places: Vec<&Rect> = rows.iter().filter(is_place).map(|place| &place.rect).collect();
+        let mut lengths = [[0; 3]; 2];
+        for place in &places {
+            for side in (0..2).filter(|&side| meets(place)[side]) {
+                let need = Need::of(frame, place, self.axis, side, &places);
+                lengths[side][need as usize] += place.range(self.axis).len();
             }
         }
         lengths.map(|[none, some, all]| {
@@ -256,20 +266,22 @@ enum Need {
 }
 
 impl Need {
-    /// By what lies behind a place.
-    fn of(frame: &Frame, behind: &Rect, rows: &[Parcel]) -> Self {
-        let touches = |one: &Range<usize>, other: &Range<usize>| one.start < other.end && other.start < one.end;
-        let is_there = |place: &Parcel| {
-            place.kind == PlotKind::Place
-                && Axis::BOTH.iter().all(|&axis| touches(place.rect.range(axis), behind.range(axis)))
+    /// By what lies behind a place at the low or high side of a band, and behind the places there.
+    fn of(frame: &Frame, place: &Rect, axis: Axis, side: usize, places: &[&Rect]) -> Self {
+        let beside = |rect: &Rect| {
+            let [low, high] = frame.beside(rect, axis, BEHIND_M.map(|metres| frame.cells_of(metres)));
+            if side == 0 { low } else { high }
         };
-        if rows.iter().any(is_there) {
-            Self::Some
-        } else if frame.share(behind, Cell::is_drivable) >= GROUND_SHARE {
-            Self::None
-        } else {
-            Self::All
+        let touches = |one: &Range<usize>, other: &Range<usize>| one.start < other.end && other.start < one.end;
+        let holds =
+            |strip: &Rect, place: &Rect| Axis::BOTH.iter().all(|&axis| touches(place.range(axis), strip.range(axis)));
+        let mut behind = beside(place);
+        let mut need = Self::None;
+        // The strips only ever move away from the band.
+        while let Some(next) = places.iter().find(|place| holds(&behind, place)) {
+            (behind, need) = (beside(next), Self::Some);
         }
+        if frame.share(&behind, Cell::is_drivable) >= GROUND_SHARE { need } else { Self::All }
     }
 }
 
@@ -278,11 +290,11 @@ fn usual_width(stretches: &[Stretch]) -> Option<usize> {
     let size = |stretch: &Stretch| (stretch.across().len(), stretch.rect.range(stretch.axis).len());
     let mut sizes: Vec<(usize, usize)> = stretches.iter().filter(|of| of.fronts == [true; 2]).map(size).collect();
     sizes.sort_unstable();
-    let half = sizes.iter().map(|(_, length)| length).sum::<usize>() / 2;
+    let whole: usize = sizes.iter().map(|(_, length)| length).sum();
     let mut passed = 0;
     let middle = sizes.iter().find(|(_, length)| {
         passed += length;
-        passed > half
+        2 * passed >= whole
     });
     middle.map(|&(width, _)| width)
 }
