@@ -6,14 +6,16 @@
 
 use std::f64::consts::PI;
 
-use crate::geometry::{Point, fold_half_turn};
+use crate::geometry::{Point, Vector, fold_half_turn};
 
 /// Sizes closer than this share are equal: what is left after rounding.
 const SAME: f64 = 1e-9;
 
-/// Size and direction of the smallest box around points.
+/// Place, size and direction of the smallest box around points.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct SmallestBox {
+    /// Its middle, metres.
+    pub center: Point,
     /// Long and short side, metres.
     pub extent: [f64; 2],
     /// Direction of the long side, radians in `[-pi/2, pi/2)`.
@@ -35,19 +37,21 @@ impl SmallestBox {
                 last = last.max(along.dot(&offset));
                 depth = depth.max(along.perp(&offset));
             }
-            let candidate = Self::with_sides(last - first, depth, along.y.atan2(along.x));
+            let center = start + along * f64::midpoint(first, last) + Vector::new(-along.y, along.x) * (depth / 2.0);
+            let candidate = Self::with_sides(center, last - first, depth, along.y.atan2(along.x));
             if best.is_none_or(|best| candidate.is_better_than(&best)) {
                 best = Some(candidate);
             }
         }
-        best.unwrap_or(Self { extent: [0.0; 2], heading: 0.0 })
+        let center = points.first().copied().unwrap_or_else(Point::origin);
+        best.unwrap_or(Self { center, extent: [0.0; 2], heading: 0.0 })
     }
 
-    fn with_sides(width: f64, depth: f64, angle: f64) -> Self {
+    fn with_sides(center: Point, width: f64, depth: f64, angle: f64) -> Self {
         let (along, across) = (fold_half_turn(angle), fold_half_turn(angle + PI / 2.0));
         let along_is_long = if differ(width, depth) { width > depth } else { along.abs() <= across.abs() };
         let heading = if along_is_long { along } else { across };
-        Self { extent: [width.max(depth), width.min(depth)], heading }
+        Self { center, extent: [width.max(depth), width.min(depth)], heading }
     }
 
     fn is_better_than(&self, other: &Self) -> bool {
@@ -112,8 +116,11 @@ mod tests {
     fn a_turned_rectangle_is_its_own_box() {
         for angle in [-1.5, -0.4, 0.0, 0.3, 1.2] {
             for (width, depth) in [(6.0, 1.5), (1.5, 6.0)] {
-                let found = SmallestBox::around(&rectangle(width, depth, angle));
+                let corners = rectangle(width, depth, angle);
+                let found = SmallestBox::around(&corners);
                 let along = if width > depth { angle } else { angle + PI / 2.0 };
+                let middle = nalgebra::center(&corners[0], &corners[2]);
+                assert!((found.center - middle).norm() < 1e-9);
                 assert!((found.extent[0] - 6.0).abs() < 1e-9 && (found.extent[1] - 1.5).abs() < 1e-9);
                 assert!(crate::geometry::line_angle_between(found.heading, along) < 1e-9);
                 assert!((found.elongation() - 4.0).abs() < 1e-9);

@@ -21,9 +21,10 @@ pub(super) fn kinds(
     rooms: &[Option<u32>],
 ) -> Vec<Option<PlotKind>> {
     let index = PlotIndex::new(plots);
+    // On a site of rooms alone, some rooms are corridors.
+    let has_rows = plots.iter().any(|plot| plot.kind != PlotKind::Place);
     let kind = |face: u32| {
-        // A site of rooms alone was cut out for nothing: some of its rooms are corridors.
-        if !plots.is_empty() && rooms.get(face as usize).copied().flatten().is_some() {
+        if has_rows && rooms.get(face as usize).copied().flatten().is_some() {
             return Some(PlotKind::Room);
         }
         let annotation = &faces[face as usize];

@@ -26,7 +26,7 @@ pub struct SourceSegment {
 
 /// The segments of a decomposition: the boundaries of the regions and the stretches of the lines within their regions.
 ///
-/// `rooms` holds the room of every cell, 0 for none; it is empty where there are no rooms.
+/// `rooms` holds the room, or the stack in a room, of every cell, 0 for none; it is empty where there are no rooms.
 /// Lines of a region that are shorter than a cell are left out.
 #[must_use]
 pub fn source_segments(grid: &OccupancyGrid, regions: &RegionMap, lines: &[Line], rooms: &[u32]) -> Vec<SourceSegment> {

@@ -190,7 +190,7 @@ impl Flood<'_> {
         let near = place(self.clearance.cell[cell] as usize);
         let far = self.far_end(middle, near, FAR_END_FACTOR * half + 2.0)?;
         let is_stack =
-            |[column, row]: [i64; 2]| self.ground.stacks[row as usize * self.ground.width + column as usize] != 0;
+            |[column, row]: [i64; 2]| self.ground.is_stack[row as usize * self.ground.width + column as usize];
         if is_stack(near) && is_stack(far) {
             return None;
         }

@@ -6,20 +6,14 @@
 //! as thick as goods is a *stack*: shelves and piles of goods, which are no walls either, but keep their own ground.
 //! Cost: O(cells).
 
-use crate::components::{Component, Components, Neighbours};
-use crate::geometry::Point;
+use super::stacks;
+use crate::components::{Components, Neighbours};
 use crate::grid::{Occupancy, OccupancyGrid};
-use crate::smallest_box::SmallestBox;
 use crate::watch::{Stopped, Watch};
 
 /// Obstacles up to this diagonal that stand alone are furniture, metres: a chair has 0.7, a bin 0.4; a piece of wall
 /// between two doors is longer.
 const FURNITURE_M: f64 = 1.0;
-
-/// Stacks are as thick as this at least, metres: walls are thinner, shelves of a shop have 0.5.
-const STACK_M: f64 = 0.4;
-/// Share of the smallest box around a stack that it fills; walls around a corner fill less.
-const STACK_FILL: f64 = 0.6;
 
 /// Which cells are ground.
 pub(super) struct Ground {
@@ -29,8 +23,8 @@ pub(super) struct Ground {
     pub cell: f64,
     /// Row-major. No cell of the border is ground, so that every cell of the ground has eight neighbours.
     pub is_free: Vec<bool>,
-    /// Number of the stack that a cell belongs to, from 1; 0 for none.
-    pub stacks: Vec<u32>,
+    /// Whether a cell belongs to a stack that stands alone.
+    pub is_stack: Vec<bool>,
 }
 
 impl Ground {
@@ -42,8 +36,8 @@ impl Ground {
         };
         let cells = grid.cells().iter().enumerate();
         let is_free = cells.map(|(cell, &occupancy)| occupancy == Occupancy::Free && !on_border(cell)).collect();
-        let stacks = vec![0; width * height];
-        let mut ground = Self { width, height, cell: grid.resolution(), is_free, stacks };
+        let is_stack = vec![false; width * height];
+        let mut ground = Self { width, height, cell: grid.resolution(), is_free, is_stack };
         ground.tell_obstacles_apart(watch)?;
         Ok(ground)
     }
@@ -66,11 +60,10 @@ impl Ground {
         [below - 1, below, below + 1, cell - 1, cell + 1, above - 1, above, above + 1]
     }
 
-    /// Turns small obstacles that touch no other into ground, and numbers larger ones that are stacks.
+    /// Turns small obstacles that touch no other into ground, and marks larger ones that are stacks.
     fn tell_obstacles_apart(&mut self, watch: &Watch<'_>) -> Result<(), Stopped> {
         let size = [self.width, self.is_free.len()];
         let obstacles = Components::of(size, Neighbours::Eight, |cell| !self.is_free[cell], watch)?;
-        let mut stacks = 0;
         for obstacle in obstacles.iter() {
             let [columns, rows] = obstacle.bounds();
             if columns.start == 0 || rows.start == 0 || columns.end == self.width || rows.end == self.height {
@@ -78,26 +71,10 @@ impl Ground {
             }
             if obstacle.diagonal() * self.cell < FURNITURE_M {
                 obstacle.cells().for_each(|cell| self.is_free[cell] = true);
-            } else if is_stack(obstacle, self.cell) {
-                stacks += 1;
-                obstacle.cells().for_each(|cell| self.stacks[cell] = stacks);
+            } else if stacks::footprint(obstacle, obstacle.len(), self.cell).is_some() {
+                obstacle.cells().for_each(|cell| self.is_stack[cell] = true);
             }
         }
         Ok(())
     }
-}
-
-/// Whether an obstacle of cells of some side is as thick and as full as goods.
-fn is_stack(obstacle: Component<'_>, cell: f64) -> bool {
-    let area = obstacle.len() as f64 * cell * cell;
-    if area < STACK_FILL * STACK_M * STACK_M {
-        return false;
-    }
-    let corners = obstacle.runs().iter().flat_map(|run| {
-        let [left, right] = [run.columns.start, run.columns.end].map(f64::from);
-        let [low, high] = [f64::from(run.row), f64::from(run.row) + 1.0];
-        [(left, low), (right, low), (left, high), (right, high)].map(|(x, y)| Point::new(x, y) * cell)
-    });
-    let [long, short] = SmallestBox::around(&corners.collect::<Vec<_>>()).extent;
-    short >= STACK_M && area >= STACK_FILL * long * short
 }

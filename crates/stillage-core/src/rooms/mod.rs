@@ -8,7 +8,8 @@
 //! Racks repeat, walls do not: where no rows of places are found, a site is made of rooms. Necks of the ground with
 //! walls at their ends are closed ([`flood`]), what is left are the rooms ([`partition`]), and their borders, straightened,
 //! are the lines of the subdivision ([`outline`]), so every room is a union of faces. What juts out of a hall behind a gate
-//! is a room as well ([`bays`]). [`mod@plan`] says which ground is rooms and which is rows.
+//! is a room as well ([`bays`]); goods that stand in rooms keep their own ground ([`stacks`]). [`mod@plan`] says which
+//! ground is rooms and which is rows.
 //!
 //! Cost: O(cells log cells). Limits: openings as wide as the room behind them part nothing.
 
@@ -20,6 +21,7 @@ mod nearest;
 mod outline;
 mod partition;
 mod plan;
+mod stacks;
 
 #[cfg(test)]
 mod tests;
@@ -38,7 +40,8 @@ pub use plan::{SitePlan, plan};
 pub struct Rooms {
     /// Number of rooms.
     pub count: usize,
-    /// Room of each cell, row-major: 1 to `count`, 0 for none. Empty without rooms.
+    /// Room of each cell, row-major: 1 to `count`, larger numbers for the stacks that stand in them, 0 for neither. Empty
+    /// without rooms.
     pub cells: Vec<u32>,
     /// Lines across the passages between two rooms, or a room and a hall; metres of the grid frame.
     pub passages: Vec<[Point; 2]>,
@@ -110,7 +113,7 @@ impl Rooms {
         let mut numbers = vec![None; self.count + 1];
         let mut next = 0;
         let number = |room: u32| {
-            if room == 0 {
+            if room == 0 || room as usize > self.count {
                 return None;
             }
             let number = numbers[room as usize].get_or_insert_with(|| {

@@ -45,7 +45,7 @@ impl Partition {
         let reach = ground.cells_of(WALL_SHARE_M) as u32;
         let shared: Vec<u32> = (0..rooms.len())
             .map(|cell| match nearest.cell[cell] {
-                near if near != NONE && nearest.squared[cell] <= reach * reach && ground.stacks[cell] == 0 => {
+                near if near != NONE && nearest.squared[cell] <= reach * reach && !ground.is_stack[cell] => {
                     rooms[near as usize]
                 }
                 _ => 0,

@@ -13,9 +13,10 @@ use super::flood::{self, Passage};
 use super::ground::Ground;
 use super::outline;
 use super::partition::Partition;
-use crate::decomposition::{self, Decomposition, PlotKind};
+use super::stacks::Stacks;
+use crate::decomposition::{self, Decomposition, Plot, PlotKind};
 use crate::disjoint_sets::DisjointSets;
-use crate::geometry::{Point, direction, fold_half_turn, normal};
+use crate::geometry::{OrientedBox, Point, direction, fold_half_turn, normal};
 use crate::grid::{Occupancy, OccupancyGrid};
 use crate::radiography::Line;
 use crate::segmentation::RegionMap;
@@ -35,8 +36,8 @@ const PLACES_SHARE: f64 = 0.06;
 pub struct SitePlan {
     /// Lines of rows and borders of rooms; the latter belong to no region and run wherever they run.
     pub lines: Vec<Line>,
-    /// The parcels of rows.
-    pub plots: Vec<decomposition::Plot>,
+    /// The parcels of rows, and the stacks in rooms.
+    pub plots: Vec<Plot>,
     /// The rooms.
     pub rooms: Rooms,
 }
@@ -78,10 +79,28 @@ pub fn plan(
     if rooms.count == 0 {
         return Ok(SitePlan { lines: rows.lines, plots: rows.plots, rooms });
     }
-    let borders = outline::segments(&with_stacks(&rooms, &ground, &partition), ground.width, ground.cell);
-    let Decomposition { mut lines, plots } = rows;
+    let Decomposition { mut lines, mut plots } = rows;
+    let stands_alone = |cell: usize| ground.is_stack[cell] && rooms.cells[partition.nearest[cell] as usize] != 0;
+    let stacks = Stacks::find(grid, &rooms.cells, stands_alone, main_direction(regions), watch)?;
+    plots.extend(stacks.footprints.iter().map(|&bounds| plot(grid, regions, bounds)));
+    for (room, stack) in rooms.cells.iter_mut().zip(stacks.cells).filter(|&(_, stack)| stack != 0) {
+        *room = rooms.count as u32 + stack;
+    }
+    let borders = outline::segments(&rooms.cells, ground.width, ground.cell);
     lines.extend(borders.into_iter().map(|ends| line(grid, ends)));
     Ok(SitePlan { lines, plots, rooms })
+}
+
+/// The first direction of the largest region, radians.
+fn main_direction(regions: &RegionMap) -> f64 {
+    let largest = regions.regions.iter().max_by(|one, other| one.share.total_cmp(&other.share));
+    largest.and_then(|region| region.orientations.first().copied()).unwrap_or(0.0)
+}
+
+/// The ground of a stack: one place, or a block of them.
+fn plot(grid: &OccupancyGrid, regions: &RegionMap, bounds: OrientedBox) -> Plot {
+    let region = grid.cell_at(bounds.center).and_then(|(column, row)| regions.region_of_cell(column, row));
+    Plot { bounds, kind: PlotKind::Place, region: region.unwrap_or(RegionMap::NONE) }
 }
 
 /// The rooms on both sides of the middle of a passage, 0 where there is none.
@@ -194,16 +213,6 @@ impl Cuts<'_> {
             passages: openings.map(|passage| passage.ends.map(point)).collect(),
         }
     }
-}
-
-/// The rooms and the stacks that stand in them, each with a number of its own.
-fn with_stacks(rooms: &Rooms, ground: &Ground, partition: &Partition) -> Vec<u32> {
-    let stack = |cell: usize| match ground.stacks[cell] {
-        0 => 0,
-        _ if rooms.cells[partition.nearest[cell] as usize] == 0 => 0,
-        stack => rooms.count as u32 + stack,
-    };
-    rooms.cells.iter().enumerate().map(|(cell, &room)| if room == 0 { stack(cell) } else { room }).collect()
 }
 
 /// A grid on which nobody has seen the rooms.

@@ -8,6 +8,7 @@
 //!
 //! Cost: O(bands x places). Limits: a band between a row and a wall is all aisle, up to twice as wide as others.
 
+use std::cmp::Ordering;
 use std::ops::Range;
 
 use super::super::frame::{Axis, Cell, Frame, Rect};
@@ -349,8 +350,9 @@ impl Aisles {
                 parcels.push(stretch.part(start + width..end - width, PlotKind::Lane));
                 stretch.aisle(frame, end - width..end, 1, parcels);
             }
-            [true, true] if has_room(1, self.strip) => match self.only_aisle(frame, rows, &stretch) {
-                Some(aisle) => stretch.one_aisle(aisle, parcels),
+            [true, true] if has_room(1, self.strip) => match self.only_side(frame, rows, &stretch) {
+                Some(0) => stretch.one_aisle(start..start + width, parcels),
+                Some(_) => stretch.one_aisle(end - width..end, parcels),
                 None if is_two => {
                     let middle = start.midpoint(end);
                     stretch.aisle(frame, start..middle, 0, parcels);
@@ -368,17 +370,221 @@ impl Aisles {
         }
     }
 
-    /// Where the only aisle of a stretch with places on both sides lies, if anything tells.
-    fn only_aisle(&self, frame: &Frame, rows: &[Parcel], stretch: &Stretch) -> Option<Range<usize>> {
+    /// On which side the only aisle of a stretch with places on both sides lies, if anything tells.
+    fn only_side(&self, frame: &Frame, rows: &[Parcel], stretch: &Stretch) -> Option<usize> {
         let across = stretch.across();
-        let [low, high] = [across.start..across.start + self.width, across.end - self.width..across.end];
-        let [beside_low, beside_high] = [low.end, high.start].map(|line| self.borders.at(stretch.axis, line));
+        let far_sides = [across.start + self.width, across.end - self.width];
+        let [beside_low, beside_high] = far_sides.map(|line| self.borders.at(stretch.axis, line));
         let needs = stretch.needs(frame, rows);
-        let is_low = (beside_low, needs[0]).cmp(&(beside_high, needs[1]));
-        match is_low {
-            std::cmp::Ordering::Greater => Some(low),
-            std::cmp::Ordering::Less => Some(high),
-            std::cmp::Ordering::Equal => None,
+        match (beside_low, needs[0]).cmp(&(beside_high, needs[1])) {
+            Ordering::Greater => Some(0),
+            Ordering::Less => Some(1),
+            Ordering::Equal => None,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::{Expect, expect};
+
+    use super::*;
+    use crate::decomposition::drivable;
+    use crate::watch::Watch;
+
+    /// Cells of 0.05 m along the side of a character: half a metre.
+    const CHARACTER: usize = 10;
+
+    /// Ends the bands of a picture: `p` are places of two by two characters, lines without any are bands. Aisles are
+    /// drawn as `a`, open floor as `-`.
+    fn check(picture: &str, expected: &Expect) {
+        let lines: Vec<&str> = picture.split_whitespace().collect();
+        let wide = |line: &&str| {
+            let symbols = line.replace('p', "#").chars().flat_map(|symbol| [symbol; CHARACTER]).collect::<String>();
+            (symbols + "\n").repeat(CHARACTER)
+        };
+        let (mut frame, whole) = Frame::of_picture(&lines.iter().map(wide).collect::<String>(), 0.05);
+        let vehicle = frame.cells_of(1.0);
+        drivable::mark(&mut frame, vehicle, &Watch::unwatched()).expect("nobody stops it");
+        let rect = |columns: Range<usize>, rows: Range<usize>| {
+            let (u, v) = (&whole.u, &whole.v);
+            let high = |row: usize| v.end - CHARACTER * row;
+            Rect {
+                u: u.start + CHARACTER * columns.start..u.start + CHARACTER * columns.end,
+                v: high(rows.end)..high(rows.start),
+            }
+        };
+        let mut parcels = Vec::new();
+        let mut row = 0;
+        for lines in lines.chunk_by(|one, next| one.contains('p') == next.contains('p')) {
+            let rows = row..row + lines.len();
+            row = rows.end;
+            if !lines[0].contains('p') {
+                let kind = PlotKind::Aisle;
+                parcels.push(Parcel::new(rect(0..lines[0].len(), rows), kind, Some(Axis::U)));
+                continue;
+            }
+            for (layer, line) in lines.iter().enumerate().step_by(2) {
+                for (column, _) in line.match_indices("pp") {
+                    let place = rect(column..column + 2, rows.start + layer..rows.start + layer + 2);
+                    parcels.push(Parcel::new(place, PlotKind::Place, Some(Axis::U)));
+                }
+            }
+        }
+        let mut drawn: Vec<Vec<char>> = lines.iter().map(|line| line.chars().collect()).collect();
+        for band in end(&frame, parcels).iter().filter(|one| one.kind != PlotKind::Place) {
+            let symbol = if band.kind == PlotKind::Aisle { 'a' } else { '-' };
+            for row in (whole.v.end - band.rect.v.end) / CHARACTER..(whole.v.end - band.rect.v.start) / CHARACTER {
+                for column in
+                    (band.rect.u.start - whole.u.start) / CHARACTER..(band.rect.u.end - whole.u.start) / CHARACTER
+                {
+                    drawn[row][column] = symbol;
+                }
+            }
+        }
+        let text: String = drawn.into_iter().map(|line| line.into_iter().chain(['\n']).collect::<String>()).collect();
+        expected.assert_eq(&text);
+    }
+
+    #[test]
+    fn an_aisle_ends_with_its_rows_and_goes_on_beside_what_nobody_saw() {
+        check(
+            "
+            ....pppppppp????
+            ....pppppppp????
+            ................
+            ................
+            ................
+            ................
+            ....pppppppp????
+            ....pppppppp????
+            ",
+            &expect![[r#"
+                ....pppppppp????
+                ....pppppppp????
+                ----aaaaaaaaaaaa
+                ----aaaaaaaaaaaa
+                ----aaaaaaaaaaaa
+                ----aaaaaaaaaaaa
+                ....pppppppp????
+                ....pppppppp????
+            "#]],
+        );
+    }
+
+    #[test]
+    fn two_aisles_side_by_side_are_as_long_as_their_rows() {
+        check(
+            "
+            ................
+            ................
+            ................
+            ................
+            ....pppppppp....
+            ....pppppppp....
+            ....pppppppp....
+            ....pppppppp....
+            ................
+            ................
+            ................
+            ................
+            ................
+            ................
+            ................
+            ................
+            ....pppppppppppp
+            ....pppppppppppp
+            ....pppppppppppp
+            ....pppppppppppp
+            ................
+            ................
+            ................
+            ................
+            ....pppppppppppp
+            ....pppppppppppp
+            ................
+            ................
+            ................
+            ................
+            ....pppppppppppp
+            ....pppppppppppp
+            ",
+            &expect![[r#"
+                ----aaaaaaaa----
+                ----aaaaaaaa----
+                ----aaaaaaaa----
+                ----aaaaaaaa----
+                ....pppppppp....
+                ....pppppppp....
+                ....pppppppp....
+                ....pppppppp....
+                ----aaaaaaaa----
+                ----aaaaaaaa----
+                ----aaaaaaaa----
+                ----aaaaaaaa----
+                ----aaaaaaaaaaaa
+                ----aaaaaaaaaaaa
+                ----aaaaaaaaaaaa
+                ----aaaaaaaaaaaa
+                ....pppppppppppp
+                ....pppppppppppp
+                ....pppppppppppp
+                ....pppppppppppp
+                ----aaaaaaaaaaaa
+                ----aaaaaaaaaaaa
+                ----aaaaaaaaaaaa
+                ----aaaaaaaaaaaa
+                ....pppppppppppp
+                ....pppppppppppp
+                ----aaaaaaaaaaaa
+                ----aaaaaaaaaaaa
+                ----aaaaaaaaaaaa
+                ----aaaaaaaaaaaa
+                ....pppppppppppp
+                ....pppppppppppp
+            "#]],
+        );
+    }
+
+    #[test]
+    fn the_only_aisle_lies_before_the_row_that_has_no_other() {
+        check(
+            "
+            ....pppppppppppp
+            ....pppppppppppp
+            ................
+            ................
+            ................
+            ................
+            ................
+            ................
+            ....pppppppppppp
+            ....pppppppppppp
+            ................
+            ................
+            ................
+            ................
+            ....pppppppppppp
+            ....pppppppppppp
+            ",
+            &expect![[r#"
+                ....pppppppppppp
+                ....pppppppppppp
+                ----aaaaaaaaaaaa
+                ----aaaaaaaaaaaa
+                ----aaaaaaaaaaaa
+                ----aaaaaaaaaaaa
+                ----------------
+                ----------------
+                ....pppppppppppp
+                ....pppppppppppp
+                ----aaaaaaaaaaaa
+                ----aaaaaaaaaaaa
+                ----aaaaaaaaaaaa
+                ----aaaaaaaaaaaa
+                ....pppppppppppp
+                ....pppppppppppp
+            "#]],
+        );
     }
 }

@@ -1,0 +1,271 @@
+//! Stacks: shelves and piles of goods that stand in a room, free or against its wall.
+//!
+//! What closes the ground is a wall, the building around it, or goods. Goods have their room on two sides: a straight line
+//! in one of the two directions of the site goes from the room through them and comes out in the same room. Lines into
+//! a wall come out elsewhere or nowhere, and those along a wall are as long as it is thin. So the closed cells between
+//! two open ones of one room, opened by a disc that walls are thinner than, are the stacks; whether something touches
+//! them, and whether their inside was seen, is of no account. Ground too tight for a person is no open ground: it is the
+//! inside of a shelf, or the slot behind it.
+//!
+//! Cost: O(cells), for maps with rooms only. Limits: what stands against a wall at a slant loses its edges; goods that
+//! fill a corner of the room look like the corner of the building, and stay without a face.
+
+use std::f64::consts::FRAC_PI_2;
+
+use super::nearest::Nearest;
+use crate::components::{Component, Components, Neighbours};
+use crate::geometry::{OrientedBox, Point, direction};
+use crate::grid::{Occupancy, OccupancyGrid};
+use crate::smallest_box::SmallestBox;
+use crate::watch::{Stopped, Watch};
+
+/// Stacks are as thick as this at least, metres: walls are thinner, shelves of a shop have 0.5.
+const STACK_M: f64 = 0.4;
+/// What touches a wall is as deep as this at least to be goods, metres: the smallest place; walls and columns jut out less.
+const DEPTH_M: f64 = 0.55;
+/// Share of the smallest box around a stack that it fills; walls around a corner fill less.
+const STACK_FILL: f64 = 0.6;
+/// A stack holds as much as the smallest place (0.8 by 0.6 m), square metres: chairs and plants hold less.
+const STACK_M2: f64 = 0.48;
+/// Ground that no disc of this diameter fits into is too tight for a person, metres.
+const TIGHT_M: f64 = 0.25;
+
+/// The stacks of a site.
+pub(super) struct Stacks {
+    /// The stack of each cell, row-major, from 1; 0 for none.
+    pub cells: Vec<u32>,
+    /// The smallest box around each stack, metres of the grid frame.
+    pub footprints: Vec<OrientedBox>,
+}
+
+impl Stacks {
+    /// Finds the stacks in rooms, which are told by the room of each cell, 0 for none; `angle` is a direction of the
+    /// site, radians. `stands_alone` names cells of stacks that nothing touches.
+    pub(super) fn find(
+        grid: &OccupancyGrid,
+        rooms: &[u32],
+        stands_alone: impl Fn(usize) -> bool,
+        angle: f64,
+        watch: &Watch<'_>,
+    ) -> Result<Self, Stopped> {
+        let (width, cells, cell) = (grid.width(), grid.cells(), grid.resolution());
+        let is_free = cells.iter().map(|&cell| cell == Occupancy::Free).collect();
+        let is_open = opened(is_free, width, TIGHT_M / cell, watch)?;
+        let mut is_between = vec![false; cells.len()];
+        for angle in [angle, angle + FRAC_PI_2] {
+            for_each_line([width, grid.height()], angle, watch, |line| {
+                mark_between(line, &is_open, rooms, &mut is_between);
+            })?;
+        }
+        let is_thick = opened(is_between, width, DEPTH_M / cell, watch)?;
+        let parts =
+            Components::of([width, cells.len()], Neighbours::Four, |cell| is_thick[cell] || stands_alone(cell), watch)?;
+        let mut stacks = Self { cells: vec![0; cells.len()], footprints: Vec::new() };
+        for part in parts.iter() {
+            let closed = part.cells().filter(|&cell| cells[cell] != Occupancy::Free).count();
+            if let Some(footprint) = footprint(part, closed, cell) {
+                stacks.footprints.push(footprint);
+                part.cells().for_each(|cell| stacks.cells[cell] = stacks.footprints.len() as u32);
+            }
+        }
+        Ok(stacks)
+    }
+}
+
+/// The smallest box around something of cells of some side, if it is as thick and as full as goods and enough of it is
+/// `closed` ground.
+pub(super) fn footprint(thing: Component<'_>, closed: usize, cell: f64) -> Option<OrientedBox> {
+    let area_of = |cells: usize| cells as f64 * cell * cell;
+    if area_of(closed) < STACK_M2 {
+        return None;
+    }
+    let corners = thing.runs().iter().flat_map(|run| {
+        let [left, right] = [run.columns.start, run.columns.end].map(f64::from);
+        let [low, high] = [f64::from(run.row), f64::from(run.row) + 1.0];
+        [(left, low), (right, low), (left, high), (right, high)].map(|(x, y)| Point::new(x, y) * cell)
+    });
+    let SmallestBox { center, extent: [long, short], heading } = SmallestBox::around(&corners.collect::<Vec<_>>());
+    let is_stack = short >= STACK_M && area_of(thing.len()) >= STACK_FILL * long * short;
+    is_stack.then_some(OrientedBox { center, half_extents: [long / 2.0, short / 2.0], angle: heading })
+}
+
+/// The cells that discs of some diameter cover, cells, which lie in those given (G. Matheron 1975); beyond the map is no
+/// obstacle.
+fn opened(is_in: Vec<bool>, width: usize, diameter: f64, watch: &Watch<'_>) -> Result<Vec<bool>, Stopped> {
+    // An obstacle begins half a cell before its middle.
+    let reach = f64::midpoint(diameter, 1.0);
+    let squared = reach * reach;
+    let from_outside = Nearest::of(width, is_in.len(), |cell| !is_in[cell], watch)?;
+    let is_middle = |cell: usize| is_in[cell] && f64::from(from_outside.squared[cell]) >= squared;
+    let from_middle = Nearest::of(width, is_in.len(), is_middle, watch)?;
+    let is_covered = |(is_in, &distance): (bool, &u32)| is_in && f64::from(distance) < squared;
+    Ok(is_in.into_iter().zip(&from_middle.squared).map(is_covered).collect())
+}
+
+/// Marks the cells of a line between two open ones of one room.
+fn mark_between(line: &[usize], is_open: &[bool], rooms: &[u32], is_between: &mut [bool]) {
+    let mut last: Option<(usize, u32)> = None;
+    for (place, &cell) in line.iter().enumerate().filter(|&(_, &cell)| is_open[cell]) {
+        let room = rooms[cell];
+        if let Some((before, other)) = last.replace((place, room))
+            && room == other
+            && room != 0
+        {
+            line[before + 1..place].iter().for_each(|&cell| is_between[cell] = true);
+        }
+    }
+}
+
+/// Calls back with the cells of every line of a direction, row-major; each cell of the map lies on one of them.
+fn for_each_line(
+    [width, height]: [usize; 2],
+    angle: f64,
+    watch: &Watch<'_>,
+    mut found: impl FnMut(&[usize]),
+) -> Result<(), Stopped> {
+    let along = direction(angle);
+    let is_level = along.x.abs() >= along.y.abs();
+    let (slope, steps, lanes) =
+        if is_level { (along.y / along.x, width, height) } else { (along.x / along.y, height, width) };
+    // The lane that a line has come aside by, after each step; another line is in another lane there.
+    let aside: Vec<i64> = (0..steps).map(|step| (step as f64 * slope).round() as i64).collect();
+    let first = -aside.iter().copied().max().unwrap_or(0);
+    let last = lanes as i64 - aside.iter().copied().min().unwrap_or(0);
+    let mut line = Vec::with_capacity(steps);
+    for start in first..last {
+        watch.check()?;
+        line.clear();
+        line.extend(aside.iter().enumerate().filter_map(|(step, aside)| {
+            let lane = usize::try_from(start + aside).ok().filter(|&lane| lane < lanes)?;
+            Some(if is_level { lane * width + step } else { step * width + lane })
+        }));
+        found(&line);
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::{Expect, expect};
+    use proptest::prelude::*;
+
+    use super::*;
+
+    /// The stacks of one room, a letter each; a cell is 0.2 m.
+    fn check(picture: &str, expected: &Expect) {
+        let grid = OccupancyGrid::from_ascii(picture, 0.2);
+        let rooms: Vec<u32> = grid.cells().iter().map(|&cell| u32::from(cell == Occupancy::Free)).collect();
+        let found = Stacks::find(&grid, &rooms, |_| false, 0.0, &Watch::unwatched()).expect("nobody stops it");
+        let letter = |(cell, &stack): (usize, &u32)| match (stack, grid.cells()[cell]) {
+            (1.., _) => char::from(b'a' + (stack - 1) as u8),
+            (0, Occupancy::Free) => '.',
+            (0, Occupancy::Occupied) => '#',
+            (0, Occupancy::Unknown) => '?',
+        };
+        let letters: Vec<char> = found.cells.iter().enumerate().map(letter).collect();
+        let rows: Vec<String> = letters.chunks(grid.width()).rev().map(String::from_iter).collect();
+        expected.assert_eq(&(rows.join("\n") + "\n"));
+    }
+
+    #[test]
+    fn what_touches_a_wall_is_a_stack_like_what_does_not() {
+        check(
+            "
+            ??????????????????????????????
+            ##############????############
+            #............#????#..........#
+            #............#????#..........#
+            #............######..........#
+            #.....................########
+            #.....######..........########
+            #.....#????#..........########
+            #.....######.................#
+            #............................#
+            ##############################
+            ",
+            &expect![[r#"
+                ??????????????????????????????
+                ##############????############
+                #............bbbbbb..........#
+                #............bbbbbb..........#
+                #............bbbbbb..........#
+                #.....................########
+                #.....aaaaaa..........########
+                #.....aaaaaa..........########
+                #.....aaaaaa.................#
+                #.....aaaaaa.................#
+                ##############################
+            "#]],
+        );
+    }
+
+    #[test]
+    fn walls_and_corners_of_the_building_are_none() {
+        check(
+            "
+            ##################????????????
+            #................#????????????
+            #................#????????????
+            #................#############
+            #............................#
+            #........#...................#
+            #........#...................#
+            #........#...................#
+            ##############################
+            ",
+            &expect![[r#"
+                ##################????????????
+                #................#????????????
+                #................#????????????
+                #................#############
+                #............................#
+                #........#...................#
+                #........#...................#
+                #........#...................#
+                ##############################
+            "#]],
+        );
+    }
+
+    #[test]
+    fn the_inside_of_a_shelf_is_no_ground() {
+        check(
+            "
+            .................
+            .................
+            .................
+            ....########.....
+            .................
+            ....########.....
+            .................
+            ....########.....
+            .................
+            .................
+            .................
+            ",
+            &expect![[r#"
+                .................
+                .................
+                .................
+                ....#aaaaaa#.....
+                .....aaaaaa......
+                ....#aaaaaa#.....
+                .....aaaaaa......
+                ....#aaaaaa#.....
+                .................
+                .................
+                .................
+            "#]],
+        );
+    }
+
+    proptest! {
+        #[test]
+        fn every_cell_lies_on_one_line(width in 0_usize..12, height in 0_usize..12, angle in -4.0..4.0) {
+            let mut met = vec![0; width * height];
+            let count = |line: &[usize]| line.iter().for_each(|&cell| met[cell] += 1);
+            for_each_line([width, height], angle, &Watch::unwatched(), count).expect("nobody stops it");
+            prop_assert!(met.iter().all(|&times| times == 1));
+        }
+    }
+}
