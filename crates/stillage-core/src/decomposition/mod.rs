@@ -23,6 +23,7 @@ mod evidence;
 mod frame;
 mod gate;
 mod goods;
+mod lanes;
 mod layers;
 mod lines;
 mod opening;

@@ -33,7 +33,7 @@ pub(super) const PLACE_PRICE: f64 = 1.5;
 pub(super) const GOODS_PRICE: f64 = 25.0;
 /// Price of another reading that is there already, and of a pitch of a row's own.
 const READING_PRICE: f64 = 5.0;
-const PITCH_PRICE: f64 = 10.0;
+pub(super) const PITCH_PRICE: f64 = 10.0;
 /// No direction of a region holds more sorts of storage.
 const MOST_READINGS: usize = 6;
 /// Rows of this length together are enough to learn from, metres: some 300 places.
@@ -119,12 +119,30 @@ impl Reading {
 
     /// The score of a row at the best of some pitches, and what borders and widths have in it.
     pub(super) fn best_fit(&self, row: &Evidence, pitches: &[f64]) -> (f64, f64) {
+        self.fitted(row, pitches).fit(row)
+    }
+
+    /// The score of a row, and what borders and widths have in it.
+    pub(super) fn fit(&self, row: &Evidence) -> (f64, f64) {
+        let (_, account) = self.cut_and_account(row, self.noise);
+        (account.score(self.noise), account.structure)
+    }
+
+    /// The same goods at that of some pitches which suits a row best.
+    pub(super) fn fitted(&self, row: &Evidence, pitches: &[f64]) -> Self {
         let fit = |&pitch: &f64| {
-            let (_, account) = self.at(pitch, row.cell).cut_and_account(row, self.noise);
-            (account.score(self.noise), account.structure)
+            let reading = self.at(pitch, row.cell);
+            (reading.score(row, self.noise), reading)
         };
         let fits = pitches.iter().step_by(STRIDE).map(fit);
-        fits.reduce(|best, other| if other.0 > best.0 { other } else { best }).unwrap_or_default()
+        fits.reduce(|best, other| if other.0 > best.0 { other } else { best })
+            .map_or_else(|| self.clone(), |best| best.1)
+    }
+
+    /// Twice the middles of the places of a row that hold goods, cells.
+    pub(super) fn goods_in(&self, row: &Evidence) -> Vec<usize> {
+        let explained = goods::explained([&self.goods], row);
+        goods::middles(&self.cut(row)).filter(|&twice| explained[twice][0] > 0.0).collect()
     }
 
     fn score(&self, row: &Evidence, noise: f64) -> f64 {

@@ -13,6 +13,7 @@ use super::depth::{self, Body};
 use super::evidence::Evidence;
 use super::frame::{Axis, Frame, Rect};
 use super::gate;
+use super::lanes;
 use super::layers::{self, Stack};
 use super::pieces;
 use super::reading::{self, Reading, Rows};
@@ -56,13 +57,23 @@ impl Row {
         Self { rect: body.rect.with(across, start..end), axis: body.axis, layers: stack }
     }
 
-    /// What the cells of the layers say together.
-    fn evidence(&self, frame: &Frame, hints: &Hints) -> Evidence {
+    /// What the cells of each layer say.
+    fn evidence(&self, frame: &Frame, hints: &Hints) -> Vec<Evidence> {
         let of_layer = |layer: &Range<usize>| {
             let rect = self.rect.with(self.axis.other(), layer.clone());
             Evidence::of(&frame.patch(&rect, self.axis), frame.cell, hints.widths())
         };
-        Evidence::bundle(self.layers.iter().map(of_layer))
+        self.layers.iter().map(of_layer).collect()
+    }
+
+    /// Each layer as a row of its own.
+    fn into_layers(self) -> impl Iterator<Item = Self> {
+        let Self { rect, axis, layers } = self;
+        layers.into_iter().map(move |layer| Self {
+            rect: rect.with(axis.other(), layer.clone()),
+            axis,
+            layers: vec![layer],
+        })
     }
 }
 
@@ -99,7 +110,7 @@ pub(super) fn lay_out(
                 }
             }
         }
-        let evidence: Vec<Evidence> = rows.iter().map(|row| row.evidence(frame, hints)).collect();
+        let (rows, evidence) = in_lanes(frame, rows, hints);
         watch.check()?;
         if let Some(readings) = read(frame, &rows, &evidence, hints, watch)? {
             parcels.append(&mut rests);
@@ -118,6 +129,23 @@ pub(super) fn lay_out(
         }
     }
     Ok(parcels)
+}
+
+/// Rows with what their cells say: stacks that share lanes, and the layers of those that do not.
+fn in_lanes(frame: &Frame, stacks: Vec<Row>, hints: &Hints) -> (Vec<Row>, Vec<Evidence>) {
+    let evidence: Vec<Vec<Evidence>> = stacks.iter().map(|stack| stack.evidence(frame, hints)).collect();
+    let are_shared = lanes::are_shared(&evidence, &reading::pitches(hints.pitch));
+    let (mut rows, mut of_rows) = (Vec::new(), Vec::new());
+    for ((stack, evidence), is_shared) in stacks.into_iter().zip(evidence).zip(are_shared) {
+        if is_shared {
+            rows.push(stack);
+            of_rows.push(Evidence::bundle(evidence));
+        } else {
+            rows.extend(stack.into_layers());
+            of_rows.extend(evidence);
+        }
+    }
+    (rows, of_rows)
 }
 
 /// The parts of a layer before, within and behind its region: a region is bounded by tiles, its blocks are rectangles, and
