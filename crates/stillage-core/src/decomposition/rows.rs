@@ -14,7 +14,7 @@ use super::evidence::Evidence;
 use super::frame::{Axis, Frame, Rect};
 use super::gate;
 use super::lanes;
-use super::layers::{self, Stack};
+use super::layers::{self, Layers, Stack};
 use super::pieces;
 use super::reading::{self, Reading, Rows};
 use super::{Parcel, PlotKind};
@@ -96,31 +96,21 @@ pub(super) fn lay_out(
     let depth = depth::usual(frame, &bodies, hints.depth);
     for axis in Axis::BOTH {
         let bodies: Vec<&Body> = bodies.iter().filter(|body| body.axis == axis).collect();
-        let (mut rows, mut rests) = (Vec::new(), Vec::new());
-        for (body, layers) in bodies.iter().zip(layers::cut(frame, &bodies, depth, hints.depth, watch)?) {
-            watch.check()?;
-            let rest_of = |rest| Parcel::new(rest, PlotKind::Rest, Some(axis));
-            rests.extend(layers.rests.into_iter().map(|rest| rest_of(body.rect.with(axis.other(), rest))));
-            for stack in layers.stacks {
-                let row = Row::of(body, stack);
-                let [before, within, after] = in_region(frame, &row.rect, axis).map(|part| row.rect.with(axis, part));
-                rests.extend([before, after].into_iter().filter(|rest| !rest.range(axis).is_empty()).map(rest_of));
-                if !within.range(axis).is_empty() {
-                    rows.push(Row { rect: within, ..row });
-                }
-            }
-        }
-        let (rows, evidence) = in_lanes(frame, rows, hints);
+        let layers = layers::cut(frame, &bodies, depth, hints.depth, watch)?;
+        let Standing { stacks, rests, reaching } = Standing::of(frame, &bodies, layers);
+        watch.check()?;
+        let (rows, evidence) = in_lanes(frame, stacks, hints);
         watch.check()?;
         if let Some(readings) = read(frame, &rows, &evidence, hints, watch)? {
-            parcels.append(&mut rests);
+            parcels = reaching.iter().fold(parcels, |parcels, row| without(parcels, row, axis));
+            parcels.extend(rests);
             for ((row, evidence), reading) in rows.iter().zip(&evidence).zip(readings) {
                 match reading {
                     Some(reading) => {
                         let pieces = pieces::of_comb(&reading.cut(evidence), reading.pitch, frame);
                         parcels.extend(parcels_of(row, pieces));
                     }
-                    None => parcels.push(Parcel::new(row.rect.clone(), PlotKind::Rest, Some(row.axis))),
+                    None => parcels.push(Parcel::new(row.rect.clone(), PlotKind::Rest, Some(axis))),
                 }
             }
         } else {
@@ -129,6 +119,51 @@ pub(super) fn lay_out(
         }
     }
     Ok(parcels)
+}
+
+/// What stands in the bodies of one direction.
+#[derive(Default)]
+struct Standing {
+    stacks: Vec<Row>,
+    rests: Vec<Parcel>,
+    /// Rows that reach into the aisles before their body.
+    reaching: Vec<Rect>,
+}
+
+impl Standing {
+    fn of(frame: &Frame, bodies: &[&Body], layers: Vec<Layers>) -> Self {
+        let mut standing = Self::default();
+        for (body, layers) in bodies.iter().zip(layers) {
+            let axis = body.axis;
+            let across = body.across();
+            let part = |range, kind| Parcel::new(body.rect.with(axis.other(), range), kind, Some(axis));
+            standing.rests.extend(layers.floors.into_iter().map(|floor| part(floor, PlotKind::Aisle)));
+            standing.rests.extend(layers.rests.into_iter().map(|rest| part(rest, PlotKind::Rest)));
+            for stack in layers.stacks {
+                let row = Row::of(body, stack);
+                let own = row.rect.range(axis.other());
+                if own.start < across.start || own.end > across.end {
+                    standing.reaching.push(row.rect.clone());
+                }
+                let [before, within, after] = in_region(frame, &row.rect, axis).map(|part| row.rect.with(axis, part));
+                let beside = [before, after].into_iter().filter(|rest| !rest.range(axis).is_empty());
+                standing.rests.extend(beside.map(|rest| Parcel::new(rest, PlotKind::Rest, Some(axis))));
+                if !within.range(axis).is_empty() {
+                    standing.stacks.push(Row { rect: within, ..row });
+                }
+            }
+        }
+        standing
+    }
+}
+
+/// Parcels without the ground of a row: deep rows may reach into the aisles before them.
+fn without(parcels: Vec<Parcel>, row: &Rect, axis: Axis) -> Vec<Parcel> {
+    let rest = |parcel: Parcel| {
+        let rects = parcel.rect.without(row, axis);
+        rects.into_iter().map(move |rect| Parcel { rect, ..parcel.clone() })
+    };
+    parcels.into_iter().flat_map(rest).collect()
 }
 
 /// Rows with what their cells say: stacks that share lanes, and the layers of those that do not.
