@@ -42,7 +42,7 @@ pub(super) fn gates(grid: &OccupancyGrid, ground: &Ground, watch: &Watch<'_>) ->
     let found = Components::of([blocks.columns, count], Neighbours::Four, juts_out, watch)?;
     let least = LEAST_BAY_M2 / (blocks.side as f64 * grid.resolution()).powi(2);
     let large = found.iter().filter(|component| component.len() as f64 >= least);
-    Ok(large.filter_map(|component| gate(grid, ground, &blocks, component, &juts_out)).collect())
+    Ok(large.filter_map(|component| gate(grid, ground, &blocks, component, juts_out)).collect())
 }
 
 /// The gate of what juts out, if it is a bay.
@@ -91,7 +91,7 @@ fn gate_towards(ground: &Ground, middle: Point, inwards: Vector, shape: &Smalles
         Some(([left, right], (right - left).norm()))
     };
     let (first, width) = line(0)?;
-    let narrow_side = if inwards.dot(&direction(shape.heading)).abs() > 0.5 { 1 } else { 0 };
+    let narrow_side = usize::from(inwards.dot(&direction(shape.heading)).abs() > 0.5);
     if width < EMPTY_SHARE * shape.extent[narrow_side] {
         return None;
     }

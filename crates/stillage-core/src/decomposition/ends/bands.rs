@@ -434,13 +434,10 @@ mod tests {
         let mut drawn: Vec<Vec<char>> = lines.iter().map(|line| line.chars().collect()).collect();
         for band in end(&frame, parcels).iter().filter(|one| one.kind != PlotKind::Place) {
             let symbol = if band.kind == PlotKind::Aisle { 'a' } else { '-' };
-            for row in (whole.v.end - band.rect.v.end) / CHARACTER..(whole.v.end - band.rect.v.start) / CHARACTER {
-                for column in
-                    (band.rect.u.start - whole.u.start) / CHARACTER..(band.rect.u.end - whole.u.start) / CHARACTER
-                {
-                    drawn[row][column] = symbol;
-                }
-            }
+            let rows = (whole.v.end - band.rect.v.end) / CHARACTER..(whole.v.end - band.rect.v.start) / CHARACTER;
+            let columns =
+                (band.rect.u.start - whole.u.start) / CHARACTER..(band.rect.u.end - whole.u.start) / CHARACTER;
+            drawn[rows].iter_mut().for_each(|line| line[columns.clone()].fill(symbol));
         }
         let text: String = drawn.into_iter().map(|line| line.into_iter().chain(['\n']).collect::<String>()).collect();
         expected.assert_eq(&text);
