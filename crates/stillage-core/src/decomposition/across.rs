@@ -15,8 +15,9 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
+use super::depth::Body;
 use super::evidence::{LEAST_KNOWN, UNKNOWN_CONTENT};
-use super::frame::{Axis, Cell, Frame, Patch, Rect};
+use super::frame::{Cell, Frame, Patch};
 use super::reading::{self, GOODS_PRICE, LEAST_NOISE, PLACE_PRICE};
 use crate::watch::{Stopped, Watch};
 
@@ -39,14 +40,19 @@ const LEAST_EXPLAINED: f64 = 0.5;
 pub(super) struct Strips {
     /// Content by strip and line, from the low side on.
     content: Vec<Vec<f64>>,
-    lines: usize,
+    /// Line of the frame that the first one is.
+    low: usize,
+    /// The lines of the frame that the layers fill: one of these.
+    extents: Vec<Range<usize>>,
     cell: f64,
     fronts: [bool; 2],
 }
 
 /// Layers of one depth, cells.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 struct Lattice {
+    /// The lines that the layers fill.
+    extent: Range<usize>,
     depth: f64,
     count: usize,
     flue: f64,
@@ -67,8 +73,26 @@ impl Lattice {
         (self.depth.ceil() as usize).max(1)
     }
 
+    /// A line of the extent, counted from the side that the lattice begins at.
+    fn line(&self, line: usize) -> usize {
+        if self.from_high { self.extent.end - 1 - line } else { self.extent.start + line }
+    }
+
+    /// Lines of each layer, each with its distance from the middle of the place: goods are even.
+    fn lines(&self) -> Vec<Vec<(usize, usize)>> {
+        let bins = self.bins();
+        let of_layer = |layer: usize| {
+            let [start, end] = self.layer(layer);
+            let middle = f64::midpoint(start, end);
+            let lines = start.round() as usize..(end.round() as usize).min(self.extent.len());
+            let line = |line: usize| (self.line(line), ((line as f64 + 0.5 - middle).abs() as usize).min(bins - 1));
+            lines.map(line).collect()
+        };
+        (0..self.count).map(of_layer).collect()
+    }
+
     /// The layers as lines from the low side on; each gets its half of the flue.
-    fn ranges(&self, lines: usize) -> Vec<Range<usize>> {
+    fn ranges(&self) -> Vec<Range<usize>> {
         let half = self.flue / 2.0;
         let range = |index: usize| {
             let [mut start, mut end] = self.layer(index);
@@ -78,8 +102,12 @@ impl Lattice {
             if 2 * index == self.count {
                 start -= half;
             }
-            let [start, end] = [start, end].map(|at| (at.round() as usize).min(lines));
-            if self.from_high { lines - end..lines - start } else { start..end }
+            let [start, end] = [start, end].map(|at| (at.round() as usize).min(self.extent.len()));
+            if self.from_high {
+                self.extent.end - end..self.extent.end - start
+            } else {
+                self.extent.start + start..self.extent.start + end
+            }
         };
         let mut ranges: Vec<_> = (0..self.count).map(range).collect();
         ranges.sort_by_key(|range| range.start);
@@ -88,81 +116,74 @@ impl Lattice {
 }
 
 impl Strips {
-    /// Cuts a rectangle into strips across the rows along `axis`.
-    pub(super) fn of(frame: &Frame, rect: &Rect, axis: Axis, fronts: [bool; 2]) -> Self {
-        let patch = frame.patch(rect, axis);
+    /// Cuts a body into strips across its rows; its layers fill one of some extents, which may reach out of it.
+    pub(super) fn of(frame: &Frame, body: &Body, extents: &[Range<usize>]) -> Self {
+        let low = extents.iter().map(|extent| extent.start).min().unwrap_or(0);
+        let high = extents.iter().map(|extent| extent.end).max().unwrap_or(low);
+        let patch = frame.patch(&body.rect.with(body.axis.other(), low..high), body.axis);
         let count = patch.width.div_ceil(frame.cells_of(STRIP_M).max(1));
         let strip = |index: usize| {
             let columns = patch.width * index / count..patch.width * (index + 1) / count;
             (0..patch.height).map(|line| content(&patch, line, &columns)).collect()
         };
-        Self { content: (0..count).map(strip).collect(), lines: patch.height, cell: frame.cell, fronts }
+        Self {
+            content: (0..count).map(strip).collect(),
+            low,
+            extents: extents.to_vec(),
+            cell: frame.cell,
+            fronts: body.fronts,
+        }
     }
 
-    /// All ways to fill the body with layers of a depth within a range, metres.
+    /// All ways to fill the extents with layers of a depth within a range, metres.
     fn lattices(&self, range: [f64; 2]) -> Vec<Lattice> {
-        let lines = self.lines as f64;
+        self.extents.iter().flat_map(|extent| self.lattices_in(extent, range)).collect()
+    }
+
+    fn lattices_in(&self, extent: &Range<usize>, range: [f64; 2]) -> Vec<Lattice> {
+        let lines = extent.len() as f64;
         let mut lattices = Vec::new();
         if lines * self.cell > MOST_LAYERS as f64 * range[1] {
             return lattices;
         }
+        let from_high = self.fronts == [false, true];
+        let lattice =
+            |depth: f64, count: usize, flue: f64| Lattice { extent: extent.clone(), depth, count, flue, from_high };
         if self.fronts[0] == self.fronts[1] {
             let flues = (0..=(FLUE_M / FLUE_STEP_M).round() as usize).map(|step| step as f64 * FLUE_STEP_M / self.cell);
             for flue in flues {
-                let room = lines - flue;
-                let most = (room * self.cell / range[0]).floor() as usize;
-                let least = ((room * self.cell / range[1]).ceil() as usize).max(1);
+                let filled = lines - flue;
+                let most = (filled * self.cell / range[0]).floor() as usize;
+                let least = ((filled * self.cell / range[1]).ceil() as usize).max(1);
                 let counts = (least..=most).filter(|count| flue == 0.0 || count % 2 == 0);
-                lattices.extend(counts.map(|count| Lattice {
-                    depth: room / count as f64,
-                    count,
-                    flue,
-                    from_high: false,
-                }));
+                lattices.extend(counts.map(|count| lattice(filled / count as f64, count, flue)));
             }
         } else {
             let steps = ((range[1] - range[0]) / DEPTH_STEP_M).round() as usize;
             let depths = (0..=steps).map(|step| (range[0] + step as f64 * DEPTH_STEP_M) / self.cell);
-            // The last layer may reach a little into what stands behind it, or be bare floor.
-            let most = |depth: f64| (lines / depth + BEHIND_SHARE) as usize;
-            let counts = |depth: f64| most(depth).saturating_sub(1).max(1)..=most(depth).max(1);
-            let of_depth = |depth: f64| {
-                counts(depth).map(move |count| Lattice { depth, count, flue: 0.0, from_high: self.fronts[1] })
-            };
-            lattices.extend(depths.flat_map(of_depth));
+            for depth in depths {
+                // The last layer may reach a little into what stands behind it, or be bare floor.
+                let most = (lines / depth + BEHIND_SHARE) as usize;
+                let counts = most.saturating_sub(1).max(1)..=most.max(1);
+                lattices.extend(counts.map(|count| lattice(depth, count, 0.0)));
+            }
         }
         lattices
     }
 
-    /// Lines of each layer of a lattice, each with its distance from the middle of the place: goods are even.
-    fn lines(&self, lattice: &Lattice) -> Vec<Vec<(usize, usize)>> {
-        let bins = lattice.bins();
-        let of_layer = |layer: usize| {
-            let [start, end] = lattice.layer(layer);
-            let middle = f64::midpoint(start, end);
-            let lines = start.round() as usize..(end.round() as usize).min(self.lines);
-            let line = |line: usize| {
-                let at = if lattice.from_high { self.lines - 1 - line } else { line };
-                (at, ((line as f64 + 0.5 - middle).abs() as usize).min(bins - 1))
-            };
-            lines.map(line).collect()
-        };
-        (0..lattice.count).map(of_layer).collect()
-    }
-
     /// Energy that alike places on a lattice explain in each layer.
     fn explained(&self, lattice: &Lattice) -> Vec<f64> {
-        let layers = self.lines(lattice);
+        let layers = lattice.lines();
         let (mut shape, mut sizes) = (vec![0.0; lattice.bins()], vec![0.0_f64; lattice.bins()]);
         for &(line, bin) in layers.iter().flatten() {
-            shape[bin] += self.content.iter().map(|strip| strip[line]).sum::<f64>();
+            shape[bin] += self.content.iter().map(|strip| strip[line - self.low]).sum::<f64>();
             sizes[bin] += 1.0;
         }
         shape.iter_mut().zip(&sizes).for_each(|(value, size)| *value /= size.max(1.0));
         let of_layer = |lines: &Vec<(usize, usize)>| {
             let square: f64 = lines.iter().map(|&(_, bin)| shape[bin] * shape[bin]).sum();
             let of_strip = |strip: &Vec<f64>| {
-                let product: f64 = lines.iter().map(|&(line, bin)| strip[line] * shape[bin]).sum();
+                let product: f64 = lines.iter().map(|&(line, bin)| strip[line - self.low] * shape[bin]).sum();
                 product * product / square.max(f64::MIN_POSITIVE)
             };
             self.content.iter().map(of_strip).sum()
@@ -179,7 +200,7 @@ impl Strips {
         if most < LEAST_EXPLAINED * energy {
             return Vec::new();
         }
-        let cells = (self.lines * self.content.len()).max(1) as f64;
+        let cells = self.content.iter().map(Vec::len).sum::<usize>().max(1) as f64;
         let noise = (energy - most).max(LEAST_NOISE * energy).max(f64::MIN_POSITIVE) / cells;
         let weight = reading::weight(noise, self.cell);
         let price = PLACE_PRICE * self.content.len() as f64;
@@ -200,7 +221,7 @@ fn content(patch: &Patch, line: usize, columns: &Range<usize>) -> f64 {
     if 1.0 - unknown < LEAST_KNOWN { 0.0 } else { share(Cell::is_occupied) + UNKNOWN_CONTENT * unknown }
 }
 
-/// The layers of deep bodies, by body, as lines from their low side on; depths in metres. None where nothing fits.
+/// The layers of bodies, as ranges of lines of the frame, ascending; depths in metres. None where nothing fits.
 pub(super) fn layers(bodies: &[Strips], range: [f64; 2], watch: &Watch<'_>) -> Result<Vec<Vec<Range<usize>>>, Stopped> {
     let score = |body: &Strips| watch.check().map(|()| Choice { scored: body.scored(range), cell: body.cell });
     let choices: Vec<Choice> = bodies.par_iter().map(score).collect::<Result<_, _>>()?;
@@ -209,10 +230,8 @@ pub(super) fn layers(bodies: &[Strips], range: [f64; 2], watch: &Watch<'_>) -> R
     let total = |depth: f64| choices.iter().filter_map(|choice| choice.at(depth)).map(|(score, _)| score).sum::<f64>();
     let better = |best: (f64, f64), other: (f64, f64)| if other.0 > best.0 { other } else { best };
     let usual = depths.map(|depth| (total(depth), depth)).reduce(better).map_or(range[0], |(_, depth)| depth);
-    let ranges = |(body, choice): (&Strips, &Choice)| {
-        choice.at(usual).map_or_else(Vec::new, |(_, lattice)| lattice.ranges(body.lines))
-    };
-    Ok(bodies.iter().zip(&choices).map(ranges).collect())
+    let ranges = |choice: &Choice| choice.at(usual).map_or_else(Vec::new, |(_, lattice)| lattice.ranges());
+    Ok(choices.iter().map(ranges).collect())
 }
 
 /// All lattices of a body with their scores.
@@ -223,12 +242,12 @@ struct Choice {
 
 impl Choice {
     /// The best lattice where others have places of a depth, metres; none if goods do not pay for their places.
-    fn at(&self, depth: f64) -> Option<(f64, Lattice)> {
+    fn at(&self, depth: f64) -> Option<(f64, &Lattice)> {
         let price = |lattice: &Lattice| {
             let is_alike = (lattice.depth * self.cell - depth).abs() <= ALIKE_M;
             if is_alike { 0.0 } else { GOODS_PRICE }
         };
-        let priced = self.scored.iter().map(|(score, lattice)| (score - price(lattice), *lattice));
+        let priced = self.scored.iter().map(|(score, lattice)| (score - price(lattice), lattice));
         priced.filter(|(score, _)| *score > 0.0).reduce(|best, other| if other.0 > best.0 { other } else { best })
     }
 }
@@ -239,6 +258,11 @@ mod tests {
 
     /// Strips drawn from left to right, four lines to a character: goods (#), half of them hidden (+), nothing (.).
     fn check(picture: &[&str], fronts: [bool; 2], wanted: &expect_test::Expect) {
+        check_extents(picture, fronts, &[0], wanted);
+    }
+
+    /// The same with extents from some lines on.
+    fn check_extents(picture: &[&str], fronts: [bool; 2], starts: &[usize], wanted: &expect_test::Expect) {
         let content = |symbol| match symbol {
             '#' => 1.0,
             '+' => 0.5,
@@ -246,7 +270,9 @@ mod tests {
         };
         let strip = |row: &&str| row.chars().flat_map(|symbol| [content(symbol); 4]).collect::<Vec<f64>>();
         let content: Vec<Vec<f64>> = picture.iter().map(strip).collect();
-        let body = Strips { lines: content[0].len(), content, cell: 0.05, fronts };
+        let lines = content[0].len();
+        let extents = starts.iter().map(|&start| start..lines).collect();
+        let body = Strips { content, low: 0, extents, cell: 0.05, fronts };
         let found = layers(&[body], [0.8, 1.45], &Watch::unwatched()).expect("nobody stops it");
         let found = found[0].iter().map(|layer| format!("{}..{}", layer.start, layer.end));
         wanted.assert_eq(&found.collect::<Vec<_>>().join(" "));
@@ -261,6 +287,25 @@ mod tests {
         let picture: Vec<&str> = lanes.iter().map(String::as_str).collect();
         check(&picture, [true, false], &expect_test::expect!["0..24 24..48 48..72 72..96 96..120"]);
         check(&picture, [true, true], &expect_test::expect!["0..24 24..48 48..72 72..96 96..120"]);
+    }
+
+    #[test]
+    fn few_goods_of_an_outer_layer_make_it_one_but_a_thing_in_the_aisle_does_not() {
+        let pallet = "#.++.#";
+        let lane = |first: &str| first.to_owned() + &pallet.repeat(3);
+        let (free, full, thing) = (lane("......"), lane(pallet), lane("...#.."));
+        check_extents(
+            &[&free, &full, &free, &full, &free],
+            [true, false],
+            &[24, 0],
+            &expect_test::expect!["0..24 24..48 48..72 72..96"],
+        );
+        check_extents(
+            &[&free, &thing, &free, &free, &free],
+            [true, false],
+            &[24, 0],
+            &expect_test::expect!["24..48 48..72 72..96"],
+        );
     }
 
     #[test]

@@ -75,6 +75,28 @@ impl Rect {
     }
 }
 
+impl Rect {
+    /// What a hole leaves of it: its full width beside the hole along `axis`, and what is before and behind the hole.
+    pub fn without(&self, hole: &Self, axis: Axis) -> Vec<Self> {
+        let common = |axis: Axis| {
+            let (own, other) = (self.range(axis), hole.range(axis));
+            own.start.max(other.start)..own.end.min(other.end)
+        };
+        let (along, across) = (common(axis), common(axis.other()));
+        if along.is_empty() || across.is_empty() {
+            return vec![self.clone()];
+        }
+        let beside = |axis: Axis, range: &std::ops::Range<usize>| {
+            let own = self.range(axis);
+            [own.start..range.start, range.end..own.end]
+        };
+        let within = self.with(axis, along.clone());
+        let full = beside(axis, &along).map(|part| self.with(axis, part));
+        let parts = beside(axis.other(), &across).map(|part| within.with(axis.other(), part));
+        full.into_iter().chain(parts).filter(|rect| !rect.u.is_empty() && !rect.v.is_empty()).collect()
+    }
+}
+
 /// One of the two directions of a frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Axis {

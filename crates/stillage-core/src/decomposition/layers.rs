@@ -2,7 +2,8 @@
 //!
 //! Every place of a rack must be reached, so what is thin enough between two aisles is one row, or two back to back. What
 //! is deeper - double-deep racks, block storage, marked floors - and what stands before a wall may have any number of
-//! layers, which [`super::across`] finds. Layers that are reached from one side form a stack: their lanes run through all
+//! layers. How many there are and how deep, [`super::across`] finds; where goods show too little to tell, the thickness of
+//! the body decides. Layers that are reached from one side form a stack: their lanes run through all
 //! of them, so they are cut together, and end together.
 //!
 //! Cost: O(cells of the bodies), and that of the layers. Limits: where goods hide what is behind them, the usual depth of
@@ -11,36 +12,44 @@
 use std::ops::Range;
 
 use super::across::{self, Strips};
-use super::depth::{Body, THIN_SHARE, thickest_pair};
-use super::frame::{Frame, Patch};
+use super::depth::{Body, THIN_SHARE};
+use super::extent::{DEEP_ROOM, extents, is_deep};
+use super::frame::Frame;
 use crate::watch::{Stopped, Watch};
-
-/// A body with room for more than this many rows is more than one row.
-const DEEP_ROOM: f64 = 1.5;
-/// Rows are at most so many times as deep as usual.
-const DEEPER: f64 = 1.15;
-/// Occupied share of a line of cells that makes it a wall.
-const WALL_SHARE: f64 = 0.5;
-/// A wall behind goods is seen between them only: occupied share of what is seen of its line, and how much that is at
-/// least. Of the goods themselves one sees the gaps as well.
-const SEEN_WALL_SHARE: f64 = 0.8;
-const LEAST_SEEN: f64 = 0.05;
-/// How far in front of a wall hits are scattered, metres, and the share of a line that they take at least.
-const SCATTER_M: f64 = 0.2;
-const SCATTER_SHARE: f64 = 0.08;
-/// Where one sees between goods, behind their fronts, metres, and the share of the front along which one does: nothing is
-/// seen behind a wall, and all of it where there is another room.
-const BEHIND_M: [f64; 2] = [0.2, 0.5];
-const SEEN_BETWEEN_GOODS: [f64; 2] = [0.04, 0.7];
 
 /// The layers of a body that are reached from one side, as ranges across its rows.
 pub(super) type Stack = Vec<Range<usize>>;
 
-/// The rows of a body and what is left beside them.
+/// The rows of a body, and what is left beside them, as ranges across.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct Layers {
     pub stacks: Vec<Stack>,
+    /// On the side of an aisle: floor.
+    pub floors: Vec<Range<usize>>,
+    /// On the other side: anything.
     pub rests: Vec<Range<usize>>,
+}
+
+impl Layers {
+    fn none(body: &Body) -> Self {
+        Self { rests: vec![body.across()], ..Self::default() }
+    }
+
+    /// Layers from the low side on, one at least; those between two aisles are reached from the nearer one.
+    fn of(body: &Body, mut layers: Stack) -> Self {
+        let (across, count) = (body.across(), layers.len());
+        let (start, end) = (layers[0].start, layers[count - 1].end);
+        let mut found = Self::default();
+        for (is_front, side) in body.fronts.into_iter().zip([across.start..start, end..across.end]) {
+            if !side.is_empty() {
+                if is_front { &mut found.floors } else { &mut found.rests }.push(side);
+            }
+        }
+        let is_divided = body.fronts[0] == body.fronts[1] && count % 2 == 0;
+        let far = if is_divided { layers.split_off(count / 2) } else { Vec::new() };
+        found.stacks = [layers, far].into_iter().filter(|stack| !stack.is_empty()).collect();
+        found
+    }
 }
 
 /// Cuts the bodies of one direction into rows of about a depth, metres, within a range.
@@ -51,163 +60,38 @@ pub(super) fn cut(
     range: [f64; 2],
     watch: &Watch<'_>,
 ) -> Result<Vec<Layers>, Stopped> {
-    let rooms: Vec<Range<usize>> = bodies.iter().map(|body| room(frame, body, depth)).collect();
-    let is_deep = |body: &Body, room: &Range<usize>| {
-        let thickness = room.len() as f64 * frame.cell;
-        let is_single_front = body.fronts[0] != body.fronts[1];
-        thickness >= if is_single_front { DEEP_ROOM * depth } else { thickest_pair(range[1].min(DEEPER * depth)) }
-    };
-    let deep: Vec<usize> = (0..bodies.len()).filter(|&body| is_deep(bodies[body], &rooms[body])).collect();
-    let strips = |&body: &usize| {
-        let Body { rect, axis, fronts } = bodies[body];
-        Strips::of(frame, &rect.with(axis.other(), rooms[body].clone()), *axis, *fronts)
-    };
-    let strips: Vec<Strips> = deep.iter().map(strips).collect();
-    let mut read = deep.iter().zip(across::layers(&strips, range, watch)?).peekable();
-    let cut = |(index, (body, room)): (usize, (&&Body, Range<usize>))| match read.next_if(|&(&deep, _)| deep == index) {
-        Some((_, layers)) if layers.len() > 1 => deep_layers(body, &room, layers),
-        Some(_) if body.fronts[0] == body.fronts[1] => Layers { stacks: Vec::new(), rests: vec![body.across()] },
-        _ => shallow_layers(frame, body, room, depth),
-    };
-    Ok(bodies.iter().zip(rooms).enumerate().map(cut).collect())
+    let extents: Vec<Vec<Range<usize>>> = bodies.iter().map(|body| extents(frame, body, depth, range)).collect();
+    let strips = bodies.iter().zip(&extents).map(|(body, extents)| Strips::of(frame, body, extents));
+    let found = across::layers(&strips.collect::<Vec<_>>(), range, watch)?;
+    let mut layers = Vec::with_capacity(bodies.len());
+    for ((body, extents), found) in bodies.iter().zip(extents).zip(found) {
+        let [room, ..] = &extents[..] else { continue };
+        layers.push(if !found.is_empty() {
+            Layers::of(body, found)
+        } else if is_deep(frame, body, room, depth, range) && body.fronts[0] == body.fronts[1] {
+            Layers::none(body)
+        } else {
+            by_thickness(frame, body, room, depth)
+        });
+    }
+    Ok(layers)
 }
 
 /// One row or two back to back; before a wall, the row along the aisle.
-fn shallow_layers(frame: &Frame, body: &Body, room: Range<usize>, depth: f64) -> Layers {
-    let across = body.across();
+fn by_thickness(frame: &Frame, body: &Body, room: &Range<usize>, depth: f64) -> Layers {
     let rows = room.len() as f64 * frame.cell / depth;
     if rows < THIN_SHARE {
-        return Layers { stacks: Vec::new(), rests: vec![across] };
+        return Layers::none(body);
     }
-    if body.fronts[0] == body.fronts[1] {
-        if rows < DEEP_ROOM {
-            return Layers { rests: beside(&across, &room), stacks: vec![vec![room]] };
-        }
-        let stacks = equal_parts(&room, 2).into_iter().map(|row| vec![row]).collect();
-        return Layers { stacks, rests: beside(&across, &room) };
+    if rows < DEEP_ROOM {
+        return Layers::of(body, vec![room.clone()]);
     }
-    let row_depth = if rows > DEEP_ROOM { frame.cells_of(depth).max(1) } else { room.len() };
-    let row = if body.fronts[0] { room.start..room.start + row_depth } else { room.end - row_depth..room.end };
-    Layers { rests: beside(&across, &row), stacks: vec![vec![row]] }
-}
-
-/// What is left of a range on both sides of a part.
-fn beside(range: &Range<usize>, part: &Range<usize>) -> Vec<Range<usize>> {
-    [range.start..part.start, part.end..range.end].into_iter().filter(|rest| !rest.is_empty()).collect()
-}
-
-fn equal_parts(range: &Range<usize>, count: usize) -> Vec<Range<usize>> {
-    let at = |part: usize| range.start + (range.len() * part + count / 2) / count;
-    (0..count).map(|part| at(part)..at(part + 1)).collect()
-}
-
-/// The layers of a deep body, given as lines of its room.
-fn deep_layers(body: &Body, room: &Range<usize>, layers: Vec<Range<usize>>) -> Layers {
-    let stack: Stack = layers.into_iter().map(|layer| room.start + layer.start..room.start + layer.end).collect();
-    let (first, last) = (&stack[0], &stack[stack.len() - 1]);
-    let rests = beside(&body.across(), &(first.start..last.end));
-    let stacks = if body.fronts[0] == body.fronts[1] { halves(stack) } else { vec![stack] };
-    Layers { stacks, rests }
-}
-
-/// Layers between two aisles are reached from the nearer one.
-fn halves(mut stack: Stack) -> Vec<Stack> {
-    if stack.len() % 2 == 1 {
-        return vec![stack];
-    }
-    let far = stack.split_off(stack.len() / 2);
-    vec![stack, far]
-}
-
-/// The part of a body that may hold goods: all of it, or what lies before the wall on the side without an aisle.
-fn room(frame: &Frame, body: &Body, depth: f64) -> Range<usize> {
-    let across = body.across();
-    if body.fronts[0] == body.fronts[1] {
-        return across;
-    }
-    let low_front = body.fronts[0];
-    let patch = frame.patch(&body.rect.with(body.axis.other(), across.clone()), body.axis);
-    let is_wall = |y: &usize| {
-        let from_front = if low_front { *y } else { patch.height - 1 - y };
-        let [occupied, known] = [patch.occupied_share(*y..y + 1), patch.known_share(*y..y + 1)];
-        let shines_through = known >= LEAST_SEEN && occupied >= SEEN_WALL_SHARE * known;
-        // Nearer to the front than a place is deep, a line may be the front of goods: those let the robot see between them.
-        let is_beyond_goods = from_front as f64 * frame.cell >= THIN_SHARE * depth;
-        if is_beyond_goods {
-            occupied >= WALL_SHARE || shines_through
-        } else {
-            occupied >= WALL_SHARE && !sees_between_goods(frame, &patch, *y, low_front)
-        }
+    let row = frame.cells_of(depth).max(1);
+    let middle = room.start + room.len().div_ceil(2);
+    let [near, far] = match body.fronts {
+        [true, false] => [room.start..room.start + row, 0..0],
+        [false, true] => [room.end - row..room.end, 0..0],
+        _ => [room.start..middle, middle..room.end],
     };
-    // Rays scatter at a wall.
-    let reach = frame.cells_of(SCATTER_M);
-    let is_scatter = |y: &usize| patch.occupied_share(*y..y + 1) >= SCATTER_SHARE;
-    if low_front {
-        let Some(wall) = (0..patch.height).rev().find(is_wall) else { return across };
-        let scatter = (wall.saturating_sub(reach)..wall).rev().take_while(is_scatter).count();
-        across.start..across.start + wall - scatter
-    } else {
-        let Some(wall) = (0..patch.height).find(is_wall) else { return across };
-        let scatter = (wall + 1..(wall + 1 + reach).min(patch.height)).take_while(is_scatter).count();
-        across.start + wall + 1 + scatter..across.end
-    }
-}
-
-/// Whether the robot sees some of what is behind a line that may be the fronts of goods.
-fn sees_between_goods(frame: &Frame, patch: &Patch, line: usize, low_front: bool) -> bool {
-    let [near, far] = BEHIND_M.map(|metres| frame.cells_of(metres));
-    let behind = if low_front { line + near..line + far } else { line.saturating_sub(far)..line.saturating_sub(near) };
-    let seen = patch.known_share(behind.start.min(patch.height)..behind.end.min(patch.height));
-    (SEEN_BETWEEN_GOODS[0]..SEEN_BETWEEN_GOODS[1]).contains(&seen)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::super::frame::Axis;
-    use super::*;
-
-    /// How many lines of a body that has an aisle above it may hold goods, in cells of 0.05 m.
-    fn check(picture: &str, lines: usize) {
-        let (frame, rect) = Frame::of_picture(picture, 0.05);
-        let body = Body { rect, axis: Axis::U, fronts: [false, true] };
-        assert_eq!(room(&frame, &body, 0.5).len(), lines);
-    }
-
-    #[test]
-    fn goods_end_at_a_wall_that_shows_between_them() {
-        check(
-            "
-            ####.####.####.####.####
-            #??#.#??#.#??#.#??#.#??#
-            #??#.#??#.#??#.#??#.#??#
-            #??#.#??#.#??#.#??#.#??#
-            #??#.#??#.#??#.#??#.#??#
-            #??#.#??#.#??#.#??#.#??#
-            #??#.#??#.#??#.#??#.#??#
-            ????.????.????.????.????
-            ????#????#????#????#????
-            ????????????????????????
-            ????????????????????????
-            ",
-            8,
-        );
-    }
-
-    #[test]
-    fn goods_that_show_the_gaps_behind_them_go_on() {
-        check(
-            "
-            ####.####.####.####.####
-            #??#.#??#.#??#.#??#.#??#
-            #??#.#??#.#??#.#??#.#??#
-            #??#.#??#.#??#.#??#.#??#
-            #??#.#??#.#??#.#??#.#??#
-            #??#.#??#.#??#.#??#.#??#
-            ????.????.????.????.????
-            ???#.#??#.#??#.#??#.#???
-            ????.????.????.????.????
-            ",
-            9,
-        );
-    }
+    Layers::of(body, [near, far].into_iter().filter(|row| !row.is_empty()).collect())
 }

@@ -6,7 +6,7 @@
 //!
 //! The paper (II-B) cuts a region by infinite lines through the peaks of its radiograms. That labels areas well and cuts
 //! few pallet cells right, since peaks sit on goods and racks drift. Here straight drivable bands are found first
-//! ([`blocks`]); what lies between two of them is a body of one or more layers ([`depth`], [`layers`], [`across`]). If its
+//! ([`blocks`]); what lies between two of them is a body of one or more layers ([`depth`], [`extent`], [`layers`], [`across`]). If its
 //! rows repeat themselves ([`gate`]), their cells come from the evidence for borders ([`evidence`], [`comb`]) and from the
 //! goods in them, which are alike ([`goods`], [`reading`]). Rows and aisles end where their signs do ([`ends`]), and so
 //! does every line ([`lines`]).
@@ -20,6 +20,7 @@ mod depth;
 mod drivable;
 mod ends;
 mod evidence;
+mod extent;
 mod frame;
 mod gate;
 mod goods;

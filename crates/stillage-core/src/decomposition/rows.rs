@@ -13,7 +13,7 @@ use super::evidence::Evidence;
 use super::frame::{Axis, Frame, Rect};
 use super::gate::Periodicity;
 use super::lanes;
-use super::layers::{self, Stack};
+use super::layers::{self, Layers, Stack};
 use super::pieces;
 use super::reading::{self, Reading, Rows};
 use super::{Parcel, PlotKind};
@@ -97,7 +97,7 @@ pub(super) fn lay_out(
     let directions = [along?, across?];
     let is_storage = directions.iter().any(|direction| direction.periodicity.is_sure());
     for direction in directions {
-        parcels.extend(direction.into_parcels(frame, is_storage, hints));
+        parcels = direction.lay_out(frame, parcels, is_storage, hints);
         watch.check()?;
     }
     Ok(parcels)
@@ -111,6 +111,8 @@ struct Direction<'a> {
     evidence: Vec<Evidence>,
     /// What is left beside the rows.
     rests: Vec<Parcel>,
+    /// Rows that reach into the aisles before their body.
+    reaching: Vec<Rect>,
     /// How all rows are read in common; none where they are too short or their cells too coarse to tell.
     reading: Option<Reading>,
     periodicity: Periodicity,
@@ -126,39 +128,30 @@ impl<'a> Direction<'a> {
         watch: &Watch<'_>,
     ) -> Result<Self, Stopped> {
         let bodies: Vec<&Body> = bodies.iter().filter(|body| body.axis == axis).collect();
-        let (mut rows, mut rests) = (Vec::new(), Vec::new());
-        for (body, layers) in bodies.iter().zip(layers::cut(frame, &bodies, depth, hints.depth, watch)?) {
-            watch.check()?;
-            let rest_of = |rest| Parcel::new(rest, PlotKind::Rest, Some(axis));
-            rests.extend(layers.rests.into_iter().map(|rest| rest_of(body.rect.with(axis.other(), rest))));
-            for stack in layers.stacks {
-                let row = Row::of(body, stack);
-                let [before, within, after] = in_region(frame, &row.rect, axis).map(|part| row.rect.with(axis, part));
-                rests.extend([before, after].into_iter().filter(|rest| !rest.range(axis).is_empty()).map(rest_of));
-                if !within.range(axis).is_empty() {
-                    rows.push(Row { rect: within, ..row });
-                }
-            }
-        }
-        let stacks: Vec<(Rect, usize)> = rows.iter().map(|row| (row.rect.clone(), row.layers.len())).collect();
-        let (rows, evidence) = in_lanes(frame, rows, hints);
+        let layers = layers::cut(frame, &bodies, depth, hints.depth, watch)?;
+        let Standing { stacks, rests, reaching } = Standing::of(frame, &bodies, layers);
+        watch.check()?;
+        let wholes: Vec<(Rect, usize)> = stacks.iter().map(|stack| (stack.rect.clone(), stack.layers.len())).collect();
+        let (rows, evidence) = in_lanes(frame, stacks, hints);
         watch.check()?;
         let reading = in_common(frame, &evidence, hints).in_common();
         watch.check()?;
-        let periodicity = reading.as_ref().map(|first| periodicity(frame, axis, &stacks, hints, first));
-        Ok(Self { axis, bodies, rows, evidence, rests, reading, periodicity: periodicity.unwrap_or_default() })
+        let periodicity = reading.as_ref().map(|first| periodicity(frame, axis, &wholes, hints, first));
+        let periodicity = periodicity.unwrap_or_default();
+        Ok(Self { axis, bodies, rows, evidence, rests, reaching, reading, periodicity })
     }
 
-    /// The places of the rows, or the bodies as they are: walls and furniture are not read. In a storage it takes less to
-    /// be rows of places.
-    fn into_parcels(self, frame: &Frame, is_storage: bool, hints: &Hints) -> Vec<Parcel> {
+    /// Adds the places of the rows, or the bodies as they are: walls and furniture are not read. In a storage it takes less
+    /// to be rows of places.
+    fn lay_out(self, frame: &Frame, parcels: Vec<Parcel>, is_storage: bool, hints: &Hints) -> Vec<Parcel> {
         let is_read = self.periodicity.is_certain() || is_storage && self.periodicity.is_likely();
         let Some(first) = self.reading.filter(|_| is_read) else {
             let whole = |body: &&Body| Parcel::new(body.rect.clone(), PlotKind::Rest, Some(self.axis));
-            return self.bodies.iter().map(whole).collect();
+            return parcels.into_iter().chain(self.bodies.iter().map(whole)).collect();
         };
         let readings = in_common(frame, &self.evidence, hints).read(first);
-        let mut parcels = self.rests;
+        let mut parcels = self.reaching.iter().fold(parcels, |parcels, row| without(parcels, row, self.axis));
+        parcels.extend(self.rests);
         for ((row, evidence), reading) in self.rows.iter().zip(&self.evidence).zip(readings) {
             match reading {
                 Some(reading) => {
@@ -170,6 +163,51 @@ impl<'a> Direction<'a> {
         }
         parcels
     }
+}
+
+/// What stands in the bodies of one direction.
+#[derive(Default)]
+struct Standing {
+    stacks: Vec<Row>,
+    rests: Vec<Parcel>,
+    /// Rows that reach into the aisles before their body.
+    reaching: Vec<Rect>,
+}
+
+impl Standing {
+    fn of(frame: &Frame, bodies: &[&Body], layers: Vec<Layers>) -> Self {
+        let mut standing = Self::default();
+        for (body, layers) in bodies.iter().zip(layers) {
+            let axis = body.axis;
+            let across = body.across();
+            let part = |range, kind| Parcel::new(body.rect.with(axis.other(), range), kind, Some(axis));
+            standing.rests.extend(layers.floors.into_iter().map(|floor| part(floor, PlotKind::Aisle)));
+            standing.rests.extend(layers.rests.into_iter().map(|rest| part(rest, PlotKind::Rest)));
+            for stack in layers.stacks {
+                let row = Row::of(body, stack);
+                let own = row.rect.range(axis.other());
+                if own.start < across.start || own.end > across.end {
+                    standing.reaching.push(row.rect.clone());
+                }
+                let [before, within, after] = in_region(frame, &row.rect, axis).map(|part| row.rect.with(axis, part));
+                let beside = [before, after].into_iter().filter(|rest| !rest.range(axis).is_empty());
+                standing.rests.extend(beside.map(|rest| Parcel::new(rest, PlotKind::Rest, Some(axis))));
+                if !within.range(axis).is_empty() {
+                    standing.stacks.push(Row { rect: within, ..row });
+                }
+            }
+        }
+        standing
+    }
+}
+
+/// Parcels without the ground of a row: deep rows may reach into the aisles before them.
+fn without(parcels: Vec<Parcel>, row: &Rect, axis: Axis) -> Vec<Parcel> {
+    let rest = |parcel: Parcel| {
+        let rects = parcel.rect.without(row, axis);
+        rects.into_iter().map(move |rect| Parcel { rect, ..parcel.clone() })
+    };
+    parcels.into_iter().flat_map(rest).collect()
 }
 
 /// Rows with what their cells say: stacks that share lanes, and the layers of those that do not.

@@ -13,7 +13,7 @@ use super::super::frame::{Axis, Cell, Frame, Rect};
 use super::super::{Parcel, PlotKind};
 
 /// Places and band meet within this, metres.
-const CONTACT_M: f64 = 0.3;
+const CONTACT_M: f64 = 0.8;
 /// A stretch of a band without places is open floor from this length on, metres: narrower, it is an empty place or two.
 const OPEN_STRETCH_M: f64 = 1.9;
 /// The same at the ends of a block, metres.
