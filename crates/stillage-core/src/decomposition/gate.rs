@@ -53,6 +53,8 @@ pub(super) struct Periodicity {
     error: f64,
     /// Number of rows that say so.
     votes: usize,
+    /// Whether nothing stands in any of them.
+    is_bare: bool,
 }
 
 impl Periodicity {
@@ -66,8 +68,11 @@ impl Periodicity {
         reading: &Reading,
         pitches: &[f64],
     ) -> Self {
-        let long = (0..rows.len()).filter(|&row| rows[row].length() >= LEAST_LENGTH_M && holds_goods(&patch(row)));
-        let long: Vec<usize> = long.collect();
+        let all: Vec<usize> = (0..rows.len()).filter(|&row| rows[row].length() >= LEAST_LENGTH_M).collect();
+        let held: Vec<usize> = all.iter().copied().filter(|&row| holds_goods(&patch(row))).collect();
+        // Bare racks speak by their posts.
+        let is_bare = held.is_empty();
+        let long = if is_bare { all } else { held };
         let length: f64 = long.iter().map(|&row| rows[row].length()).sum();
         let stride = (length / MOST_LENGTH_M).ceil().max(1.0) as usize;
         let voters: Vec<usize> = long.into_iter().step_by(stride).collect();
@@ -86,7 +91,8 @@ impl Periodicity {
             Excess { total: (fit(real) - chance).max(0.0), length: real.length() }
         };
         let excesses: Vec<Excess> = voters.par_iter().map(excess).collect();
-        Self::of_rows(&excesses, voters.iter().map(|&row| layers(row)).sum())
+        let votes = voters.iter().map(|&row| layers(row)).sum();
+        Self { is_bare, ..Self::of_rows(&excesses, votes) }
     }
 
     /// The same from the excess of each row; each of their layers votes.
@@ -101,7 +107,7 @@ impl Periodicity {
         // The spread of two rows says little: their error counts twice, that of three by a quarter more (as Student's
         // factor does, W. S. Gosset 1908, doi 10.1093/biomet/6.1.1, which is larger still).
         let freedom = rows.len().saturating_sub(1).max(1) as f64;
-        Self { mean, error: (variance / freedom).sqrt() * (1.0 + 1.0 / (freedom * freedom)), votes }
+        Self { mean, error: (variance / freedom).sqrt() * (1.0 + 1.0 / (freedom * freedom)), votes, is_bare: false }
     }
 
     /// Whether they do so certainly, whatever the map shows.
@@ -117,7 +123,7 @@ impl Periodicity {
 
     /// Whether they do so rather than not, in a storage.
     pub(super) fn is_likely(&self) -> bool {
-        self.mean >= LEAST_EXCESS
+        !self.is_bare && self.mean >= LEAST_EXCESS
     }
 }
 
