@@ -176,7 +176,8 @@ impl CellMemberships {
     fn gather(cells: Vec<u32>, parts: &[PartLabels], count: usize) -> Self {
         let mut shares = Memberships::new(cells.len(), count);
         for part in parts {
-            let mut of_part = part.shares.chunks_exact(count);
+            // Without cells there are no categories.
+            let mut of_part = part.shares.chunks_exact(count.max(1));
             // No cell of another part lies between neighbours in a row.
             for run in part.cells.chunk_by(|one, next| one + 1 == *next) {
                 let start = cells.binary_search(&run[0]).expect("every cell of a part was measured");

@@ -1,5 +1,5 @@
 use super::*;
-use crate::spec::{CategoryCount, Scaling};
+use crate::spec::{CategoryCount, RelaxationOptions, Scaling};
 use crate::test_maps::real_maps::{self, Picture};
 use expect_test::{Expect, expect};
 use proptest::prelude::*;
@@ -90,10 +90,13 @@ fn free_cells_behind_walls_have_a_category_too() {
 
 #[test]
 fn a_map_without_free_cells_has_no_categories() {
-    for picture in ["", "#", "?#\n#?"] {
-        let map = categories(&OccupancyGrid::from_ascii(picture, 0.1), &CategorizationOptions::default());
-        assert!(map.categories.is_empty());
-        assert!(map.cells.iter().all(|&category| category == CategoryMap::NONE));
+    for relaxation in [None, Some(RelaxationOptions::default())] {
+        let options = CategorizationOptions { relaxation, ..CategorizationOptions::default() };
+        for picture in ["", "#", "?#\n#?"] {
+            let map = categories(&OccupancyGrid::from_ascii(picture, 0.1), &options);
+            assert!(map.categories.is_empty());
+            assert!(map.cells.iter().all(|&category| category == CategoryMap::NONE));
+        }
     }
 }
 

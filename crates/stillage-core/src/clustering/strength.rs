@@ -75,8 +75,11 @@ pub(super) fn choose(candidates: &[Candidate]) -> usize {
 }
 
 /// The smallest share, over the clusters of points, of pairs that other centroids keep together. A cluster of one row
-/// has no pairs.
+/// has no pairs, and half of a single row no centroids.
 fn strength(points: &Points, own: &[f32], others: &[f32]) -> f64 {
+    if own.is_empty() || others.is_empty() {
+        return 1.0;
+    }
     let columns = points.columns();
     let (own_count, other_count) = (own.len() / columns.max(1), others.len() / columns.max(1));
     let mut table = vec![0_u64; own_count * other_count];
@@ -127,11 +130,13 @@ mod tests {
     }
 
     #[test]
-    fn without_rows_every_number_is_as_good() {
-        let mut none = Points::default();
-        none.refill(&[], &RowScaling::fit(&[], 2, Scaling::None), 0..0);
-        let found = candidates(&none, &OPTIONS, &Watch::unwatched()).expect("nobody stops it");
-        assert!(found.iter().all(|candidate| candidate.prediction_strength == 1.0));
+    fn without_two_rows_every_number_is_as_good() {
+        for rows in [&[][..], &[1.0, 2.0]] {
+            let mut points = Points::default();
+            points.refill(rows, &RowScaling::fit(rows, 2, Scaling::None), 0..rows.len() / 2);
+            let found = candidates(&points, &OPTIONS, &Watch::unwatched()).expect("nobody stops it");
+            assert!(found.iter().all(|candidate| candidate.prediction_strength == 1.0));
+        }
         assert_eq!(choose(&[]), 1);
     }
 }

@@ -1,0 +1,129 @@
+//! Whatever the map and whatever the options: no panic, a sound result, the same on any number of threads.
+//!
+//! A fuzz target in the clothes of a property test, for it needs no nightly compiler: every stage of the public interface
+//! runs on sites made at random (`sites`), and what fails is shrunk to a small one. `PROPTEST_CASES=5000 cargo test
+//! --release -p stillage-core --test any_map` runs the long campaign.
+
+mod sites;
+
+use proptest::prelude::*;
+use rayon::ThreadPool;
+use stillage_core::annotation::CellFaces;
+use stillage_core::arrangement::FaceId;
+use stillage_core::layout::{self, Location};
+use stillage_core::routing::{self, RoutingMap, Waypoint};
+use stillage_core::semantics::{self, Assignment, RuleSet, SemanticMap};
+use stillage_core::watch::Observer;
+use stillage_core::{Analysis, AnalysisSpec, OccupancyGrid, Stage, StopFlag, Stopped, Watch, analyze};
+
+/// Cases of a run that nobody asked to be longer.
+const CASES: u32 = 12;
+
+fn config() -> ProptestConfig {
+    // What the environment asks for is stronger.
+    let cases = if std::env::var_os("PROPTEST_CASES").is_some() { ProptestConfig::default().cases } else { CASES };
+    ProptestConfig { cases, failure_persistence: None, max_shrink_iters: 400, ..ProptestConfig::default() }
+}
+
+fn threads(count: usize) -> ThreadPool {
+    rayon::ThreadPoolBuilder::new().num_threads(count).build().expect("threads can be had")
+}
+
+fn analyzed(grid: &OccupancyGrid, spec: &AnalysisSpec, count: usize) -> Analysis {
+    threads(count).install(|| analyze(grid, spec, &Watch::unwatched())).expect("nobody stops it")
+}
+
+/// The map as it is served before anyone has labelled it.
+fn labelled(analysis: &Analysis) -> SemanticMap {
+    let rules = RuleSet::warehouse();
+    let assignment = Assignment::suggested(&semantics::suggest(analysis, &rules), &rules);
+    semantics::apply(analysis, &rules, &assignment).expect("suggestions can be applied")
+}
+
+/// Every cell lies in one face that says so, and faces cover what their areas say.
+fn check_faces(grid: &OccupancyGrid, analysis: &Analysis) -> Result<(), TestCaseError> {
+    let subdivision = &analysis.subdivision;
+    subdivision.check_invariants().map_err(TestCaseError::fail)?;
+    let cells = CellFaces::rasterize(subdivision, grid.width(), grid.height(), grid.resolution());
+    let mut counts = vec![0; subdivision.face_count()];
+    cells.as_slice().iter().for_each(|face| counts[face.index()] += 1);
+    for face in subdivision.faces() {
+        let known = &analysis.faces[face.index()];
+        prop_assert_eq!(known.cells, counts[face.index()], "cells of face {}", face);
+        let shares = [known.free_fraction, known.occupied_fraction, known.unknown_fraction];
+        prop_assert!((shares.iter().sum::<f64>() - 1.0).abs() < 1e-9, "face {} has shares {:?}", face, shares);
+        prop_assert!(known.area > 0.0 && (0.0..=1.0).contains(&known.confidence), "face {} is {:?}", face, known);
+        prop_assert!(usize::from(known.category) < analysis.face_categories.count(), "category of face {}", face);
+    }
+    // Corners lie on a lattice, a hair beside the corners of the map.
+    let [width, height] = [grid.width(), grid.height()].map(|cells| cells as f64 * grid.resolution() + 1e-4);
+    let whole = width * height;
+    let area: f64 = subdivision.faces().map(|face| subdivision.area(face)).sum();
+    prop_assert!(area <= whole, "{} m2 of faces on {} m2", area, whole);
+    Ok(())
+}
+
+/// Places are made of the faces that name them; locations have codes of their own; a way is as long as it says.
+fn check_meaning(grid: &OccupancyGrid, analysis: &Analysis) -> Result<(), TestCaseError> {
+    let semantic = labelled(analysis);
+    for (number, place) in (0_u32..).zip(&semantic.places) {
+        prop_assert!(place.faces.iter().all(|face| semantic.face_places[face.index()] == Some(number)));
+    }
+    let locations = layout::locations(analysis, &semantic);
+    prop_assert!(locations.windows(2).all(|pair| pair[0].code < pair[1].code), "{:?}", locations);
+    let cells = CellFaces::rasterize(&analysis.subdivision, grid.width(), grid.height(), grid.resolution());
+    let map = RoutingMap { grid, cells: &cells, analysis, semantic: &semantic };
+    let ends = [locations.first(), locations.last()].map(Option::<&Location>::cloned);
+    let faces = [analysis.subdivision.faces().next(), analysis.subdivision.faces().last()];
+    let ways =
+        [waypoints(ends.map(|end| end.map(Waypoint::Location))), waypoints(faces.map(|face| face.map(Waypoint::Face)))];
+    for [from, to] in ways.into_iter().flatten() {
+        if let Ok(route) = routing::route(map, &from, &to) {
+            let length: f64 = route.path.windows(2).map(|step| (step[1] - step[0]).norm()).sum();
+            prop_assert!(route.path.len() >= 2 && (length - route.length).abs() < 1e-6, "{:?}", route);
+            prop_assert!(route.faces.iter().all(|&face| face != FaceId::OUTER));
+        }
+    }
+    Ok(())
+}
+
+fn waypoints([from, to]: [Option<Waypoint>; 2]) -> Option<[Waypoint; 2]> {
+    Some([from?, to?])
+}
+
+/// Stops an analysis at the end of some report of progress.
+struct StopAfter {
+    reports: std::sync::atomic::AtomicUsize,
+    flag: StopFlag,
+}
+
+impl Observer for StopAfter {
+    fn progress(&self, _: Stage, _: f64) {
+        if self.reports.fetch_sub(1, std::sync::atomic::Ordering::Relaxed) == 1 {
+            self.flag.raise();
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(config())]
+
+    #[test]
+    fn any_map_has_a_sound_analysis(site in sites::any_site(), spec in sites::any_spec()) {
+        let grid = site.grid();
+        let analysis = analyzed(&grid, &spec, 1);
+        check_faces(&grid, &analysis)?;
+        check_meaning(&grid, &analysis)?;
+        // Written out, since what is not a number equals nothing.
+        prop_assert_eq!(format!("{analysis:?}"), format!("{:?}", analyzed(&grid, &spec, 3)));
+    }
+
+    #[test]
+    fn an_analysis_stops_or_ends(site in sites::any_site(), spec in sites::any_spec(), reports in 1_usize..40) {
+        let flag = StopFlag::default();
+        let observer = StopAfter { reports: reports.into(), flag: flag.clone() };
+        let result = threads(2).install(|| analyze(&site.grid(), &spec, &Watch::new(&flag, &observer)));
+        prop_assert!(matches!(result, Ok(_) | Err(Stopped)));
+        prop_assert!(result.is_ok() || flag.is_raised());
+    }
+}
