@@ -106,6 +106,7 @@ pub fn analyze(grid: &OccupancyGrid, spec: &AnalysisSpec, watch: &Watch<'_>) -> 
         annotation::merge_alike(grid, &regions, subdivision, cut, &options.annotation, watch)
     })?;
     let graph = AdjacencyGraph::dual(&subdivision);
+    let rooms = RoomMap::of(&rooms, &subdivision, grid);
     let annotations = watch.stage(Stage::Annotation, || {
         let cells = CellFaces::rasterize(&subdivision, grid.width(), grid.height(), grid.resolution());
         let subject = annotation::Subject {
@@ -116,10 +117,10 @@ pub fn analyze(grid: &OccupancyGrid, spec: &AnalysisSpec, watch: &Watch<'_>) -> 
             graph: &graph,
             cells: &cells,
             plots: &plots,
+            rooms: &rooms.faces,
         };
         annotation::annotate(&subject, &options.annotation, options.seed, watch)
     })?;
-    let rooms = RoomMap::of(&rooms, &subdivision, grid);
     let mut analysis = Analysis {
         frame: *grid.frame(),
         width: grid.width(),

@@ -14,7 +14,7 @@ use crate::spec::{AnnotationOptions, CategoryCount, Scaling};
 use crate::watch::{Stopped, Watch};
 
 /// Numbers per face.
-const COLUMNS: usize = 10;
+const COLUMNS: usize = 11;
 /// Weight of what a face was cut out for: no category holds faces of two kinds, unless there are very few of one.
 const KIND_WEIGHT: f32 = 3.0;
 /// Weights of the shares of cells (accuracy study).
@@ -83,6 +83,7 @@ fn describe(face: &FaceAnnotation) -> [f32; COLUMNS] {
         flag(&[Some(PlotKind::Place)]),
         flag(&[Some(PlotKind::Aisle)]),
         flag(&[Some(PlotKind::Lane), Some(PlotKind::Gap)]),
+        flag(&[Some(PlotKind::Room)]),
         flag(&[Some(PlotKind::Rest)]),
         flag(&[None]),
         OCCUPIED_WEIGHT * (face.occupied_fraction.sqrt() as f32),

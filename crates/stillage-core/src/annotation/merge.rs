@@ -121,7 +121,7 @@ fn is_alike(faces: &[Purpose], [left, right]: [FaceId; 2]) -> bool {
             PlotKind::Aisle => {
                 other.kind == one.kind && line_angle_between(one.bounds.angle, other.bounds.angle) < SAME_WAY
             }
-            PlotKind::Lane | PlotKind::Gap | PlotKind::Rest => other.kind == one.kind,
+            PlotKind::Lane | PlotKind::Gap | PlotKind::Room | PlotKind::Rest => other.kind == one.kind,
         },
         _ => false,
     };

@@ -169,6 +169,8 @@ pub struct Subject<'a> {
     pub cells: &'a CellFaces,
     /// What the faces were cut out for.
     pub plots: &'a [Plot],
+    /// Room of each face, by face id; empty without rooms.
+    pub rooms: &'a [Option<u32>],
 }
 
 /// Gives faces their categories and measures faces and edges.
@@ -181,10 +183,10 @@ pub fn annotate(
     seed: u64,
     watch: &Watch<'_>,
 ) -> Result<Annotations, Stopped> {
-    let Subject { grid, categorization, regions, subdivision, graph, cells, plots } = *subject;
+    let Subject { grid, categorization, regions, subdivision, graph, cells, plots, rooms } = *subject;
     let categories = &categorization.map;
     let mut faces = faces::annotate_faces(grid, categories, regions, subdivision, cells, watch)?;
-    let plot_kinds = roles::kinds(graph, &faces, plots);
+    let plot_kinds = roles::kinds(graph, &faces, plots, rooms);
     faces.iter_mut().zip(plot_kinds).for_each(|(face, kind)| face.kind = kind);
     let votes = FaceCategories::from(categories);
     outside::mark_outside(&mut faces, subdivision, votes);

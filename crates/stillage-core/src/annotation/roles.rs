@@ -14,9 +14,19 @@ const OPEN_SHARE: f64 = 0.5;
 const BUCKET_M: f64 = 2.0;
 
 /// What every face was cut out for, by face id; `None` where no plot lies, and where nobody saw what should be open.
-pub(super) fn kinds(graph: &AdjacencyGraph, faces: &[FaceAnnotation], plots: &[Plot]) -> Vec<Option<PlotKind>> {
+pub(super) fn kinds(
+    graph: &AdjacencyGraph,
+    faces: &[FaceAnnotation],
+    plots: &[Plot],
+    rooms: &[Option<u32>],
+) -> Vec<Option<PlotKind>> {
     let index = PlotIndex::new(plots);
+    // On a site of rooms alone, some rooms are corridors.
+    let has_rows = plots.iter().any(|plot| plot.kind != PlotKind::Place);
     let kind = |face: u32| {
+        if has_rows && rooms.get(face as usize).copied().flatten().is_some() {
+            return Some(PlotKind::Room);
+        }
         let annotation = &faces[face as usize];
         let kind = index.at(graph.position(FaceId(face)), annotation.region)?.kind;
         let is_open = matches!(kind, PlotKind::Aisle | PlotKind::Lane | PlotKind::Gap);

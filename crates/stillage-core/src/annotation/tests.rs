@@ -61,6 +61,7 @@ fn annotated_with(picture: &str, subdivision: &Subdivision, options: &Annotation
         graph: &AdjacencyGraph::dual(subdivision),
         cells: &cells,
         plots: &[],
+        rooms: &[],
     };
     annotate(&subject, options, 1, &Watch::unwatched()).expect("nobody stops it")
 }

@@ -52,6 +52,8 @@ use frame::{Axis, Frame, Rect};
 use rows::Hints;
 use site::Site;
 
+pub(crate) use site::Blocks;
+
 /// What a parcel was cut out for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
@@ -64,6 +66,8 @@ pub enum PlotKind {
     Lane,
     /// A passage through a row.
     Gap,
+    /// A room beside the hall, or a bay behind one of its gates.
+    Room,
     /// Anything else.
     Rest,
 }

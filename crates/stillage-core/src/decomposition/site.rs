@@ -22,11 +22,28 @@ pub(super) struct Site {
     regions: Vec<u8>,
 }
 
-impl Site {
-    pub(super) fn of(grid: &OccupancyGrid, regions: &RegionMap, watch: &Watch<'_>) -> Result<Self, Stopped> {
+/// A grid in square blocks, and which of them lie outside the site.
+pub(crate) struct Blocks {
+    /// Cells along the side of a block.
+    pub side: usize,
+    /// Blocks of a row.
+    pub columns: usize,
+    /// Row-major.
+    pub is_outside: Vec<bool>,
+}
+
+impl Blocks {
+    pub(crate) fn of(grid: &OccupancyGrid, watch: &Watch<'_>) -> Result<Self, Stopped> {
         let side = ((BLOCK_M / grid.resolution()).round() as usize).max(1);
         let columns = grid.width().div_ceil(side);
         let is_outside = outside(&known_blocks(grid, side, watch)?, columns, watch)?;
+        Ok(Self { side, columns, is_outside })
+    }
+}
+
+impl Site {
+    pub(super) fn of(grid: &OccupancyGrid, regions: &RegionMap, watch: &Watch<'_>) -> Result<Self, Stopped> {
+        let Blocks { side, columns, is_outside } = Blocks::of(grid, watch)?;
         let mut site =
             Self { width: grid.width(), height: grid.height(), regions: vec![RegionMap::NONE; grid.cells().len()] };
         for (row, line) in site.regions.chunks_exact_mut(site.width.max(1)).enumerate() {

@@ -19,7 +19,7 @@ use crate::watch::{Stopped, Watch};
 /// ends that walls continue (measured on ten office floors, plain and furnished: 0.05 to 0.1 more or less costs up to two points of quality).
 const CONTRASTS: [f64; 3] = [0.5, 0.8, 0.9];
 /// Necks wider than this part nothing, metres: double doors and gates are narrower.
-const WIDEST_M: f64 = 4.0;
+pub(super) const WIDEST_M: f64 = 4.0;
 /// Places narrower than this are no rooms, metres: nobody stands there.
 const NARROWEST_ROOM_M: f64 = 0.6;
 /// A wall that continues a neck is followed so far behind the jamb, metres: further than a cupboard is deep.

@@ -7,11 +7,13 @@
 //!
 //! Racks repeat, walls do not: where no rows of places are found, a site is made of rooms. Necks of the ground with
 //! walls at their ends are closed ([`flood`]), what is left are the rooms ([`partition`]), and their borders, straightened,
-//! are the lines of the subdivision ([`outline`]), so every room is a union of faces. Goods that stand in rooms keep their
-//! own ground ([`stacks`]). [`mod@plan`] says which ground is rooms and which is rows.
+//! are the lines of the subdivision ([`outline`]), so every room is a union of faces. What juts out of a hall behind a gate
+//! is a room as well ([`bays`]); goods that stand in rooms keep their own ground ([`stacks`]). [`mod@plan`] says which
+//! ground is rooms and which is rows.
 //!
 //! Cost: O(cells log cells). Limits: openings as wide as the room behind them part nothing.
 
+mod bays;
 mod doors;
 mod flood;
 mod ground;

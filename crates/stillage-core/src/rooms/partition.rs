@@ -28,7 +28,11 @@ pub(super) struct Partition {
 }
 
 impl Partition {
-    pub(super) fn of(ground: &Ground, passages: &[Passage], watch: &Watch<'_>) -> Result<Self, Stopped> {
+    pub(super) fn of<'a>(
+        ground: &Ground,
+        passages: impl Iterator<Item = &'a Passage>,
+        watch: &Watch<'_>,
+    ) -> Result<Self, Stopped> {
         let mut is_open = ground.is_free.clone();
         for passage in passages {
             for cell in cells_along(ground, passage) {

@@ -3,17 +3,19 @@
 //! The whole site is cut into rooms and, apart from that, into rows. Rooms that open widely into one another are one
 //! zone: goods come in through gates, not through doors. A large zone with places on a good part of it is a hall, laid
 //! out in rows as if the other zones did not exist; all others keep their rooms. So offices in the corner of a hall are
-//! offices, and a site without rows is rooms throughout.
+//! offices, what lies behind its gates is no floor of the hall, and a site without rows is rooms throughout.
 //!
 //! Cost: that of both cuts, and of the rows once more for each time that a zone turns out to have none.
 
 use super::Rooms;
+use super::bays;
 use super::flood::{self, Passage};
 use super::ground::Ground;
 use super::outline;
 use super::partition::Partition;
 use super::stacks::Stacks;
 use crate::decomposition::{self, Decomposition, Plot, PlotKind};
+use crate::disjoint_sets::DisjointSets;
 use crate::geometry::{OrientedBox, Point, direction, fold_half_turn, normal};
 use crate::grid::{Occupancy, OccupancyGrid};
 use crate::radiography::Line;
@@ -52,10 +54,12 @@ pub fn plan(
 ) -> Result<SitePlan, Stopped> {
     let ground = Ground::of(grid, watch)?;
     let passages = flood::passages(&ground, watch)?;
-    let partition = Partition::of(&ground, &passages, watch)?;
+    let gates = bays::gates(grid, &ground, watch)?;
+    let partition = Partition::of(&ground, passages.iter().chain(&gates), watch)?;
     let zones = Zones::of(&ground, &partition, &passages);
     let mut is_hall = zones.may_be_halls();
-    let mut rooms = kept(&ground, &partition, &passages, &is_hall);
+    let cuts = Cuts { ground: &ground, partition: &partition, passages, gates };
+    let mut rooms = cuts.rooms(&is_hall);
     let rows = loop {
         let rows = if is_hall.contains(&true) {
             let grid = if rooms.count == 0 { grid } else { &without(grid, &rooms) };
@@ -70,7 +74,7 @@ pub fn plan(
         }
         // Furniture that repeats by chance does so less when the rows of the next room are gone.
         is_hall.iter_mut().zip(holds_places).for_each(|(is_hall, holds_places)| *is_hall &= holds_places);
-        rooms = kept(&ground, &partition, &passages, &is_hall);
+        rooms = cuts.rooms(&is_hall);
     };
     if rooms.count == 0 {
         return Ok(SitePlan { lines: rows.lines, plots: rows.plots, rooms });
@@ -163,30 +167,51 @@ impl Zones {
     }
 }
 
-/// The rooms that are no part of a hall, and the passages that lead into them.
-fn kept(ground: &Ground, partition: &Partition, passages: &[Passage], is_hall: &[bool]) -> Rooms {
-    let mut count = 0;
-    let numbers: Vec<u32> = (0..=partition.count)
-        .map(|room| {
-            if room == 0 || is_hall[room] {
-                return 0;
+/// A site cut at its passages and gates.
+struct Cuts<'a> {
+    ground: &'a Ground,
+    partition: &'a Partition,
+    passages: Vec<Passage>,
+    /// Those between a hall and the bays behind it.
+    gates: Vec<Passage>,
+}
+
+impl Cuts<'_> {
+    /// The rooms that are no part of a hall, and the passages that lead into them.
+    fn rooms(&self, is_hall: &[bool]) -> Rooms {
+        let Self { ground, partition, passages, gates } = self;
+        // Only what is behind the gate of a hall is a room by itself.
+        let mut same = DisjointSets::new(is_hall.len());
+        for gate in gates {
+            let [one, other] = sides(ground, partition, gate).map(|room| room as usize);
+            if one != 0 && other != 0 && !is_hall[one] && !is_hall[other] {
+                same.join(one, other);
             }
-            count += 1;
-            count
-        })
-        .collect();
-    if count == 0 {
-        return Rooms::default();
-    }
-    let leads_into_room = |passage: &&Passage| {
-        let [one, other] = sides(ground, partition, passage).map(|room| numbers[room as usize]);
-        one != other
-    };
-    let point = |[column, row]: [i64; 2]| Point::new(column as f64 + 0.5, row as f64 + 0.5) * ground.cell;
-    Rooms {
-        count: count as usize,
-        cells: partition.rooms.iter().map(|&room| numbers[room as usize]).collect(),
-        passages: passages.iter().filter(leads_into_room).map(|passage| passage.ends.map(point)).collect(),
+        }
+        let mut count = 0;
+        let mut numbers = vec![0; is_hall.len()];
+        for room in (1..is_hall.len()).filter(|&room| !is_hall[room]) {
+            let first = same.find(room);
+            if numbers[first] == 0 {
+                count += 1;
+                numbers[first] = count;
+            }
+            numbers[room] = numbers[first];
+        }
+        if count == 0 {
+            return Rooms::default();
+        }
+        let leads_into_room = |passage: &&Passage| {
+            let [one, other] = sides(ground, partition, passage).map(|room| numbers[room as usize]);
+            one != other
+        };
+        let point = |[column, row]: [i64; 2]| Point::new(column as f64 + 0.5, row as f64 + 0.5) * ground.cell;
+        let openings = passages.iter().chain(gates).filter(leads_into_room);
+        Rooms {
+            count: count as usize,
+            cells: partition.rooms.iter().map(|&room| numbers[room as usize]).collect(),
+            passages: openings.map(|passage| passage.ends.map(point)).collect(),
+        }
     }
 }
 

@@ -203,6 +203,45 @@ fn an_office_in_the_corner_of_a_hall_is_a_room() {
     assert!(places.clone().count() >= 50 && places.clone().all(|plot| plot.bounds.center.y > 6.0));
 }
 
+/// A hall of pallets on the right, and a trailer at its left wall.
+#[test]
+fn a_bay_behind_a_gate_is_a_room_where_the_hall_is_one() {
+    let hall = |has_pallets: bool| {
+        told(600, 400, move |Point { coords }| {
+            let (x, y) = (coords.x - 6.0, coords.y);
+            let is_gate = (11.0..14.0).contains(&y);
+            if x < 0.0 {
+                let is_inside = is_gate && x >= -5.0;
+                let is_wall = (10.9..14.1).contains(&y) && x >= -5.1;
+                return match (is_inside, is_wall) {
+                    (true, _) => Occupancy::Free,
+                    (_, true) => Occupancy::Occupied,
+                    _ => Occupancy::Unknown,
+                };
+            }
+            let is_wall = (x < 0.1 && !is_gate) || y < 0.1 || x > 23.9 || y > 19.9;
+            let (along, across) = (x - 3.0, (y - 1.6).rem_euclid(5.4));
+            let in_row = (0.0..18.0).contains(&along) && across < 2.4 && (1.6..17.0).contains(&y);
+            let is_block = |offset: f64| [0.1, 0.55, 1.0].iter().any(|&start| (start..start + 0.1).contains(&offset));
+            let is_pallet = has_pallets && in_row && is_block(along % 1.2) && is_block(across % 1.2);
+            if is_wall || is_pallet { Occupancy::Occupied } else { Occupancy::Free }
+        })
+    };
+    check(
+        &hall(true),
+        &expect![[r#"
+        room 0: 18.0 m2 in 1 face
+        door 0|outside of 3.05 m at (6.1, 12.5)
+    "#]],
+    );
+    check(
+        &hall(false),
+        &expect![[r#"
+        room 0: 499.8 m2 in 1 face
+    "#]],
+    );
+}
+
 /// White components of a picture of the true rooms, above 100 cells as in the evaluations of room segmentation. (There,
 /// light grey walls are no ground; under the usual thresholds they are, which costs the first map a tenth or more.)
 fn true_rooms(picture: &OccupancyGrid) -> Vec<u32> {

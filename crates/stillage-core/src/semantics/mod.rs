@@ -93,6 +93,8 @@ pub struct CategoryEvidence {
     pub aisle_fraction: f64,
     /// Share of their area that was cut out as lanes and gaps.
     pub floor_fraction: f64,
+    /// Share of their area that is rooms beside the hall, or bays behind its gates.
+    pub room_fraction: f64,
     /// Share of their area that was cut out as something else.
     pub rest_fraction: f64,
 }

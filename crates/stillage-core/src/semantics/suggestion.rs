@@ -154,13 +154,15 @@ struct Cut {
     place: f64,
     aisle: f64,
     floor: f64,
+    room: f64,
 }
 
 impl Cut {
     /// `None` for faces that were cut out for nothing, as all are in the paper's decomposition.
     fn of(evidence: &CategoryEvidence) -> Option<Self> {
         let (place, aisle, floor) = (evidence.place_fraction, evidence.aisle_fraction, evidence.floor_fraction);
-        (place + aisle + floor + evidence.rest_fraction > MAJORITY).then_some(Self { place, aisle, floor })
+        let (room, rest) = (evidence.room_fraction, evidence.rest_fraction);
+        (place + aisle + floor + room + rest > MAJORITY).then_some(Self { place, aisle, floor, room })
     }
 
     fn suits(self, functionality: Functionality) -> f64 {
@@ -169,7 +171,7 @@ impl Cut {
             Functionality::StorageAccess | Functionality::Access => self.aisle,
             Functionality::Connection => self.floor,
             Functionality::Storage => self.place,
-            Functionality::WorkPlace => 0.0,
+            Functionality::WorkPlace => self.room,
         }
     }
 }
@@ -257,6 +259,7 @@ pub(super) fn category_evidence(analysis: &Analysis) -> Vec<CategoryEvidence> {
             Some(PlotKind::Place) => sum.place_fraction += weight,
             Some(PlotKind::Aisle) => sum.aisle_fraction += weight,
             Some(PlotKind::Lane | PlotKind::Gap) => sum.floor_fraction += weight,
+            Some(PlotKind::Room) => sum.room_fraction += weight,
             Some(PlotKind::Rest) => sum.rest_fraction += weight,
             None => {}
         }
@@ -276,6 +279,7 @@ pub(super) fn category_evidence(analysis: &Analysis) -> Vec<CategoryEvidence> {
             &mut sum.place_fraction,
             &mut sum.aisle_fraction,
             &mut sum.floor_fraction,
+            &mut sum.room_fraction,
             &mut sum.rest_fraction,
         ] {
             *mean = share(*mean, area);

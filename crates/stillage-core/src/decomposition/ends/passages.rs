@@ -30,12 +30,18 @@ struct Stretch {
     has_gap: bool,
 }
 
-/// Makes gaps of the pieces that passages go through.
-pub(super) fn open(frame: &Frame, rows: &mut [Row]) {
+/// The rows that a passage goes through, and from where to where.
+pub(super) type Passage = (Vec<usize>, Range<usize>);
+
+/// Finds the passages through some rows.
+pub(super) fn find(frame: &Frame, rows: &[Row]) -> Vec<Passage> {
     let least = frame.cells_of(PASSAGE_M);
     let stretches: Vec<Stretch> = (0..rows.len()).flat_map(|row| stretches(frame, rows, row, least)).collect();
-    let passages: Vec<(Vec<usize>, Range<usize>)> =
-        (0..stretches.len()).filter_map(|seed| passage(frame, rows, &stretches, seed)).collect();
+    (0..stretches.len()).filter_map(|seed| passage(frame, rows, &stretches, seed)).collect()
+}
+
+/// Makes gaps of the pieces that passages go through.
+pub(super) fn open(frame: &Frame, rows: &mut [Row], passages: Vec<Passage>) {
     for (members, passage) in passages {
         for row in members {
             let row = &mut rows[row];
@@ -76,8 +82,8 @@ fn stretches(frame: &Frame, rows: &[Row], number: usize, least: usize) -> Vec<St
     found
 }
 
-/// The rows that the passage through a stretch goes through, and from where to where.
-fn passage(frame: &Frame, rows: &[Row], stretches: &[Stretch], seed: usize) -> Option<(Vec<usize>, Range<usize>)> {
+/// The passage through a stretch.
+fn passage(frame: &Frame, rows: &[Row], stretches: &[Stretch], seed: usize) -> Option<Passage> {
     let next = frame.cells_of(NEXT_ROW_M);
     let width = &stretches[seed].along;
     let goes_on = |other: &Stretch| common(width, &other.along) as f64 >= SHARE * width.len() as f64;

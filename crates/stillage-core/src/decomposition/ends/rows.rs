@@ -1,7 +1,8 @@
 //! Which pieces of the rows are no places.
 //!
 //! - Ground outside the site holds no goods: the comb runs on behind walls, where a robot looked out of a door.
-//! - Passages that several rows share are no places ([`super::passages`]).
+//! - Passages that several rows share are no places ([`super::passages`]). A gap that no other row shares leads nowhere:
+//!   a few empty places. So is a bare piece between places that is as wide as they are.
 //! - A row of goods ends where its last sign does, and no row goes through a wall: bare pieces beyond are open floor.
 //!
 //! Cost: O(cells of the rows). Limits: an empty place at the end of a row without a post is given up, since nothing
@@ -28,6 +29,10 @@ const POST_REACH_M: f64 = 0.1;
 const LEAST_POST_M2: f64 = 0.005;
 /// A piece with more of it unknown than this may hold anything.
 const UNSEEN_SHARE: f64 = 0.2;
+/// A piece is a place when its width differs by less than this share from that of the places beside it.
+const LIKE_PLACE: f64 = 0.3;
+/// More places than this are not empty side by side, or behind one another: three of ten are on a site with room.
+const MOST_EMPTY: usize = 3;
 /// A wall runs on before the row, metres, and is seen along this share of its length.
 const BEFORE_ROW_M: f64 = 1.4;
 const WALL_SHARE: f64 = 0.75;
@@ -43,7 +48,11 @@ pub(super) fn end(frame: &Frame, parcels: Vec<Parcel>) -> Vec<Parcel> {
         for row in &mut rows {
             row.leave_out(frame);
         }
-        passages::open(frame, &mut rows);
+        let passages = passages::find(frame, &rows);
+        for row in &mut rows {
+            row.fill(frame);
+        }
+        passages::open(frame, &mut rows, passages);
         for row in rows {
             row.end(frame, &mut ended);
         }
@@ -90,6 +99,40 @@ impl Row {
                 place.kind = PlotKind::Rest;
             }
         }
+    }
+
+    /// Makes empty places of the gaps between places, and of bare pieces that are as wide as places.
+    fn fill(&mut self, frame: &Frame) {
+        let mut widths: Vec<usize> =
+            self.pieces.iter().filter(|one| one.kind == PlotKind::Place).map(|one| self.along(one).len()).collect();
+        widths.sort_unstable();
+        let Some(&width) = widths.get(widths.len() / 2).filter(|&&width| width > 0) else { return };
+        let axis = self.axis;
+        let is_place = |index: usize| self.pieces.get(index).is_some_and(|piece| piece.kind == PlotKind::Place);
+        let mut filled = Vec::with_capacity(self.pieces.len());
+        for (index, piece) in self.pieces.iter().enumerate() {
+            let along = self.along(piece);
+            let count = (along.len() as f64 / width as f64).round() as usize;
+            let is_few = count > 0 && count * piece.layers.len().max(1) <= MOST_EMPTY;
+            let is_alike = (along.len() as f64 - width as f64).abs() < LIKE_PLACE * width as f64;
+            let is_between = index > 0 && is_place(index - 1) && is_place(index + 1);
+            let is_empty = match piece.kind {
+                PlotKind::Gap => is_few,
+                PlotKind::Rest => is_few && is_alike && self.is_bare(frame, piece, true, &[]),
+                _ => false,
+            };
+            if !is_between || !is_empty {
+                filled.push(piece.clone());
+                continue;
+            }
+            let border = |number: usize| along.start + number * along.len() / count;
+            filled.extend((0..count).map(|number| Parcel {
+                rect: piece.rect.with(axis, border(number)..border(number + 1)),
+                kind: PlotKind::Place,
+                ..piece.clone()
+            }));
+        }
+        self.pieces = filled;
     }
 
     /// Makes open floor of the bare pieces at both ends, and before and behind every wall.

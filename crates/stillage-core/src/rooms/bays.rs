@@ -1,0 +1,143 @@
+//! Bays: what juts out of a building behind a gate, such as a trailer at its dock.
+//!
+//! A bay is as wide as its gate, so there is no neck before it and [`super::flood`] finds none. But it juts out: the site
+//! as a whole, with all that stands in it, is opened by a disc wider than a gate (G. Matheron 1975), and what the disc
+//! does not reach, is walled and empty lies in a bay. Seen from there, the gate is the last line across before the
+//! walls at its sides end.
+//!
+//! Cost: O(cells), nearly all of it in blocks of a quarter of a metre. Limits: a wing of the building that is as narrow
+//! and holds nothing is a bay; of two gates of one bay, the one towards its middle is found.
+
+use super::flood::{Passage, WIDEST_M};
+use super::ground::Ground;
+use super::nearest::Nearest;
+use crate::components::{Component, Components, Neighbours};
+use crate::decomposition::Blocks;
+use crate::geometry::{Point, Vector, direction};
+use crate::grid::{Occupancy, OccupancyGrid};
+use crate::smallest_box::SmallestBox;
+use crate::watch::{Stopped, Watch};
+
+/// Diameter of the disc, metres: a gate and the walls beside it.
+const DISC_M: f64 = WIDEST_M + 0.5;
+/// Smaller bays are the corners of the building that a disc leaves, and doors that lie back in their wall, square
+/// metres.
+const LEAST_BAY_M2: f64 = 4.0;
+/// Share of the sides of a bay that are walls at least: where sight ended, nothing is known.
+const WALL_SHARE: f64 = 0.7;
+/// Share of the width of a bay that is empty in its middle.
+const EMPTY_SHARE: f64 = 0.75;
+/// A line across that is so much wider than the middle of a bay lies before its gate.
+const OPENING: f64 = 1.25;
+
+/// The gates of all bays.
+pub(super) fn gates(grid: &OccupancyGrid, ground: &Ground, watch: &Watch<'_>) -> Result<Vec<Passage>, Stopped> {
+    let blocks = Blocks::of(grid, watch)?;
+    let reach = DISC_M / 2.0 / (blocks.side as f64 * grid.resolution());
+    let count = blocks.is_outside.len();
+    let is_far = |nearest: &Nearest, block: usize| f64::from(nearest.squared[block]) > reach * reach;
+    let outside = Nearest::of(blocks.columns, count, |block| blocks.is_outside[block], watch)?;
+    let discs = Nearest::of(blocks.columns, count, |block| is_far(&outside, block), watch)?;
+    let juts_out = |block: usize| !blocks.is_outside[block] && is_far(&discs, block);
+    let found = Components::of([blocks.columns, count], Neighbours::Four, juts_out, watch)?;
+    let least = LEAST_BAY_M2 / (blocks.side as f64 * grid.resolution()).powi(2);
+    let large = found.iter().filter(|component| component.len() as f64 >= least);
+    Ok(large.filter_map(|component| gate(grid, ground, &blocks, component, juts_out)).collect())
+}
+
+/// The gate of what juts out, if it is a bay.
+fn gate(
+    grid: &OccupancyGrid,
+    ground: &Ground,
+    blocks: &Blocks,
+    component: Component<'_>,
+    juts_out: impl Fn(usize) -> bool,
+) -> Option<Passage> {
+    let mut floor = Vec::new();
+    let (mut walls, mut unseen) = (0_usize, 0_usize);
+    for (column, row) in component.cells().flat_map(|block| cells_of(blocks, block)) {
+        if ground.holds(column, row) {
+            floor.push(Point::new(column as f64 + 0.5, row as f64 + 0.5));
+            for (across, up) in [(-1, 0), (1, 0), (0, -1), (0, 1)] {
+                match grid.at(column + across, row + up) {
+                    Occupancy::Occupied => walls += 1,
+                    Occupancy::Unknown => unseen += 1,
+                    Occupancy::Free => {}
+                }
+            }
+        }
+    }
+    if floor.is_empty() || (walls as f64) < WALL_SHARE * (walls + unseen) as f64 {
+        return None;
+    }
+    let shape = SmallestBox::around(&floor);
+    let middle = middle(&floor);
+    let hall = middle_of_neighbours(blocks, component, juts_out)?;
+    let inwards = [0.0, 1.0, 2.0, 3.0]
+        .map(|quarter| direction(shape.heading + quarter * std::f64::consts::FRAC_PI_2))
+        .into_iter()
+        .max_by(|one, other| one.dot(&(hall - middle)).total_cmp(&other.dot(&(hall - middle))))?;
+    gate_towards(ground, middle, inwards, &shape)
+}
+
+/// Walks from the middle of a bay to its gate, in cells.
+fn gate_towards(ground: &Ground, middle: Point, inwards: Vector, shape: &SmallestBox) -> Option<Passage> {
+    let most = DISC_M / ground.cell;
+    let across = Vector::new(-inwards.y, inwards.x);
+    let line = |step: usize| {
+        let place = middle + inwards * step as f64;
+        let [left, right] = [across, -across].map(|way| wall(ground, place, way, most));
+        let (left, right) = (left?, right?);
+        Some(([left, right], (right - left).norm()))
+    };
+    let (first, width) = line(0)?;
+    let narrow_side = usize::from(inwards.dot(&direction(shape.heading)).abs() > 0.5);
+    if width < EMPTY_SHARE * shape.extent[narrow_side] {
+        return None;
+    }
+    let is_within = |(_, here): &([Point; 2], f64)| *here <= OPENING * width && *here <= most;
+    let mut ends = first;
+    let mut step = 1;
+    while let Some((further, _)) = line(step).filter(is_within) {
+        (ends, step) = (further, step + 1);
+    }
+    // A line that meets no floor before the gate is the end of the map.
+    let before = middle + inwards * step as f64;
+    ground.holds(before.x.floor() as i64, before.y.floor() as i64).then_some(())?;
+    Some(Passage { ends: ends.map(|end| [end.x.floor() as i64, end.y.floor() as i64]), wall_ends: 2 })
+}
+
+/// The first place from another on, one way, that is no ground; none within so many cells.
+fn wall(ground: &Ground, from: Point, way: Vector, most: f64) -> Option<Point> {
+    let places = (0..=2 * most.ceil() as usize).map(|step| from + way * (step as f64 / 2.0));
+    places.into_iter().find(|place| !ground.holds(place.x.floor() as i64, place.y.floor() as i64))
+}
+
+/// Columns and rows of the cells of a block.
+fn cells_of(blocks: &Blocks, block: usize) -> impl Iterator<Item = (i64, i64)> + use<> {
+    let (side, columns) = (blocks.side, blocks.columns);
+    let (column, row) = (block % columns * side, block / columns * side);
+    (row..row + side).flat_map(move |row| (column..column + side).map(move |column| (column as i64, row as i64)))
+}
+
+/// Where the blocks of the site lie that touch what juts out, cells.
+fn middle_of_neighbours(blocks: &Blocks, component: Component<'_>, juts_out: impl Fn(usize) -> bool) -> Option<Point> {
+    let (columns, count) = (blocks.columns, blocks.is_outside.len());
+    let beside = |block: usize| {
+        let left = (!block.is_multiple_of(columns)).then(|| block - 1);
+        let right = (!(block + 1).is_multiple_of(columns)).then_some(block + 1);
+        [left, right, block.checked_sub(columns), Some(block + columns).filter(|&block| block < count)]
+    };
+    let center = |block: usize| {
+        let [column, row] = [block % columns, block / columns].map(|place| (place as f64 + 0.5) * blocks.side as f64);
+        Point::new(column, row)
+    };
+    let of_hall = component.cells().flat_map(beside).flatten();
+    let of_hall: Vec<Point> =
+        of_hall.filter(|&block| !blocks.is_outside[block] && !juts_out(block)).map(center).collect();
+    (!of_hall.is_empty()).then(|| middle(&of_hall))
+}
+
+fn middle(points: &[Point]) -> Point {
+    Point::from(points.iter().map(|point| point.coords).sum::<Vector>() / points.len() as f64)
+}
