@@ -7,7 +7,8 @@
 //! pitch suits, and what the real row scores above its shuffled selves is its excess: positive for places, even where each
 //! row has its own pitch and phase and a third of the places are empty, and nothing or less for walls, desks and shelves,
 //! which no goods have in common. The rows together are periodic if their mean excess is certainly high, as far as their
-//! spread tells; few rows must be clearer than many.
+//! spread tells; few rows must be clearer than many. Where those of one direction are, those of the other need not: two racks
+//! in the wing of a hall are too few to be certain by themselves.
 //!
 //! Source: surrogate data (J. Theiler et al. 1992, doi 10.1016/0167-2789(92)90102-S), with block shuffling (H. Künsch
 //! 1989, doi 10.1214/aos/1176347265) for the null. Measured, as the mean less [`CERTAIN`] errors: 24 offices, a bookshop
@@ -27,6 +28,8 @@ use crate::orientation::energy::mix;
 /// Least excess of many rows, and what the excess of one row must be above it, logarithms of a likelihood per metre.
 const LEAST_EXCESS: f64 = 0.25;
 const LEAST_EXCESS_OF_ONE: f64 = 2.8;
+/// Excess of rows that no office has, the same: twice that of the worst one.
+const SURE_EXCESS: f64 = 1.5;
 /// Standard errors by which the mean must be above that: fifteen of sixteen are no further off.
 const CERTAIN: f64 = 1.5;
 /// How much more borders count than goods, for furniture has a shape but no borders.
@@ -37,37 +40,91 @@ const SHUFFLES: u64 = 3;
 const PIECE_M: [f64; 2] = [0.25, 0.55];
 /// Rows shorter than two places of the widest kind say nothing, metres.
 const LEAST_LENGTH_M: f64 = 2.6;
+/// Share of the length of a row in which something stands, at the least: bare floor says nothing.
+const GOODS_SHARE: f64 = 0.1;
 /// So many metres of rows settle the question.
 const MOST_LENGTH_M: f64 = 1000.0;
 
-/// Whether rows repeat themselves. `layers` and `patch` give the number of layers and the cells of a row by number,
-/// `widths` are those that its evidence is asked about; `reading` is that of all rows together, and `pitches` are those that it is tried at, metres.
-pub(super) fn is_periodic(
-    rows: &[&Evidence],
-    layers: impl Fn(usize) -> usize,
-    patch: impl Fn(usize) -> Patch + Sync,
-    widths: [f64; 2],
-    reading: &Reading,
-    pitches: &[f64],
-) -> bool {
-    let long: Vec<usize> = (0..rows.len()).filter(|&row| rows[row].length() >= LEAST_LENGTH_M).collect();
-    let length: f64 = long.iter().map(|&row| rows[row].length()).sum();
-    let stride = (length / MOST_LENGTH_M).ceil().max(1.0) as usize;
-    let voters: Vec<usize> = long.into_iter().step_by(stride).collect();
-    let fit = |row: &Evidence| {
-        let (score, borders) = reading.best_fit(row, pitches);
-        score + BORDER_WEIGHT * borders
-    };
-    let excess = |&row: &usize| {
-        let (real, cells) = (rows[row], patch(row));
-        let chance = |turn: u64| {
-            let shuffled = shuffled(&cells, real.cell, row as u64 * SHUFFLES + turn);
-            fit(&Evidence::of(&shuffled, real.cell, widths))
+/// How surely rows repeat themselves.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Periodicity {
+    /// What a metre of rows scores above chance, a logarithm of a likelihood, and its standard error.
+    mean: f64,
+    error: f64,
+    /// Number of rows that say so.
+    votes: usize,
+    /// Whether nothing stands in any of them.
+    is_bare: bool,
+}
+
+impl Periodicity {
+    /// `layers` and `patch` give the number of layers and the cells of a row by number, `widths` are those that its
+    /// evidence is asked about; `reading` is that of all rows together, and `pitches` are those that it is tried at, metres.
+    pub(super) fn of(
+        rows: &[Evidence],
+        layers: impl Fn(usize) -> usize,
+        patch: impl Fn(usize) -> Patch + Sync,
+        widths: [f64; 2],
+        reading: &Reading,
+        pitches: &[f64],
+    ) -> Self {
+        let all: Vec<usize> = (0..rows.len()).filter(|&row| rows[row].length() >= LEAST_LENGTH_M).collect();
+        let held: Vec<usize> = all.iter().copied().filter(|&row| holds_goods(&patch(row))).collect();
+        // Bare racks speak by their posts.
+        let is_bare = held.is_empty();
+        let long = if is_bare { all } else { held };
+        let length: f64 = long.iter().map(|&row| rows[row].length()).sum();
+        let stride = (length / MOST_LENGTH_M).ceil().max(1.0) as usize;
+        let voters: Vec<usize> = long.into_iter().step_by(stride).collect();
+        let fit = |row: &Evidence| {
+            let (score, borders) = reading.best_fit(row, pitches);
+            score + BORDER_WEIGHT * borders
         };
-        Excess { total: fit(real) - (0..SHUFFLES).map(chance).sum::<f64>() / SHUFFLES as f64, length: real.length() }
-    };
-    let excesses: Vec<Excess> = voters.par_iter().map(excess).collect();
-    is_certain(&excesses, voters.iter().map(|&row| layers(row)).sum())
+        let excess = |&row: &usize| {
+            let (real, cells) = (&rows[row], patch(row));
+            let chance = |turn: u64| {
+                let shuffled = shuffled(&cells, real.cell, row as u64 * SHUFFLES + turn);
+                fit(&Evidence::of(&shuffled, real.cell, widths))
+            };
+            let chance = (0..SHUFFLES).map(chance).sum::<f64>() / SHUFFLES as f64;
+            // What is worse than chance is no row; how much worse says nothing of the others.
+            Excess { total: (fit(real) - chance).max(0.0), length: real.length() }
+        };
+        let excesses: Vec<Excess> = voters.par_iter().map(excess).collect();
+        let votes = voters.iter().map(|&row| layers(row)).sum();
+        Self { is_bare, ..Self::of_rows(&excesses, votes) }
+    }
+
+    /// The same from the excess of each row; each of their layers votes.
+    fn of_rows(rows: &[Excess], votes: usize) -> Self {
+        if rows.is_empty() {
+            return Self::default();
+        }
+        let length: f64 = rows.iter().map(|row| row.length).sum();
+        let mean = rows.iter().map(|row| row.total).sum::<f64>() / length;
+        let square = |row: &Excess| row.length * (row.total / row.length - mean).powi(2);
+        let variance = rows.iter().map(square).sum::<f64>() / length;
+        // The spread of two rows says little: their error counts twice, that of three by a quarter more (as Student's
+        // factor does, W. S. Gosset 1908, doi 10.1093/biomet/6.1.1, which is larger still).
+        let freedom = rows.len().saturating_sub(1).max(1) as f64;
+        Self { mean, error: (variance / freedom).sqrt() * (1.0 + 1.0 / (freedom * freedom)), votes, is_bare: false }
+    }
+
+    /// Whether they do so certainly, whatever the map shows.
+    pub(super) fn is_certain(&self) -> bool {
+        let least = LEAST_EXCESS + LEAST_EXCESS_OF_ONE / self.votes as f64;
+        self.votes > 0 && self.mean - CERTAIN * self.error >= least
+    }
+
+    /// Whether they do so more clearly than any furniture: the building is a storage.
+    pub(super) fn is_sure(&self) -> bool {
+        self.is_certain() && self.mean - CERTAIN * self.error >= SURE_EXCESS
+    }
+
+    /// Whether they do so rather than not, in a storage.
+    pub(super) fn is_likely(&self) -> bool {
+        !self.is_bare && self.mean >= LEAST_EXCESS
+    }
 }
 
 /// What a row scores above its shuffled selves.
@@ -78,17 +135,11 @@ struct Excess {
     length: f64,
 }
 
-/// Whether the excess of rows is certainly more than chance; each of their layers votes.
-fn is_certain(rows: &[Excess], votes: usize) -> bool {
-    let length: f64 = rows.iter().map(|row| row.length).sum();
-    let mean = rows.iter().map(|row| row.total).sum::<f64>() / length;
-    let square = |row: &Excess| row.length * (row.total / row.length - mean).powi(2);
-    let variance = rows.iter().map(square).sum::<f64>() / length;
-    // The spread of two rows says little: their error counts twice, that of three by a quarter more (as Student's factor
-    // does, W. S. Gosset 1908, doi 10.1093/biomet/6.1.1, which is larger still).
-    let freedom = rows.len().saturating_sub(1).max(1) as f64;
-    let error = (variance / freedom).sqrt() * (1.0 + 1.0 / (freedom * freedom));
-    !rows.is_empty() && mean - CERTAIN * error >= LEAST_EXCESS + LEAST_EXCESS_OF_ONE / votes as f64
+/// Whether something stands in a row, and not beside it only, as a wall does.
+fn holds_goods(row: &Patch) -> bool {
+    let middle = row.height / 4..row.height - row.height / 4;
+    let is_held = |column: &usize| middle.clone().any(|y| !row.row(y)[*column].is_free());
+    (0..row.width).filter(is_held).count() as f64 >= GOODS_SHARE * row.width as f64
 }
 
 /// A row with its columns in another order.
@@ -117,7 +168,7 @@ mod tests {
 
     fn are_certain(excesses: &[f64]) -> bool {
         let row = |excess: &f64| Excess { total: excess * 10.0, length: 10.0 };
-        is_certain(&excesses.iter().map(row).collect::<Vec<_>>(), excesses.len())
+        Periodicity::of_rows(&excesses.iter().map(row).collect::<Vec<_>>(), excesses.len()).is_certain()
     }
 
     #[test]

@@ -27,7 +27,7 @@ const PRIOR_PAIRS: f64 = 4.0;
 /// those that are tried, metres.
 pub(super) fn are_shared(stacks: &[Vec<Evidence>], pitches: &[f64]) -> Vec<bool> {
     let layers: Vec<&Evidence> = stacks.iter().filter(|layers| layers.len() > 1).flatten().collect();
-    let Some(reading) = (Rows { rows: &layers, pitches: pitches.to_vec() }).in_common() else {
+    let Some(reading) = (Rows { rows: layers, pitches: pitches.to_vec() }).in_common() else {
         return vec![true; stacks.len()];
     };
     stacks.par_iter().map(|layers| is_shared(layers, &reading, pitches)).collect()

@@ -210,7 +210,7 @@ fn fit<const N: usize>(rows: &[&Evidence], pitch: f64, guesses: [Vec<Weighted>; 
 
 /// Rows of one direction.
 pub(super) struct Rows<'a> {
-    pub rows: &'a [&'a Evidence],
+    pub rows: Vec<&'a Evidence>,
     /// The pitches that are tried, metres, ascending.
     pub pitches: Vec<f64>,
 }
@@ -319,8 +319,7 @@ mod tests {
     fn check(row: &str, wanted: &expect_test::Expect) {
         let (frame, rect) = Frame::of_picture(&format!("{row}\n").repeat(20), 0.05);
         let evidence = Evidence::of(&frame.patch(&rect, Axis::U), frame.cell, [0.7, 1.8]);
-        let rows = [&evidence];
-        let rows = Rows { rows: &rows, pitches: pitches([0.8, 1.6]) };
+        let rows = Rows { rows: vec![&evidence], pitches: pitches([0.8, 1.6]) };
         let reading = rows.in_common().and_then(|first| rows.read(first).remove(0));
         let cut = reading.map(|reading| reading.cut(&evidence));
         let places = cut.iter().flat_map(Comb::places).map(|place| format!("{}..{}", place.start, place.end));

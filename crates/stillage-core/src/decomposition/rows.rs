@@ -4,7 +4,6 @@
 //! the pitch and the goods that [`super::reading`] finds in all rows of one direction together. Where nothing repeats,
 //! there is no comb: walls, shelves and furniture are not cut into places. Cost: O(cells x pitches).
 
-use std::collections::BTreeMap;
 use std::ops::Range;
 
 use super::blocks::{Block, BlockKind};
@@ -12,7 +11,7 @@ use super::comb;
 use super::depth::{self, Body};
 use super::evidence::Evidence;
 use super::frame::{Axis, Frame, Rect};
-use super::gate;
+use super::gate::Periodicity;
 use super::lanes;
 use super::layers::{self, Layers, Stack};
 use super::pieces;
@@ -94,31 +93,76 @@ pub(super) fn lay_out(
         }
     }
     let depth = depth::usual(frame, &bodies, hints.depth);
-    for axis in Axis::BOTH {
+    let [along, across] = Axis::BOTH.map(|axis| Direction::of(frame, &bodies, axis, depth, hints, watch));
+    let directions = [along?, across?];
+    let is_storage = directions.iter().any(|direction| direction.periodicity.is_sure());
+    for direction in directions {
+        parcels = direction.lay_out(frame, parcels, is_storage, hints);
+        watch.check()?;
+    }
+    Ok(parcels)
+}
+
+/// The rows of one direction.
+struct Direction<'a> {
+    axis: Axis,
+    bodies: Vec<&'a Body>,
+    rows: Vec<Row>,
+    evidence: Vec<Evidence>,
+    /// What is left beside the rows.
+    rests: Vec<Parcel>,
+    /// Rows that reach into the aisles before their body.
+    reaching: Vec<Rect>,
+    /// How all rows are read in common; none where they are too short or their cells too coarse to tell.
+    reading: Option<Reading>,
+    periodicity: Periodicity,
+}
+
+impl<'a> Direction<'a> {
+    fn of(
+        frame: &Frame,
+        bodies: &'a [Body],
+        axis: Axis,
+        depth: f64,
+        hints: &Hints,
+        watch: &Watch<'_>,
+    ) -> Result<Self, Stopped> {
         let bodies: Vec<&Body> = bodies.iter().filter(|body| body.axis == axis).collect();
         let layers = layers::cut(frame, &bodies, depth, hints.depth, watch)?;
         let Standing { stacks, rests, reaching } = Standing::of(frame, &bodies, layers);
         watch.check()?;
+        let wholes: Vec<(Rect, usize)> = stacks.iter().map(|stack| (stack.rect.clone(), stack.layers.len())).collect();
         let (rows, evidence) = in_lanes(frame, stacks, hints);
         watch.check()?;
-        if let Some(readings) = read(frame, &rows, &evidence, hints, watch)? {
-            parcels = reaching.iter().fold(parcels, |parcels, row| without(parcels, row, axis));
-            parcels.extend(rests);
-            for ((row, evidence), reading) in rows.iter().zip(&evidence).zip(readings) {
-                match reading {
-                    Some(reading) => {
-                        let pieces = pieces::of_comb(&reading.cut(evidence), reading.pitch, frame);
-                        parcels.extend(parcels_of(row, pieces));
-                    }
-                    None => parcels.push(Parcel::new(row.rect.clone(), PlotKind::Rest, Some(axis))),
-                }
-            }
-        } else {
-            let whole = |body: &&Body| Parcel::new(body.rect.clone(), PlotKind::Rest, Some(axis));
-            parcels.extend(bodies.iter().map(whole));
-        }
+        let reading = in_common(frame, &evidence, hints).in_common();
+        watch.check()?;
+        let periodicity = reading.as_ref().map(|first| periodicity(frame, axis, &wholes, hints, first));
+        let periodicity = periodicity.unwrap_or_default();
+        Ok(Self { axis, bodies, rows, evidence, rests, reaching, reading, periodicity })
     }
-    Ok(parcels)
+
+    /// Adds the places of the rows, or the bodies as they are: walls and furniture are not read. In a storage it takes less
+    /// to be rows of places.
+    fn lay_out(self, frame: &Frame, parcels: Vec<Parcel>, is_storage: bool, hints: &Hints) -> Vec<Parcel> {
+        let is_read = self.periodicity.is_certain() || is_storage && self.periodicity.is_likely();
+        let Some(first) = self.reading.filter(|_| is_read) else {
+            let whole = |body: &&Body| Parcel::new(body.rect.clone(), PlotKind::Rest, Some(self.axis));
+            return parcels.into_iter().chain(self.bodies.iter().map(whole)).collect();
+        };
+        let readings = in_common(frame, &self.evidence, hints).read(first);
+        let mut parcels = self.reaching.iter().fold(parcels, |parcels, row| without(parcels, row, self.axis));
+        parcels.extend(self.rests);
+        for ((row, evidence), reading) in self.rows.iter().zip(&self.evidence).zip(readings) {
+            match reading {
+                Some(reading) => {
+                    let pieces = pieces::of_comb(&reading.cut(evidence), reading.pitch, frame);
+                    parcels.extend(parcels_of(row, pieces));
+                }
+                None => parcels.push(Parcel::new(row.rect.clone(), PlotKind::Rest, Some(row.axis))),
+            }
+        }
+        parcels
+    }
 }
 
 /// What stands in the bodies of one direction.
@@ -196,31 +240,20 @@ fn in_region(frame: &Frame, layer: &Rect, axis: Axis) -> [Range<usize>; 3] {
     [along.start..along.start + first, along.start + first..along.start + end, along.start + end..along.end]
 }
 
-/// A reading for each of the rows of one direction, if they are rows of places; walls and furniture are not read.
-fn read(
-    frame: &Frame,
-    rows: &[Row],
-    evidence: &[Evidence],
-    hints: &Hints,
-    watch: &Watch<'_>,
-) -> Result<Option<Vec<Option<Reading>>>, Stopped> {
-    if frame.cell > COARSEST_CELL_M {
-        return Ok(None);
-    }
-    let evidence: Vec<&Evidence> = evidence.iter().collect();
-    let all = Rows { rows: &evidence, pitches: reading::pitches(hints.pitch) };
-    let Some(first) = all.in_common() else { return Ok(None) };
-    watch.check()?;
-    let patch = |row: usize| frame.patch(&rows[row].rect, rows[row].axis);
-    // A stack speaks as a whole: each of its layers by itself may be too empty to tell.
-    let stacks = (0..rows.len()).filter(|&row| rows[row].layers.len() > 1);
-    let wholes: BTreeMap<usize, Evidence> =
-        stacks.map(|row| (row, Evidence::of(&patch(row), frame.cell, hints.widths()))).collect();
-    let seen: Vec<&Evidence> = (0..rows.len()).map(|row| wholes.get(&row).unwrap_or(evidence[row])).collect();
-    let layers = |row: usize| rows[row].layers.len();
-    let is_periodic = gate::is_periodic(&seen, layers, patch, hints.widths(), &first, &all.pitches);
-    watch.check()?;
-    Ok(is_periodic.then(|| all.read(first)))
+/// Rows that are read together; none where cells are too coarse.
+fn in_common<'a>(frame: &Frame, evidence: &'a [Evidence], hints: &Hints) -> Rows<'a> {
+    let evidence = if frame.cell > COARSEST_CELL_M { &[] } else { evidence };
+    Rows { rows: evidence.iter().collect(), pitches: reading::pitches(hints.pitch) }
+}
+
+/// How surely rows, given with their numbers of layers, repeat themselves. A stack speaks as a whole: each of its layers by
+/// itself may be too empty to tell, and layers of shelves look more regular than the shelves.
+fn periodicity(frame: &Frame, axis: Axis, rows: &[(Rect, usize)], hints: &Hints, reading: &Reading) -> Periodicity {
+    let patch = |row: usize| frame.patch(&rows[row].0, axis);
+    let evidence: Vec<Evidence> =
+        (0..rows.len()).map(|row| Evidence::of(&patch(row), frame.cell, hints.widths())).collect();
+    let layers = |row: usize| rows[row].1;
+    Periodicity::of(&evidence, layers, patch, hints.widths(), reading, &reading::pitches(hints.pitch))
 }
 
 /// The pieces of a row as parcels.
