@@ -114,6 +114,7 @@ fn votes(bencher: Bencher<'_, '_>) {
             graph: &analysis.graph,
             cells: &faces,
             plots: &[],
+            rooms: &analysis.rooms.faces,
         };
         annotation::annotate(&subject, options, 1, &watch)
     });

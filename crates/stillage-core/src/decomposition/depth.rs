@@ -74,7 +74,7 @@ impl Body {
 }
 
 /// Share of the two sides along `axis` with room for a vehicle before them.
-fn front_shares(frame: &Frame, rect: &Rect, axis: Axis) -> [f64; 2] {
+pub(super) fn front_shares(frame: &Frame, rect: &Rect, axis: Axis) -> [f64; 2] {
     frame.beside(rect, axis, FRONT_STRIP_M.map(|metres| frame.cells_of(metres))).map(|strip| {
         let patch = frame.patch(&strip, axis);
         let has_room = |column: &usize| (0..patch.height).any(|row| patch.row(row)[*column].is_drivable());

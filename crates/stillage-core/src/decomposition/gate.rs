@@ -7,13 +7,13 @@
 //! pitch suits, and what the real row scores above its shuffled selves is its excess: positive for places, even where each
 //! row has its own pitch and phase and a third of the places are empty, and nothing or less for walls, desks and shelves,
 //! which no goods have in common. The rows together are periodic if their mean excess is certainly high, as far as their
-//! spread tells; few rows must be clearer than many. Where those of one direction are, those of the other need not: two racks
+//! spread tells; few rows must be clearer than many, and so must rows that vehicles do not find room along. Where those of one direction are, those of the other need not: two racks
 //! in the wing of a hall are too few to be certain by themselves.
 //!
 //! Source: surrogate data (J. Theiler et al. 1992, doi 10.1016/0167-2789(92)90102-S), with block shuffling (H. Künsch
 //! 1989, doi 10.1214/aos/1176347265) for the null. Measured, as the mean less [`CERTAIN`] errors: 24 offices, a bookshop
-//! and other floors without places have -2.2 to 0.3, but for one office of 0.5 whose desks stand like racks, and less than
-//! 1 where there are two to five rows; generated sites have 0.45 to 2.7 where they are hard and 1 to 9 otherwise.
+//! and other floors without places have up to 1.4, but those above 0.4 have room for a vehicle along 0.79 to 0.86 of their
+//! rows; generated sites have it along 0.98 and more, and 0.4 to 3 where they are hard, 1 to 9 otherwise.
 //!
 //! Cost: O(pitches x cells) of at most [`MOST_LENGTH_M`] of rows. Limits: furniture at a regular distance of 0.8 to 1.6 m
 //! along several walls is taken for places.
@@ -27,9 +27,11 @@ use crate::orientation::energy::mix;
 
 /// Least excess of many rows, and what the excess of one row must be above it, logarithms of a likelihood per metre.
 const LEAST_EXCESS: f64 = 0.25;
-const LEAST_EXCESS_OF_ONE: f64 = 2.8;
-/// Excess of rows that no office has, the same: twice that of the worst one.
-const SURE_EXCESS: f64 = 1.5;
+const LEAST_EXCESS_OF_ONE: f64 = 2.0;
+/// What it must be above that where nothing drives along any row.
+const BLOCKED_EXCESS: f64 = 10.0;
+/// Excess above that of rows that no office has.
+const SURE_EXCESS: f64 = 1.25;
 /// Standard errors by which the mean must be above that: fifteen of sixteen are no further off.
 const CERTAIN: f64 = 1.5;
 /// How much more borders count than goods, for furniture has a shape but no borders.
@@ -53,16 +55,20 @@ pub(super) struct Periodicity {
     error: f64,
     /// Number of rows that say so.
     votes: usize,
+    /// Share of their length with room for a vehicle on one side.
+    open: f64,
     /// Whether nothing stands in any of them.
     is_bare: bool,
 }
 
 impl Periodicity {
-    /// `layers` and `patch` give the number of layers and the cells of a row by number, `widths` are those that its
+    /// `layers`, `open` and `patch` give the number of layers, the share of its length with room for a vehicle and the cells
+    /// of a row by number, `widths` are those that its
     /// evidence is asked about; `reading` is that of all rows together, and `pitches` are those that it is tried at, metres.
     pub(super) fn of(
         rows: &[Evidence],
         layers: impl Fn(usize) -> usize,
+        open: impl Fn(usize) -> f64,
         patch: impl Fn(usize) -> Patch + Sync,
         widths: [f64; 2],
         reading: &Reading,
@@ -92,11 +98,14 @@ impl Periodicity {
         };
         let excesses: Vec<Excess> = voters.par_iter().map(excess).collect();
         let votes = voters.iter().map(|&row| layers(row)).sum();
-        Self { is_bare, ..Self::of_rows(&excesses, votes) }
+        let voting: f64 = voters.iter().map(|&row| rows[row].length()).sum();
+        let open =
+            voters.iter().map(|&row| open(row) * rows[row].length()).sum::<f64>() / voting.max(f64::MIN_POSITIVE);
+        Self { is_bare, ..Self::of_rows(&excesses, votes, open) }
     }
 
     /// The same from the excess of each row; each of their layers votes.
-    fn of_rows(rows: &[Excess], votes: usize) -> Self {
+    fn of_rows(rows: &[Excess], votes: usize, open: f64) -> Self {
         if rows.is_empty() {
             return Self::default();
         }
@@ -107,23 +116,37 @@ impl Periodicity {
         // The spread of two rows says little: their error counts twice, that of three by a quarter more (as Student's
         // factor does, W. S. Gosset 1908, doi 10.1093/biomet/6.1.1, which is larger still).
         let freedom = rows.len().saturating_sub(1).max(1) as f64;
-        Self { mean, error: (variance / freedom).sqrt() * (1.0 + 1.0 / (freedom * freedom)), votes, is_bare: false }
+        Self {
+            mean,
+            error: (variance / freedom).sqrt() * (1.0 + 1.0 / (freedom * freedom)),
+            votes,
+            open,
+            is_bare: false,
+        }
+    }
+
+    /// What is certain of the mean above the least that many rows need.
+    fn surplus(&self) -> f64 {
+        self.mean - CERTAIN * self.error - self.least()
+    }
+
+    fn least(&self) -> f64 {
+        LEAST_EXCESS + BLOCKED_EXCESS * (1.0 - self.open)
     }
 
     /// Whether they do so certainly, whatever the map shows.
     pub(super) fn is_certain(&self) -> bool {
-        let least = LEAST_EXCESS + LEAST_EXCESS_OF_ONE / self.votes as f64;
-        self.votes > 0 && self.mean - CERTAIN * self.error >= least
+        self.votes > 0 && self.surplus() >= LEAST_EXCESS_OF_ONE / self.votes as f64
     }
 
     /// Whether they do so more clearly than any furniture: the building is a storage.
     pub(super) fn is_sure(&self) -> bool {
-        self.is_certain() && self.mean - CERTAIN * self.error >= SURE_EXCESS
+        self.is_certain() && self.surplus() >= SURE_EXCESS
     }
 
     /// Whether they do so rather than not, in a storage.
     pub(super) fn is_likely(&self) -> bool {
-        !self.is_bare && self.mean >= LEAST_EXCESS
+        !self.is_bare && self.mean >= self.least()
     }
 }
 
@@ -167,8 +190,12 @@ mod tests {
     use super::*;
 
     fn are_certain(excesses: &[f64]) -> bool {
+        are_certain_along(excesses, 1.0)
+    }
+
+    fn are_certain_along(excesses: &[f64], open: f64) -> bool {
         let row = |excess: &f64| Excess { total: excess * 10.0, length: 10.0 };
-        Periodicity::of_rows(&excesses.iter().map(row).collect::<Vec<_>>(), excesses.len()).is_certain()
+        Periodicity::of_rows(&excesses.iter().map(row).collect::<Vec<_>>(), excesses.len(), open).is_certain()
     }
 
     #[test]
@@ -177,6 +204,12 @@ mod tests {
         assert!(!are_certain(&[1.0; 2]));
         assert!(are_certain(&[4.0]));
         assert!(!are_certain(&[]));
+    }
+
+    #[test]
+    fn rows_without_an_aisle_must_be_clearer() {
+        assert!(!are_certain_along(&[1.0; 12], 0.8));
+        assert!(are_certain_along(&[3.0; 12], 0.8));
     }
 
     #[test]

@@ -253,7 +253,8 @@ fn periodicity(frame: &Frame, axis: Axis, rows: &[(Rect, usize)], hints: &Hints,
     let evidence: Vec<Evidence> =
         (0..rows.len()).map(|row| Evidence::of(&patch(row), frame.cell, hints.widths())).collect();
     let layers = |row: usize| rows[row].1;
-    Periodicity::of(&evidence, layers, patch, hints.widths(), reading, &reading::pitches(hints.pitch))
+    let open = |row: usize| depth::front_shares(frame, &rows[row].0, axis).into_iter().fold(0.0, f64::max);
+    Periodicity::of(&evidence, layers, open, patch, hints.widths(), reading, &reading::pitches(hints.pitch))
 }
 
 /// The pieces of a row as parcels.
