@@ -7,10 +7,12 @@
 //! them, and whether their inside was seen, is of no account. Ground too tight for a person is no open ground: it is the
 //! inside of a shelf, or the slot behind it.
 //!
-//! Cost: O(cells), for maps with rooms only. Limits: what stands against a wall at a slant loses its edges; goods that
+//! Cost: O(cells of the rectangles around the rooms). Limits: what stands against a wall at a slant loses its edges; goods that
 //! fill a corner of the room look like the corner of the building, and stay without a face.
 
+use std::collections::BTreeMap;
 use std::f64::consts::FRAC_PI_2;
+use std::ops::Range;
 
 use super::nearest::Nearest;
 use crate::components::{Component, Components, Neighbours};
@@ -49,15 +51,21 @@ impl Stacks {
         watch: &Watch<'_>,
     ) -> Result<Self, Stopped> {
         let (width, cells, cell) = (grid.width(), grid.cells(), grid.resolution());
-        let is_free = cells.iter().map(|&cell| cell == Occupancy::Free).collect();
-        let is_open = opened(is_free, width, TIGHT_M / cell, watch)?;
-        let mut is_between = vec![false; cells.len()];
-        for angle in [angle, angle + FRAC_PI_2] {
-            for_each_line([width, grid.height()], angle, watch, |line| {
-                mark_between(line, &is_open, rooms, &mut is_between);
-            })?;
+        let margin = (TIGHT_M / cell).ceil() as usize + 1;
+        let mut is_thick = vec![false; cells.len()];
+        for (room, window) in Window::of_rooms(rooms, width, margin) {
+            let is_free = window.cells().map(|cell| cells[cell] == Occupancy::Free).collect();
+            let is_open = opened(is_free, window.columns.len(), TIGHT_M / cell, watch)?;
+            let is_room: Vec<bool> = window.cells().map(|cell| rooms[cell] == room).collect();
+            let mut is_between = vec![false; is_room.len()];
+            for angle in [angle, angle + FRAC_PI_2] {
+                for_each_line([window.columns.len(), window.rows.len()], angle, watch, |line| {
+                    mark_between(line, &is_open, &is_room, &mut is_between);
+                })?;
+            }
+            let of_room = opened(is_between, window.columns.len(), DEPTH_M / cell, watch)?;
+            window.cells().zip(of_room).for_each(|(cell, is_in)| is_thick[cell] |= is_in);
         }
-        let is_thick = opened(is_between, width, DEPTH_M / cell, watch)?;
         let parts =
             Components::of([width, cells.len()], Neighbours::Four, |cell| is_thick[cell] || stands_alone(cell), watch)?;
         let mut stacks = Self { cells: vec![0; cells.len()], footprints: Vec::new() };
@@ -69,6 +77,43 @@ impl Stacks {
             }
         }
         Ok(stacks)
+    }
+}
+
+/// A rectangle of the map.
+struct Window {
+    columns: Range<usize>,
+    rows: Range<usize>,
+    /// Columns of the map.
+    width: usize,
+}
+
+impl Window {
+    /// Those around the cells of each room, with its number, and a margin, cells.
+    fn of_rooms(rooms: &[u32], width: usize, margin: usize) -> impl Iterator<Item = (u32, Self)> {
+        let height = rooms.len().checked_div(width).unwrap_or(0);
+        let mut bounds: BTreeMap<u32, [Range<usize>; 2]> = BTreeMap::new();
+        for (row, line) in rooms.chunks_exact(width.max(1)).enumerate() {
+            let mut start = 0;
+            for run in line.chunk_by(PartialEq::eq) {
+                let columns = start..start + run.len();
+                start = columns.end;
+                if run[0] != 0 {
+                    let [across, down] = bounds.entry(run[0]).or_insert([columns.clone(), row..row]);
+                    *across = across.start.min(columns.start)..across.end.max(columns.end);
+                    down.end = row + 1;
+                }
+            }
+        }
+        let wider = move |range: &Range<usize>, end| range.start.saturating_sub(margin)..(range.end + margin).min(end);
+        bounds.into_iter().map(move |(room, [columns, rows])| {
+            (room, Self { columns: wider(&columns, width), rows: wider(&rows, height), width })
+        })
+    }
+
+    /// Its cells of the map, row-major.
+    fn cells(&self) -> impl Iterator<Item = usize> {
+        self.rows.clone().flat_map(move |row| self.columns.clone().map(move |column| row * self.width + column))
     }
 }
 
@@ -102,14 +147,12 @@ fn opened(is_in: Vec<bool>, width: usize, diameter: f64, watch: &Watch<'_>) -> R
     Ok(is_in.into_iter().zip(from_middle).map(|(is_in, distance)| is_in && is_within(distance)).collect())
 }
 
-/// Marks the cells of a line between two open ones of one room.
-fn mark_between(line: &[usize], is_open: &[bool], rooms: &[u32], is_between: &mut [bool]) {
-    let mut last: Option<(usize, u32)> = None;
+/// Marks the cells of a line between two open ones of the room.
+fn mark_between(line: &[usize], is_open: &[bool], is_room: &[bool], is_between: &mut [bool]) {
+    let mut last: Option<(usize, bool)> = None;
     for (place, &cell) in line.iter().enumerate().filter(|&(_, &cell)| is_open[cell]) {
-        let room = rooms[cell];
-        if let Some((before, other)) = last.replace((place, room))
-            && room == other
-            && room != 0
+        if let Some((before, true)) = last.replace((place, is_room[cell]))
+            && is_room[cell]
         {
             line[before + 1..place].iter().for_each(|&cell| is_between[cell] = true);
         }
