@@ -5,6 +5,7 @@
 //! in through gaps between goods, nor into goods before a wall that shows only between them. Cost: O(cells).
 
 use super::opening;
+use crate::components::{Components, Neighbours};
 use crate::grid::{Occupancy, OccupancyGrid};
 use crate::segmentation::RegionMap;
 use crate::watch::{Stopped, Watch};
@@ -93,16 +94,9 @@ fn outside(is_known: &[bool], columns: usize, watch: &Watch<'_>) -> Result<Vec<b
     let fits = opening::squares([across, down], SQUARE, is_unseen, watch)?;
     let first = (SQUARE - 1) * (across + 1);
     let mut is_reached = vec![false; fits.len()];
-    is_reached[first] = true;
-    let mut open = vec![first];
-    while let Some(at) = open.pop() {
-        // Squares end within the padding at the least, so each has neighbours on all sides but after the last.
-        for next in [at - 1, at + 1, at - across, at + across] {
-            if fits.get(next) == Some(&true) && !is_reached[next] {
-                is_reached[next] = true;
-                open.push(next);
-            }
-        }
+    let connected = Components::of([across, fits.len()], Neighbours::Four, |square| fits[square], watch)?;
+    if let Some(around) = connected.iter().find(|squares| squares.first() == first) {
+        around.cells().for_each(|square| is_reached[square] = true);
     }
     let mut is_outside = vec![false; is_known.len()];
     let mark = |padded: usize| {

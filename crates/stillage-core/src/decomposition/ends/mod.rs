@@ -2,10 +2,11 @@
 //!
 //! The comb fills a row from side to side, whatever is there. Here goes what is no row of goods ([`rows`]): pieces
 //! outside the site, passages that several rows share ([`passages`]), and the bare pieces beyond the last sign of
-//! goods. Then bands are cut where no place lies along them any more ([`bands`]), and open floor where nobody saw it
-//! ([`floor`]). What becomes free that way is open floor, a lane whatever it was found in, or a gap where it passes
-//! through a row.
+//! goods. Then bands are cut where no place lies along them any more ([`bands`]), and across where there is room for more
+//! than the aisles of their rows ([`aisles`]), and open floor where nobody saw it ([`floor`]). What becomes free that way
+//! is open floor, a lane whatever it was found in, or a gap where it passes through a row.
 
+mod aisles;
 mod bands;
 mod floor;
 mod passages;
