@@ -295,6 +295,12 @@ impl Patch {
         &self.cells[row * self.width..(row + 1) * self.width]
     }
 
+    /// The same columns in another order.
+    pub fn in_order(&self, columns: &[usize]) -> Self {
+        let cells = (0..self.height).flat_map(|line| columns.iter().map(move |&column| self.row(line)[column]));
+        Self { width: columns.len(), height: self.height, cells: cells.collect() }
+    }
+
     /// Share of the columns of which somebody saw a cell in any of some rows.
     pub fn known_share(&self, rows: std::ops::Range<usize>) -> f64 {
         let is_known = |column: &usize| rows.clone().any(|row| !self.row(row)[*column].is_unknown());

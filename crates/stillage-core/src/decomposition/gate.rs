@@ -6,14 +6,16 @@
 //! goods, but nothing at a regular distance. Both are read with the goods that all rows have in common and at whatever
 //! pitch suits, and what the real row scores above its shuffled selves is its excess: positive for places, even where each
 //! row has its own pitch and phase and a third of the places are empty, and nothing or less for walls, desks and shelves,
-//! which no goods have in common. The rows together are periodic if their mean excess is certainly high, as far as their
-//! spread tells; few rows must be clearer than many, and so must rows that vehicles do not find room along. Where those of one direction are, those of the other need not: two racks
-//! in the wing of a hall are too few to be certain by themselves.
+//! which no goods have in common. Layers that share their lanes speak together: solid goods show no more than where each
+//! lane ends, each at another layer. The rows together are periodic if their mean excess is certainly high, as far as
+//! their spread tells; few rows must be clearer than many, and so must rows that vehicles do not find room along. Where
+//! those of one direction are, those of the other need not: two racks in the wing of a hall are too few to be certain by
+//! themselves.
 //!
 //! Source: surrogate data (J. Theiler et al. 1992, doi 10.1016/0167-2789(92)90102-S), with block shuffling (H. Künsch
 //! 1989, doi 10.1214/aos/1176347265) for the null. Measured, as the mean less [`CERTAIN`] errors: 24 offices, a bookshop
-//! and other floors without places have up to 1.4, but those above 0.4 have room for a vehicle along 0.79 to 0.86 of their
-//! rows; generated sites have it along 0.98 and more, and 0.4 to 3 where they are hard, 1 to 9 otherwise.
+//! and other floors without places have up to 1.4, but those above 0.3 have room for a vehicle along 0.94 of their rows
+//! at most; 150 generated sites have it along 0.97 and more, and 0.4 to 3 where they are hard, 1 to 9 otherwise.
 //!
 //! Cost: O(pitches x cells) of at most [`MOST_LENGTH_M`] of rows. Limits: furniture at a regular distance of 0.8 to 1.6 m
 //! along several walls is taken for places.
@@ -25,8 +27,9 @@ use super::frame::Patch;
 use super::reading::Reading;
 use crate::orientation::energy::mix;
 
-/// Least excess of many rows, and what the excess of one row must be above it, logarithms of a likelihood per metre.
-const LEAST_EXCESS: f64 = 0.25;
+/// Least excess of many rows, and what the excess of one row must be above it, logarithms of a likelihood per metre of a
+/// layer.
+const LEAST_EXCESS: f64 = 0.15;
 const LEAST_EXCESS_OF_ONE: f64 = 2.0;
 /// What it must be above that where nothing drives along any row.
 const BLOCKED_EXCESS: f64 = 10.0;
@@ -50,10 +53,10 @@ const MOST_LENGTH_M: f64 = 1000.0;
 /// How surely rows repeat themselves.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Periodicity {
-    /// What a metre of rows scores above chance, a logarithm of a likelihood, and its standard error.
+    /// What a metre of a layer scores above chance, a logarithm of a likelihood, and its standard error.
     mean: f64,
     error: f64,
-    /// Number of rows that say so.
+    /// Number of layers that say so.
     votes: usize,
     /// Share of their length with room for a vehicle on one side.
     open: f64,
@@ -62,20 +65,19 @@ pub(super) struct Periodicity {
 }
 
 impl Periodicity {
-    /// `layers`, `open` and `patch` give the number of layers, the share of its length with room for a vehicle and the cells
-    /// of a row by number, `widths` are those that its
-    /// evidence is asked about; `reading` is that of all rows together, and `pitches` are those that it is tried at, metres.
+    /// `open` and `layers` give the share of its length with room for a vehicle and the cells of each layer of a row by
+    /// number, `widths` are those that its evidence is asked about; `reading` is that of all rows together, and `pitches`
+    /// are those that it is tried at, metres.
     pub(super) fn of(
         rows: &[Evidence],
-        layers: impl Fn(usize) -> usize,
         open: impl Fn(usize) -> f64,
-        patch: impl Fn(usize) -> Patch + Sync,
+        layers: impl Fn(usize) -> Vec<Patch> + Sync,
         widths: [f64; 2],
         reading: &Reading,
         pitches: &[f64],
     ) -> Self {
         let all: Vec<usize> = (0..rows.len()).filter(|&row| rows[row].length() >= LEAST_LENGTH_M).collect();
-        let held: Vec<usize> = all.iter().copied().filter(|&row| holds_goods(&patch(row))).collect();
+        let held: Vec<usize> = all.iter().copied().filter(|&row| layers(row).iter().any(holds_goods)).collect();
         // Bare racks speak by their posts.
         let is_bare = held.is_empty();
         let long = if is_bare { all } else { held };
@@ -87,17 +89,19 @@ impl Periodicity {
             score + BORDER_WEIGHT * borders
         };
         let excess = |&row: &usize| {
-            let (real, cells) = (&rows[row], patch(row));
+            let (real, layers) = (&rows[row], layers(row));
             let chance = |turn: u64| {
-                let shuffled = shuffled(&cells, real.cell, row as u64 * SHUFFLES + turn);
-                fit(&Evidence::of(&shuffled, real.cell, widths))
+                let order = shuffled(real.len(), real.cell, row as u64 * SHUFFLES + turn);
+                fit(&Evidence::bundle(
+                    layers.iter().map(|layer| Evidence::of(&layer.in_order(&order), real.cell, widths)),
+                ))
             };
             let chance = (0..SHUFFLES).map(chance).sum::<f64>() / SHUFFLES as f64;
             // What is worse than chance is no row; how much worse says nothing of the others.
-            Excess { total: (fit(real) - chance).max(0.0), length: real.length() }
+            Excess { total: (fit(real) - chance).max(0.0), length: real.length() * layers.len() as f64 }
         };
         let excesses: Vec<Excess> = voters.par_iter().map(excess).collect();
-        let votes = voters.iter().map(|&row| layers(row)).sum();
+        let votes = voters.iter().map(|&row| rows[row].contents().count()).sum();
         let voting: f64 = voters.iter().map(|&row| rows[row].length()).sum();
         let open =
             voters.iter().map(|&row| open(row) * rows[row].length()).sum::<f64>() / voting.max(f64::MIN_POSITIVE);
@@ -154,7 +158,7 @@ impl Periodicity {
 #[derive(Debug, Clone, Copy)]
 struct Excess {
     total: f64,
-    /// Metres.
+    /// That of all its layers, metres.
     length: f64,
 }
 
@@ -165,24 +169,22 @@ fn holds_goods(row: &Patch) -> bool {
     (0..row.width).filter(is_held).count() as f64 >= GOODS_SHARE * row.width as f64
 }
 
-/// A row with its columns in another order.
-fn shuffled(row: &Patch, cell: f64, seed: u64) -> Patch {
+/// The columns of a row in another order.
+fn shuffled(width: usize, cell: f64, seed: u64) -> Vec<usize> {
     let mut random = (0_u64..).map(|turn| mix(mix(seed) ^ turn));
     let mut below = |limit: usize| random.next().unwrap_or_default() as usize % limit.max(1);
     let [shortest, longest] = PIECE_M.map(|metres| (metres / cell).round().max(1.0) as usize);
     let mut pieces = Vec::new();
     let mut start = 0;
-    while start < row.width {
-        let end = (start + shortest + below(longest - shortest + 1)).min(row.width);
+    while start < width {
+        let end = (start + shortest + below(longest - shortest + 1)).min(width);
         pieces.push(start..end);
         start = end;
     }
     for last in (1..pieces.len()).rev() {
         pieces.swap(last, below(last + 1));
     }
-    let order: Vec<usize> = pieces.into_iter().flatten().collect();
-    let cells = (0..row.height).flat_map(|y| order.iter().map(move |&x| row.row(y)[x])).collect();
-    Patch { width: row.width, height: row.height, cells }
+    pieces.into_iter().flatten().collect()
 }
 
 #[cfg(test)]

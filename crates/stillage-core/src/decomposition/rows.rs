@@ -10,7 +10,7 @@ use super::blocks::{Block, BlockKind};
 use super::comb;
 use super::depth::{self, Body};
 use super::evidence::Evidence;
-use super::frame::{Axis, Frame, Rect};
+use super::frame::{Axis, Frame, Patch, Rect};
 use super::gate::Periodicity;
 use super::lanes;
 use super::layers::{self, Layers, Stack};
@@ -46,32 +46,38 @@ struct Row {
     rect: Rect,
     axis: Axis,
     layers: Stack,
+    /// Share of its length with room for a vehicle on one side, whatever layers of the same stack are in between.
+    open: f64,
 }
 
 impl Row {
-    fn of(body: &Body, stack: Stack) -> Self {
+    fn of(frame: &Frame, body: &Body, stack: Stack) -> Self {
         let across = body.axis.other();
         let start = stack.iter().map(|layer| layer.start).min().unwrap_or(0);
         let end = stack.iter().map(|layer| layer.end).max().unwrap_or(start);
-        Self { rect: body.rect.with(across, start..end), axis: body.axis, layers: stack }
+        let rect = body.rect.with(across, start..end);
+        let open = depth::front_shares(frame, &rect, body.axis).into_iter().fold(0.0, f64::max);
+        Self { rect, axis: body.axis, layers: stack, open }
     }
 
     /// What the cells of each layer say.
     fn evidence(&self, frame: &Frame, hints: &Hints) -> Vec<Evidence> {
-        let of_layer = |layer: &Range<usize>| {
-            let rect = self.rect.with(self.axis.other(), layer.clone());
-            Evidence::of(&frame.patch(&rect, self.axis), frame.cell, hints.widths())
-        };
-        self.layers.iter().map(of_layer).collect()
+        self.patches(frame).map(|layer| Evidence::of(&layer, frame.cell, hints.widths())).collect()
+    }
+
+    /// The cells of each layer.
+    fn patches(&self, frame: &Frame) -> impl Iterator<Item = Patch> {
+        self.layers.iter().map(|layer| frame.patch(&self.rect.with(self.axis.other(), layer.clone()), self.axis))
     }
 
     /// Each layer as a row of its own.
     fn into_layers(self) -> impl Iterator<Item = Self> {
-        let Self { rect, axis, layers } = self;
+        let Self { rect, axis, layers, open } = self;
         layers.into_iter().map(move |layer| Self {
             rect: rect.with(axis.other(), layer.clone()),
             axis,
             layers: vec![layer],
+            open,
         })
     }
 }
@@ -131,12 +137,11 @@ impl<'a> Direction<'a> {
         let layers = layers::cut(frame, &bodies, depth, hints.depth, watch)?;
         let Standing { stacks, rests, reaching } = Standing::of(frame, &bodies, layers);
         watch.check()?;
-        let wholes: Vec<(Rect, usize)> = stacks.iter().map(|stack| (stack.rect.clone(), stack.layers.len())).collect();
         let (rows, evidence) = in_lanes(frame, stacks, hints);
         watch.check()?;
         let reading = in_common(frame, &evidence, hints).in_common();
         watch.check()?;
-        let periodicity = reading.as_ref().map(|first| periodicity(frame, axis, &wholes, hints, first));
+        let periodicity = reading.as_ref().map(|first| periodicity(frame, &rows, &evidence, hints, first));
         let periodicity = periodicity.unwrap_or_default();
         Ok(Self { axis, bodies, rows, evidence, rests, reaching, reading, periodicity })
     }
@@ -184,7 +189,7 @@ impl Standing {
             standing.rests.extend(layers.floors.into_iter().map(|floor| part(floor, PlotKind::Aisle)));
             standing.rests.extend(layers.rests.into_iter().map(|rest| part(rest, PlotKind::Rest)));
             for stack in layers.stacks {
-                let row = Row::of(body, stack);
+                let row = Row::of(frame, body, stack);
                 let own = row.rect.range(axis.other());
                 if own.start < across.start || own.end > across.end {
                     standing.reaching.push(row.rect.clone());
@@ -246,15 +251,10 @@ fn in_common<'a>(frame: &Frame, evidence: &'a [Evidence], hints: &Hints) -> Rows
     Rows { rows: evidence.iter().collect(), pitches: reading::pitches(hints.pitch) }
 }
 
-/// How surely rows, given with their numbers of layers, repeat themselves. A stack speaks as a whole: each of its layers by
-/// itself may be too empty to tell, and layers of shelves look more regular than the shelves.
-fn periodicity(frame: &Frame, axis: Axis, rows: &[(Rect, usize)], hints: &Hints, reading: &Reading) -> Periodicity {
-    let patch = |row: usize| frame.patch(&rows[row].0, axis);
-    let evidence: Vec<Evidence> =
-        (0..rows.len()).map(|row| Evidence::of(&patch(row), frame.cell, hints.widths())).collect();
-    let layers = |row: usize| rows[row].1;
-    let open = |row: usize| depth::front_shares(frame, &rows[row].0, axis).into_iter().fold(0.0, f64::max);
-    Periodicity::of(&evidence, layers, open, patch, hints.widths(), reading, &reading::pitches(hints.pitch))
+/// How surely rows, given with what their cells say, repeat themselves.
+fn periodicity(frame: &Frame, rows: &[Row], evidence: &[Evidence], hints: &Hints, reading: &Reading) -> Periodicity {
+    let patches = |row: usize| -> Vec<Patch> { rows[row].patches(frame).collect() };
+    Periodicity::of(evidence, |row| rows[row].open, patches, hints.widths(), reading, &reading::pitches(hints.pitch))
 }
 
 /// The pieces of a row as parcels.
