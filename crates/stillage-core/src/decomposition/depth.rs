@@ -31,6 +31,11 @@ const FRONT_STRIP_M: [f64; 2] = [0.25, 0.7];
 const FRONT_SHARE: f64 = 0.5;
 /// The direction of the aisles holds unless the other one has so many times more front.
 const TURN_FACTOR: f64 = 1.5;
+/// The same where only one of both has a wall behind: what stands before a wall is reached from the side across it.
+const WALL_FACTOR: f64 = 0.6;
+/// That is said of bodies thicker than two rows of shallow places back to back, metres: the end of a rack may stand before
+/// a wall as well.
+const THICK_M: f64 = 3.0;
 
 /// A body with the direction of its rows and the sides they are reached from.
 #[derive(Debug, Clone)]
@@ -52,7 +57,16 @@ impl Body {
         let long = if block.rect.u.len() >= block.rect.v.len() { Axis::U } else { Axis::V };
         let usual = block.axis.unwrap_or(long);
         let ((usual_fronts, usual_length), (other_fronts, other_length)) = (front(usual), front(usual.other()));
-        if other_length > TURN_FACTOR * usual_length {
+        let is_before_wall = |fronts: [bool; 2], sides: [bool; 2]| fronts[0] != fronts[1] && sides == [true; 2];
+        let is_thick = block.rect.u.len().min(block.rect.v.len()) >= frame.cells_of(THICK_M);
+        let factor = if is_thick && is_before_wall(other_fronts, usual_fronts) {
+            WALL_FACTOR
+        } else if is_thick && is_before_wall(usual_fronts, other_fronts) {
+            1.0 / WALL_FACTOR
+        } else {
+            TURN_FACTOR
+        };
+        if other_length > factor * usual_length {
             Self { rect: block.rect.clone(), axis: usual.other(), fronts: other_fronts }
         } else {
             Self { rect: block.rect.clone(), axis: usual, fronts: usual_fronts }
