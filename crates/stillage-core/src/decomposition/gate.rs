@@ -7,7 +7,8 @@
 //! pitch suits, and what the real row scores above its shuffled selves is its excess: positive for places, even where each
 //! row has its own pitch and phase and a third of the places are empty, and nothing or less for walls, desks and shelves,
 //! which no goods have in common. Layers that share their lanes speak together: solid goods show no more than where each
-//! lane ends, each at another layer. The rows together are periodic if their mean excess is certainly high, as far as
+//! lane ends, each at another layer. Where a direction holds several sorts of storage that have no goods in common, each
+//! row speaks for itself, and must speak more clearly. The rows together are periodic if their mean excess is certainly high, as far as
 //! their spread tells; few rows must be clearer than many, and so must rows that vehicles do not find room along. Where
 //! those of one direction are, those of the other need not: two racks in the wing of a hall are too few to be certain by
 //! themselves.
@@ -15,25 +16,39 @@
 //! Source: surrogate data (J. Theiler et al. 1992, doi 10.1016/0167-2789(92)90102-S), with block shuffling (H. Künsch
 //! 1989, doi 10.1214/aos/1176347265) for the null. Measured, as the mean less [`CERTAIN`] errors: 24 offices, a bookshop
 //! and other floors without places have up to 1.4, but those above 0.3 have room for a vehicle along 0.94 of their rows
-//! at most; 150 generated sites have it along 0.97 and more, and 0.4 to 3 where they are hard, 1 to 9 otherwise.
+//! at most; 150 generated sites have it along 0.97 and more, and 0.4 to 3 where they are hard, 1 to 9 otherwise. Each row
+//! by itself, floors without places have up to 4, with room for a vehicle along 0.81, and sites 2 to 10.
 //!
-//! Cost: O(pitches x cells) of at most [`MOST_LENGTH_M`] of rows. Limits: furniture at a regular distance of 0.8 to 1.6 m
+//! Cost: O(pitches x cells) of at most 1 km of rows. Limits: furniture at a regular distance of 0.8 to 1.6 m
 //! along several walls is taken for places.
 
 use rayon::prelude::*;
 
 use super::evidence::Evidence;
 use super::frame::Patch;
-use super::reading::Reading;
 use crate::orientation::energy::mix;
 
-/// Least excess of many rows, and what the excess of one row must be above it, logarithms of a likelihood per metre of a
-/// layer.
-const LEAST_EXCESS: f64 = 0.15;
-const LEAST_EXCESS_OF_ONE: f64 = 2.0;
-/// What it must be above that where nothing drives along any row.
-const BLOCKED_EXCESS: f64 = 10.0;
-/// Excess above that of rows that no office has.
+/// What rows must score above chance, logarithms of a likelihood per metre of a layer.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Bar {
+    /// Many rows.
+    least: f64,
+    /// One row above that.
+    of_one: f64,
+    /// Rows that nothing drives along above that.
+    blocked: f64,
+    /// So many metres of rows settle the question.
+    most_length: f64,
+}
+
+impl Bar {
+    /// Rows that are read with the goods that all have in common.
+    pub(super) const IN_COMMON: Self = Self { least: 0.15, of_one: 2.0, blocked: 10.0, most_length: 1000.0 };
+    /// Rows that are read each with goods of its own: furniture is more like itself than like that of other rows.
+    pub(super) const BY_THEMSELVES: Self = Self { least: 2.15, of_one: 4.0, blocked: 20.0, most_length: 300.0 };
+}
+
+/// Excess above the bar of rows that no office has.
 const SURE_EXCESS: f64 = 1.25;
 /// Standard errors by which the mean must be above that: fifteen of sixteen are no further off.
 const CERTAIN: f64 = 1.5;
@@ -47,8 +62,6 @@ const PIECE_M: [f64; 2] = [0.25, 0.55];
 const LEAST_LENGTH_M: f64 = 2.6;
 /// Share of the length of a row in which something stands, at the least: bare floor says nothing.
 const GOODS_SHARE: f64 = 0.1;
-/// So many metres of rows settle the question.
-const MOST_LENGTH_M: f64 = 1000.0;
 
 /// How surely rows repeat themselves.
 #[derive(Debug, Clone, Copy, Default)]
@@ -62,19 +75,20 @@ pub(super) struct Periodicity {
     open: f64,
     /// Whether nothing stands in any of them.
     is_bare: bool,
+    bar: Bar,
 }
 
 impl Periodicity {
     /// `open` and `layers` give the share of its length with room for a vehicle and the cells of each layer of a row by
-    /// number, `widths` are those that its evidence is asked about; `reading` is that of all rows together, and `pitches`
-    /// are those that it is tried at, metres.
+    /// number, `widths` are those that its evidence is asked about, metres; `fit` is what a row scores at the pitch that
+    /// suits it best, and what its borders have in it.
     pub(super) fn of(
         rows: &[Evidence],
         open: impl Fn(usize) -> f64,
         layers: impl Fn(usize) -> Vec<Patch> + Sync,
         widths: [f64; 2],
-        reading: &Reading,
-        pitches: &[f64],
+        fit: impl Fn(&Evidence) -> (f64, f64) + Sync,
+        bar: Bar,
     ) -> Self {
         let all: Vec<usize> = (0..rows.len()).filter(|&row| rows[row].length() >= LEAST_LENGTH_M).collect();
         let held: Vec<usize> = all.iter().copied().filter(|&row| layers(row).iter().any(holds_goods)).collect();
@@ -82,10 +96,10 @@ impl Periodicity {
         let is_bare = held.is_empty();
         let long = if is_bare { all } else { held };
         let length: f64 = long.iter().map(|&row| rows[row].length()).sum();
-        let stride = (length / MOST_LENGTH_M).ceil().max(1.0) as usize;
+        let stride = (length / bar.most_length).ceil().max(1.0) as usize;
         let voters: Vec<usize> = long.into_iter().step_by(stride).collect();
         let fit = |row: &Evidence| {
-            let (score, borders) = reading.best_fit(row, pitches);
+            let (score, borders) = fit(row);
             score + BORDER_WEIGHT * borders
         };
         let excess = |&row: &usize| {
@@ -105,7 +119,7 @@ impl Periodicity {
         let voting: f64 = voters.iter().map(|&row| rows[row].length()).sum();
         let open =
             voters.iter().map(|&row| open(row) * rows[row].length()).sum::<f64>() / voting.max(f64::MIN_POSITIVE);
-        Self { is_bare, ..Self::of_rows(&excesses, votes, open) }
+        Self { is_bare, bar, ..Self::of_rows(&excesses, votes, open) }
     }
 
     /// The same from the excess of each row; each of their layers votes.
@@ -126,21 +140,22 @@ impl Periodicity {
             votes,
             open,
             is_bare: false,
+            bar: Bar::IN_COMMON,
         }
     }
 
-    /// What is certain of the mean above the least that many rows need.
+    /// What is certain of the mean above what many rows need.
     fn surplus(&self) -> f64 {
         self.mean - CERTAIN * self.error - self.least()
     }
 
     fn least(&self) -> f64 {
-        LEAST_EXCESS + BLOCKED_EXCESS * (1.0 - self.open)
+        self.bar.least + self.bar.blocked * (1.0 - self.open)
     }
 
     /// Whether they do so certainly, whatever the map shows.
     pub(super) fn is_certain(&self) -> bool {
-        self.votes > 0 && self.surplus() >= LEAST_EXCESS_OF_ONE / self.votes as f64
+        self.votes > 0 && self.surplus() >= self.bar.of_one / self.votes as f64
     }
 
     /// Whether they do so more clearly than any furniture: the building is a storage.

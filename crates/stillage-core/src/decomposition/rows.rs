@@ -11,7 +11,7 @@ use super::comb;
 use super::depth::{self, Body};
 use super::evidence::Evidence;
 use super::frame::{Axis, Frame, Patch, Rect};
-use super::gate::Periodicity;
+use super::gate::{Bar, Periodicity};
 use super::lanes;
 use super::layers::{self, Layers, Stack};
 use super::pieces;
@@ -100,7 +100,13 @@ pub(super) fn lay_out(
     }
     let depth = depth::usual(frame, &bodies, hints.depth);
     let [along, across] = Axis::BOTH.map(|axis| Direction::of(frame, &bodies, axis, depth, hints, watch));
-    let directions = [along?, across?];
+    let mut directions = [along?, across?];
+    if !directions.iter().any(|direction| direction.periodicity.is_certain()) {
+        for direction in &mut directions {
+            direction.ask_each_row(frame, hints);
+            watch.check()?;
+        }
+    }
     let is_storage = directions.iter().any(|direction| direction.periodicity.is_sure());
     for direction in directions {
         parcels = direction.lay_out(frame, parcels, is_storage, hints);
@@ -141,9 +147,37 @@ impl<'a> Direction<'a> {
         watch.check()?;
         let reading = in_common(frame, &evidence, hints).in_common();
         watch.check()?;
-        let periodicity = reading.as_ref().map(|first| periodicity(frame, &rows, &evidence, hints, first));
-        let periodicity = periodicity.unwrap_or_default();
-        Ok(Self { axis, bodies, rows, evidence, rests, reaching, reading, periodicity })
+        let mut found =
+            Self { axis, bodies, rows, evidence, rests, reaching, reading, periodicity: Periodicity::default() };
+        if let Some(reading) = &found.reading {
+            let pitches = reading::pitches(hints.pitch);
+            found.periodicity = found.excess(frame, hints, |row| reading.best_fit(row, &pitches), Bar::IN_COMMON);
+        }
+        Ok(found)
+    }
+
+    /// Asks each row by itself how surely it repeats itself.
+    fn ask_each_row(&mut self, frame: &Frame, hints: &Hints) {
+        let pitches = reading::pitches(hints.pitch);
+        let fit = |row: &Evidence| {
+            let own = Rows { rows: vec![row], pitches: pitches.clone() }.in_common();
+            own.map_or((0.0, 0.0), |own| own.fit(row))
+        };
+        let periodicity = self.excess(frame, hints, fit, Bar::BY_THEMSELVES);
+        if periodicity.is_certain() {
+            self.periodicity = periodicity;
+        }
+    }
+
+    fn excess(
+        &self,
+        frame: &Frame,
+        hints: &Hints,
+        fit: impl Fn(&Evidence) -> (f64, f64) + Sync,
+        bar: Bar,
+    ) -> Periodicity {
+        let layers = |row: usize| -> Vec<Patch> { self.rows[row].patches(frame).collect() };
+        Periodicity::of(&self.evidence, |row| self.rows[row].open, layers, hints.widths(), fit, bar)
     }
 
     /// Adds the places of the rows, or the bodies as they are: walls and furniture are not read. In a storage it takes less
@@ -249,12 +283,6 @@ fn in_region(frame: &Frame, layer: &Rect, axis: Axis) -> [Range<usize>; 3] {
 fn in_common<'a>(frame: &Frame, evidence: &'a [Evidence], hints: &Hints) -> Rows<'a> {
     let evidence = if frame.cell > COARSEST_CELL_M { &[] } else { evidence };
     Rows { rows: evidence.iter().collect(), pitches: reading::pitches(hints.pitch) }
-}
-
-/// How surely rows, given with what their cells say, repeat themselves.
-fn periodicity(frame: &Frame, rows: &[Row], evidence: &[Evidence], hints: &Hints, reading: &Reading) -> Periodicity {
-    let patches = |row: usize| -> Vec<Patch> { rows[row].patches(frame).collect() };
-    Periodicity::of(evidence, |row| rows[row].open, patches, hints.widths(), reading, &reading::pitches(hints.pitch))
 }
 
 /// The pieces of a row as parcels.
