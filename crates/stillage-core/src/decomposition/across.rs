@@ -15,7 +15,7 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-use super::depth::Body;
+use super::depth::{Body, WHOLE_SHARE};
 use super::evidence::{LEAST_KNOWN, UNKNOWN_CONTENT};
 use super::frame::{Cell, Frame, Patch};
 use super::reading::{self, GOODS_PRICE, LEAST_NOISE, PLACE_PRICE};
@@ -161,7 +161,7 @@ impl Strips {
         } else {
             let steps = ((range[1] - range[0]) / DEPTH_STEP_M).round() as usize;
             let depths = (0..=steps).map(|step| (range[0] + step as f64 * DEPTH_STEP_M) / self.cell);
-            for depth in depths {
+            for depth in depths.filter(|depth| lines >= WHOLE_SHARE * depth) {
                 // The last layer may reach a little into what stands behind it, or be bare floor.
                 let most = (lines / depth + BEHIND_SHARE) as usize;
                 let counts = most.saturating_sub(1).max(1)..=most.max(1);

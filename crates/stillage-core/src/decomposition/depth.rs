@@ -23,6 +23,8 @@ const MISSING_DEPTH_COST: f64 = 1.0;
 const WIDEST_FLUE_M: f64 = 0.7;
 /// A body thinner than this share of the depth holds no row.
 pub(super) const THIN_SHARE: f64 = 0.6;
+/// The same before a wall, which with its pilasters and what lies behind it is some thickness itself.
+pub(super) const WHOLE_SHARE: f64 = 0.85;
 /// A body must be so long to have a say about the depth, metres.
 const LEAST_LENGTH_M: f64 = 2.0;
 /// Where vehicles must find room before a front, from the border on, metres: borders may lie inside the goods.

@@ -12,7 +12,7 @@
 use std::ops::Range;
 
 use super::across::{self, Strips};
-use super::depth::{Body, THIN_SHARE};
+use super::depth::{Body, THIN_SHARE, WHOLE_SHARE};
 use super::extent::{DEEP_ROOM, extents, is_deep};
 use super::frame::Frame;
 use crate::watch::{Stopped, Watch};
@@ -80,7 +80,8 @@ pub(super) fn cut(
 /// One row or two back to back; before a wall, the row along the aisle.
 fn by_thickness(frame: &Frame, body: &Body, room: &Range<usize>, depth: f64) -> Layers {
     let rows = room.len() as f64 * frame.cell / depth;
-    if rows < THIN_SHARE {
+    let least = if body.fronts[0] == body.fronts[1] { THIN_SHARE } else { WHOLE_SHARE };
+    if rows < least {
         return Layers::none(body);
     }
     if rows < DEEP_ROOM {
