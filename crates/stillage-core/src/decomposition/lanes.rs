@@ -9,9 +9,12 @@
 //! pitches of their own must pay for themselves (minimum description length, J. Rissanen 1978, doi
 //! 10.1016/0005-1098(78)90005-5).
 //!
-//! Cost: O(cells of the stacks x pitches). Limits: all layers of a stack, or none.
+//! Layers that show nothing of their lanes, since goods hide them, take those of the layer before.
+//!
+//! Cost: O(cells of the stacks x pitches).
 
 use std::f64::consts::TAU;
+use std::ops::Range;
 
 use rayon::prelude::*;
 
@@ -23,30 +26,63 @@ const SHARED: f64 = 0.5;
 /// Lanes are shared as a rule: that says as much as so many pairs of goods that stand one behind the other.
 const PRIOR_PAIRS: f64 = 4.0;
 
-/// For each of some stacks, given as the evidence of their layers, whether its lanes run through all layers; `pitches` are
-/// those that are tried, metres.
-pub(super) fn are_shared(stacks: &[Vec<Evidence>], pitches: &[f64]) -> Vec<bool> {
+/// For each of some stacks, given as the evidence of their layers, how many layers in a row share their lanes, from the
+/// first on; `pitches` are those that are tried, metres.
+pub(super) fn shared(stacks: &[Vec<Evidence>], pitches: &[f64]) -> Vec<Vec<usize>> {
     let layers: Vec<&Evidence> = stacks.iter().filter(|layers| layers.len() > 1).flatten().collect();
     let Some(reading) = (Rows { rows: layers, pitches: pitches.to_vec() }).in_common() else {
-        return vec![true; stacks.len()];
+        return stacks.iter().map(|layers| vec![layers.len()]).collect();
     };
-    stacks.par_iter().map(|layers| is_shared(layers, &reading, pitches)).collect()
+    stacks.par_iter().map(|layers| Stack::of(layers, &reading, pitches).shared()).collect()
 }
 
-fn is_shared(layers: &[Evidence], reading: &Reading, pitches: &[f64]) -> bool {
-    let others = layers.len().saturating_sub(1) as f64;
-    if others == 0.0 {
-        return true;
+/// The layers of a stack, each with its own way to read it.
+struct Stack<'a> {
+    layers: &'a [Evidence],
+    own: Vec<Reading>,
+    reading: &'a Reading,
+    pitches: &'a [f64],
+}
+
+impl<'a> Stack<'a> {
+    fn of(layers: &'a [Evidence], reading: &'a Reading, pitches: &'a [f64]) -> Self {
+        let own = |layer: &Evidence| reading.fitted(layer, pitches);
+        Self {
+            layers,
+            own: if layers.len() > 1 { layers.iter().map(own).collect() } else { Vec::new() },
+            reading,
+            pitches,
+        }
     }
-    let own: Vec<Reading> = layers.iter().map(|layer| reading.fitted(layer, pitches)).collect();
-    let cosines = cosines(layers, &own);
-    if cosines.iter().sum::<f64>() + PRIOR_PAIRS >= SHARED * (cosines.len() as f64 + PRIOR_PAIRS) {
-        return true;
+
+    /// All layers, or else each with the one before it wherever these two do.
+    fn shared(&self) -> Vec<usize> {
+        let count = self.layers.len();
+        if count < 2 || self.is_shared(0..count) {
+            return vec![count];
+        }
+        let mut groups = vec![1];
+        for layer in 1..count {
+            match groups.last_mut() {
+                Some(last) if self.is_shared(layer - 1..layer + 1) => *last += 1,
+                _ => groups.push(1),
+            }
+        }
+        groups
     }
-    let (together, borders) = reading.best_fit(&Evidence::bundle(layers.iter().cloned()), pitches);
-    let apart: f64 = own.iter().zip(layers).map(|(reading, layer)| reading.fit(layer).0).sum();
-    // The borders of a bundle are the mean of those of its layers.
-    apart - (together + others * borders) <= others * PITCH_PRICE
+
+    fn is_shared(&self, range: Range<usize>) -> bool {
+        let (layers, own) = (&self.layers[range.clone()], &self.own[range]);
+        let others = layers.len() as f64 - 1.0;
+        let cosines = cosines(layers, own);
+        if cosines.iter().sum::<f64>() + PRIOR_PAIRS >= SHARED * (cosines.len() as f64 + PRIOR_PAIRS) {
+            return true;
+        }
+        let (together, borders) = self.reading.best_fit(&Evidence::bundle(layers.iter().cloned()), self.pitches);
+        let apart: f64 = own.iter().zip(layers).map(|(reading, layer)| reading.fit(layer).0).sum();
+        // The borders of a bundle are the mean of those of its layers.
+        apart - (together + others * borders) <= others * PITCH_PRICE
+    }
 }
 
 /// Cosines of what the goods of each layer, read in its own way, are off those behind them.
@@ -75,7 +111,7 @@ mod tests {
             let (frame, rect) = Frame::of_picture(&format!("{row}\n").repeat(20), 0.05);
             Evidence::of(&frame.patch(&rect, Axis::U), frame.cell, [0.7, 1.8])
         });
-        are_shared(&[layers.into()], &reading::pitches([0.8, 1.6]))[0]
+        shared(&[layers.into()], &reading::pitches([0.8, 1.6]))[0] == [2]
     }
 
     const FULL: &str = "..################..";

@@ -52,10 +52,7 @@ struct Row {
 
 impl Row {
     fn of(frame: &Frame, body: &Body, stack: Stack) -> Self {
-        let across = body.axis.other();
-        let start = stack.iter().map(|layer| layer.start).min().unwrap_or(0);
-        let end = stack.iter().map(|layer| layer.end).max().unwrap_or(start);
-        let rect = body.rect.with(across, start..end);
+        let rect = body.rect.with(body.axis.other(), spanned(&stack));
         let open = depth::front_shares(frame, &rect, body.axis).into_iter().fold(0.0, f64::max);
         Self { rect, axis: body.axis, layers: stack, open }
     }
@@ -70,16 +67,23 @@ impl Row {
         self.layers.iter().map(|layer| frame.patch(&self.rect.with(self.axis.other(), layer.clone()), self.axis))
     }
 
-    /// Each layer as a row of its own.
-    fn into_layers(self) -> impl Iterator<Item = Self> {
-        let Self { rect, axis, layers, open } = self;
-        layers.into_iter().map(move |layer| Self {
-            rect: rect.with(axis.other(), layer.clone()),
-            axis,
-            layers: vec![layer],
-            open,
-        })
+    /// The next layers, so many of each, as rows of their own.
+    fn parted(&self, counts: &[usize]) -> Vec<Self> {
+        let mut start = 0;
+        let part = |&count: &usize| {
+            let layers = self.layers[start..start + count].to_vec();
+            start += count;
+            Self { rect: self.rect.with(self.axis.other(), spanned(&layers)), layers, ..*self }
+        };
+        counts.iter().map(part).collect()
     }
+}
+
+/// From the first line of some layers to the last.
+fn spanned(layers: &[Range<usize>]) -> Range<usize> {
+    let start = layers.iter().map(|layer| layer.start).min().unwrap_or(0);
+    let end = layers.iter().map(|layer| layer.end).max().unwrap_or(start);
+    start..end
 }
 
 /// Lays the blocks of a region out.
@@ -249,19 +253,15 @@ fn without(parcels: Vec<Parcel>, row: &Rect, axis: Axis) -> Vec<Parcel> {
     parcels.into_iter().flat_map(rest).collect()
 }
 
-/// Rows with what their cells say: stacks that share lanes, and the layers of those that do not.
+/// Rows with what their cells say: the layers of a stack that share their lanes are one.
 fn in_lanes(frame: &Frame, stacks: Vec<Row>, hints: &Hints) -> (Vec<Row>, Vec<Evidence>) {
     let evidence: Vec<Vec<Evidence>> = stacks.iter().map(|stack| stack.evidence(frame, hints)).collect();
-    let are_shared = lanes::are_shared(&evidence, &reading::pitches(hints.pitch));
+    let shared = lanes::shared(&evidence, &reading::pitches(hints.pitch));
     let (mut rows, mut of_rows) = (Vec::new(), Vec::new());
-    for ((stack, evidence), is_shared) in stacks.into_iter().zip(evidence).zip(are_shared) {
-        if is_shared {
-            rows.push(stack);
-            of_rows.push(Evidence::bundle(evidence));
-        } else {
-            rows.extend(stack.into_layers());
-            of_rows.extend(evidence);
-        }
+    for ((stack, evidence), counts) in stacks.into_iter().zip(evidence).zip(shared) {
+        let mut layers = evidence.into_iter();
+        of_rows.extend(counts.iter().map(|&count| Evidence::bundle(layers.by_ref().take(count))));
+        rows.extend(stack.parted(&counts));
     }
     (rows, of_rows)
 }
