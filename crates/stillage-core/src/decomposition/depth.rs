@@ -9,7 +9,7 @@
 use std::ops::Range;
 
 use super::blocks::Block;
-use super::frame::{Axis, Frame, Rect};
+use super::frame::{Axis, Cell, Frame, Rect};
 
 /// The depth that a place has when nothing else is known, metres (a 1.2 m pallet), and what a metre of deviation costs.
 const USUAL_DEPTH_M: f64 = 1.15;
@@ -38,6 +38,10 @@ const WALL_FACTOR: f64 = 0.6;
 /// That is said of bodies thicker than two rows of shallow places back to back, metres: the end of a rack may stand before
 /// a wall as well.
 const THICK_M: f64 = 3.0;
+/// A block with open floor all around that is as thick as this both ways is no rack, metres; and by how much more its front
+/// is bare than its sides.
+const DEEP_M: f64 = 7.0;
+const BARER: f64 = 0.03;
 
 /// A body with the direction of its rows and the sides they are reached from.
 #[derive(Debug, Clone)]
@@ -51,28 +55,11 @@ pub(super) struct Body {
 impl Body {
     /// Looks at what is drivable around a block.
     pub(super) fn of(frame: &Frame, block: &Block) -> Self {
-        let front = |axis: Axis| {
-            let length = block.rect.range(axis).len() as f64;
-            let shares = front_shares(frame, &block.rect, axis);
-            (shares.map(|share| share >= FRONT_SHARE), (shares[0] + shares[1]) * length)
-        };
         let long = if block.rect.u.len() >= block.rect.v.len() { Axis::U } else { Axis::V };
         let usual = block.axis.unwrap_or(long);
-        let ((usual_fronts, usual_length), (other_fronts, other_length)) = (front(usual), front(usual.other()));
-        let is_before_wall = |fronts: [bool; 2], sides: [bool; 2]| fronts[0] != fronts[1] && sides == [true; 2];
-        let is_thick = block.rect.u.len().min(block.rect.v.len()) >= frame.cells_of(THICK_M);
-        let factor = if is_thick && is_before_wall(other_fronts, usual_fronts) {
-            WALL_FACTOR
-        } else if is_thick && is_before_wall(usual_fronts, other_fronts) {
-            1.0 / WALL_FACTOR
-        } else {
-            TURN_FACTOR
-        };
-        if other_length > factor * usual_length {
-            Self { rect: block.rect.clone(), axis: usual.other(), fronts: other_fronts }
-        } else {
-            Self { rect: block.rect.clone(), axis: usual, fronts: usual_fronts }
-        }
+        let [usual, other] = [usual, usual.other()].map(|axis| Look::of(frame, &block.rect, axis));
+        let look = if other.is_rather(&usual, frame, &block.rect) { other } else { usual };
+        Self { rect: block.rect.clone(), axis: look.axis, fronts: look.fronts }
     }
 
     /// Its range across the rows.
@@ -86,6 +73,50 @@ impl Body {
 
     fn length(&self, frame: &Frame) -> f64 {
         self.rect.range(self.axis).len() as f64 * frame.cell
+    }
+}
+
+/// What the rows of a block along one of its directions would be like.
+struct Look {
+    axis: Axis,
+    fronts: [bool; 2],
+    /// Length of both fronts, cells.
+    front: f64,
+}
+
+impl Look {
+    fn of(frame: &Frame, rect: &Rect, axis: Axis) -> Self {
+        let shares = front_shares(frame, rect, axis);
+        let front = (shares[0] + shares[1]) * rect.range(axis).len() as f64;
+        Self { axis, fronts: shares.map(|share| share >= FRONT_SHARE), front }
+    }
+
+    /// Whether the rows run so rather than as usual.
+    fn is_rather(&self, usual: &Self, frame: &Frame, rect: &Rect) -> bool {
+        let thickness = rect.u.len().min(rect.v.len());
+        if thickness >= frame.cells_of(DEEP_M) && self.fronts == [true; 2] && usual.fronts == [true; 2] {
+            return self.bareness(frame, rect) > usual.bareness(frame, rect) + BARER;
+        }
+        let is_thick = thickness >= frame.cells_of(THICK_M);
+        let is_before_wall = |one: &Self, other: &Self| one.fronts[0] != one.fronts[1] && other.fronts == [true; 2];
+        let factor = if is_thick && is_before_wall(self, usual) {
+            WALL_FACTOR
+        } else if is_thick && is_before_wall(usual, self) {
+            1.0 / WALL_FACTOR
+        } else {
+            TURN_FACTOR
+        };
+        self.front > factor * usual.front
+    }
+
+    /// By how much the outermost places along both sides are more free than those between them: lanes are filled from
+    /// their far end, so the front that they are filled from is bare before all others.
+    fn bareness(&self, frame: &Frame, rect: &Rect) -> f64 {
+        let across = rect.range(self.axis.other());
+        let depth = frame.cells_of(USUAL_DEPTH_M).min(across.len() / 2);
+        let free = |lines: Range<usize>| frame.share(&rect.with(self.axis.other(), lines), Cell::is_free);
+        let [low, high] = [across.start + depth, across.end - depth];
+        f64::midpoint(free(across.start..low), free(high..across.end)) - free(low..high)
     }
 }
 
