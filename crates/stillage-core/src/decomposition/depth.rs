@@ -42,6 +42,7 @@ const THICK_M: f64 = 3.0;
 /// is bare than its sides.
 const DEEP_M: f64 = 7.0;
 const BARER: f64 = 0.03;
+const BARER_FACTOR: f64 = 1.5;
 
 /// A body with the direction of its rows and the sides they are reached from.
 #[derive(Debug, Clone)]
@@ -95,7 +96,7 @@ impl Look {
     fn is_rather(&self, usual: &Self, frame: &Frame, rect: &Rect) -> bool {
         let thickness = rect.u.len().min(rect.v.len());
         if thickness >= frame.cells_of(DEEP_M) && self.fronts == [true; 2] && usual.fronts == [true; 2] {
-            return self.bareness(frame, rect) > usual.bareness(frame, rect) + BARER;
+            return self.bareness(frame, rect) > BARER_FACTOR * usual.bareness(frame, rect) + BARER;
         }
         let is_thick = thickness >= frame.cells_of(THICK_M);
         let is_before_wall = |one: &Self, other: &Self| one.fronts[0] != one.fronts[1] && other.fronts == [true; 2];

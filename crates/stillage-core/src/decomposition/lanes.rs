@@ -61,6 +61,9 @@ impl<'a> Stack<'a> {
         if count < 2 || self.is_shared(0..count) {
             return vec![count];
         }
+        if count == 2 {
+            return vec![1; 2];
+        }
         let mut groups = vec![1];
         for layer in 1..count {
             match groups.last_mut() {
