@@ -166,3 +166,49 @@ fn misfit_of_pair(thickness: f64, depth: f64) -> f64 {
         WIDE_FLUE_COST * (flue - FLUE_M[1]).max(0.0)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::blocks::BlockKind;
+    use super::super::drivable;
+    use super::*;
+    use crate::watch::Watch;
+
+    /// The body of a block, drawn in characters of 0.25 m, with lanes of 1.5 m around it or a wall below.
+    fn body(rows: &[String], has_wall: bool, axis: Axis) -> Body {
+        const CELLS: usize = 5;
+        let (width, lane) = (rows[0].len(), 6);
+        let floor = vec![".".repeat(width + 2 * lane); lane];
+        let beside = ".".repeat(lane);
+        let within = rows.iter().map(|row| format!("{beside}{row}{beside}"));
+        let below = if has_wall { vec!["#".repeat(width + 2 * lane)] } else { floor.clone() };
+        let low = below.len();
+        let scaled = |row: String| {
+            let row: String = row.chars().flat_map(|cell| [cell; CELLS]).collect();
+            (row + "\n").repeat(CELLS)
+        };
+        let picture: String = floor.into_iter().chain(within).chain(below).map(scaled).collect();
+        let (mut frame, whole) = Frame::of_picture(&picture, 0.05);
+        drivable::mark(&mut frame, 20, &Watch::unwatched()).expect("nobody stops it");
+        let side = |start: usize, low: usize, length: usize| start + low * CELLS..start + (low + length) * CELLS;
+        let rect = Rect { u: side(whole.u.start, lane, width), v: side(whole.v.start, low, rows.len()) };
+        Body::of(&frame, &Block { rect, kind: BlockKind::Body, axis: Some(axis), fronts: [false; 2] })
+    }
+
+    #[test]
+    fn what_stands_before_a_wall_is_reached_from_the_side_across_it() {
+        let goods = vec!["#".repeat(30); 20];
+        let found = body(&goods, true, Axis::V);
+        assert_eq!((found.axis, found.fronts), (Axis::U, [false, true]));
+        let found = body(&goods, false, Axis::V);
+        assert_eq!((found.axis, found.fronts), (Axis::V, [true, true]));
+    }
+
+    #[test]
+    fn a_block_is_reached_from_its_barer_sides() {
+        let (free, goods) = (vec![".".repeat(30); 5], vec!["#".repeat(30); 20]);
+        let rows = [free.clone(), goods, free].concat();
+        assert_eq!(body(&rows, false, Axis::V).axis, Axis::U);
+        assert_eq!(body(&rows, false, Axis::U).axis, Axis::U);
+    }
+}

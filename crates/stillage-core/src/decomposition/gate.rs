@@ -207,12 +207,12 @@ mod tests {
     use super::*;
 
     fn are_certain(excesses: &[f64]) -> bool {
-        are_certain_along(excesses, 1.0)
+        periodicity(excesses, 1.0).is_certain()
     }
 
-    fn are_certain_along(excesses: &[f64], open: f64) -> bool {
+    fn periodicity(excesses: &[f64], open: f64) -> Periodicity {
         let row = |excess: &f64| Excess { total: excess * 10.0, length: 10.0 };
-        Periodicity::of_rows(&excesses.iter().map(row).collect::<Vec<_>>(), excesses.len(), open).is_certain()
+        Periodicity::of_rows(&excesses.iter().map(row).collect::<Vec<_>>(), excesses.len(), open)
     }
 
     #[test]
@@ -225,8 +225,16 @@ mod tests {
 
     #[test]
     fn rows_without_an_aisle_must_be_clearer() {
-        assert!(!are_certain_along(&[1.0; 12], 0.8));
-        assert!(are_certain_along(&[3.0; 12], 0.8));
+        assert!(!periodicity(&[1.0; 12], 0.8).is_certain());
+        assert!(periodicity(&[3.0; 12], 0.8).is_certain());
+    }
+
+    #[test]
+    fn rows_that_speak_for_themselves_must_be_clearer() {
+        let alone = |excess, open| Periodicity { bar: Bar::BY_THEMSELVES, ..periodicity(&[excess; 12], open) };
+        assert!(alone(3.0, 1.0).is_certain());
+        assert!(!alone(2.0, 1.0).is_certain());
+        assert!(!alone(6.0, 0.9).is_certain());
     }
 
     #[test]

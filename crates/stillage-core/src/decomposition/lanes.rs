@@ -108,13 +108,14 @@ mod tests {
     use super::super::reading;
     use super::*;
 
-    /// Whether two layers, drawn in cells of 5 cm, share their lanes.
-    fn check(front: &str, behind: &str) -> bool {
-        let layers = [front, behind].map(|row| {
+    /// How many layers in a row, drawn in cells of 5 cm, share their lanes.
+    fn check(layers: &[&str], wanted: &[usize]) {
+        let evidence = |row: &&str| {
             let (frame, rect) = Frame::of_picture(&format!("{row}\n").repeat(20), 0.05);
             Evidence::of(&frame.patch(&rect, Axis::U), frame.cell, [0.7, 1.8])
-        });
-        shared(&[layers.into()], &reading::pitches([0.8, 1.6]))[0] == [2]
+        };
+        let stack = layers.iter().map(evidence).collect();
+        assert_eq!(shared(&[stack], &reading::pitches([0.8, 1.6])), [wanted]);
     }
 
     const FULL: &str = "..################..";
@@ -125,8 +126,16 @@ mod tests {
         let half = &EMPTY[..10];
         let front = [FULL, EMPTY, FULL, FULL, EMPTY, FULL, FULL, half].concat();
         let behind = [FULL, FULL, FULL, FULL, FULL, EMPTY, FULL].concat();
-        assert!(check(&front, &[&behind, half].concat()));
-        assert!(!check(&front, &[half, &behind].concat()));
-        assert!(check(EMPTY, EMPTY));
+        let [aligned, shifted] = [[&behind, half].concat(), [half, &behind].concat()];
+        check(&[&front, &aligned], &[2]);
+        check(&[&front, &shifted], &[1, 1]);
+        check(&[EMPTY, EMPTY], &[2]);
+    }
+
+    #[test]
+    fn a_layer_that_shows_nothing_takes_the_lanes_before_it() {
+        let front = [FULL, EMPTY, FULL, FULL, EMPTY, FULL, FULL, &EMPTY[..10]].concat();
+        let behind = [&EMPTY[..10], FULL, FULL, FULL, FULL, FULL, EMPTY, FULL].concat();
+        check(&[&front, &behind, &"?".repeat(front.len())], &[1, 2]);
     }
 }
