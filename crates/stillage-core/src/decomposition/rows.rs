@@ -51,10 +51,8 @@ struct Row {
 }
 
 impl Row {
-    fn of(frame: &Frame, body: &Body, stack: Stack) -> Self {
-        let rect = body.rect.with(body.axis.other(), spanned(&stack));
-        let open = depth::front_shares(frame, &rect, body.axis).into_iter().fold(0.0, f64::max);
-        Self { rect, axis: body.axis, layers: stack, open }
+    fn of(body: &Body, stack: Stack) -> Self {
+        Self { rect: body.rect.with(body.axis.other(), spanned(&stack)), axis: body.axis, layers: stack, open: 0.0 }
     }
 
     /// What the cells of each layer say.
@@ -227,7 +225,7 @@ impl Standing {
             standing.rests.extend(layers.floors.into_iter().map(|floor| part(floor, PlotKind::Aisle)));
             standing.rests.extend(layers.rests.into_iter().map(|rest| part(rest, PlotKind::Rest)));
             for stack in layers.stacks {
-                let row = Row::of(frame, body, stack);
+                let row = Row::of(body, stack);
                 let own = row.rect.range(axis.other());
                 if own.start < across.start || own.end > across.end {
                     standing.reaching.push(row.rect.clone());
@@ -236,7 +234,8 @@ impl Standing {
                 let beside = [before, after].into_iter().filter(|rest| !rest.range(axis).is_empty());
                 standing.rests.extend(beside.map(|rest| Parcel::new(rest, PlotKind::Rest, Some(axis))));
                 if !within.range(axis).is_empty() {
-                    standing.stacks.push(Row { rect: within, ..row });
+                    let open = depth::front_shares(frame, &within, axis).into_iter().fold(0.0, f64::max);
+                    standing.stacks.push(Row { rect: within, open, ..row });
                 }
             }
         }
