@@ -8,10 +8,10 @@
 //! row has its own pitch and phase and a third of the places are empty, and nothing or less for walls, desks and shelves,
 //! which no goods have in common. Layers that share their lanes speak together: solid goods show no more than where each
 //! lane ends, each at another layer. Where a direction holds several sorts of storage that have no goods in common, each
-//! row speaks for itself, and must speak more clearly. The rows together are periodic if their mean excess is certainly high, as far as
-//! their spread tells; few rows must be clearer than many, and so must rows that vehicles do not find room along. Where
-//! those of one direction are, those of the other need not: two racks in the wing of a hall are too few to be certain by
-//! themselves.
+//! row speaks for itself, and must speak more clearly. The rows together are periodic if their mean excess is certainly
+//! high, as far as their spread tells; few rows must be clearer than many, and so must rows that vehicles do not find room
+//! along. Where those of one direction are, those of the other need not: two racks in the wing of a hall are too few to be
+//! certain by themselves.
 //!
 //! Source: surrogate data (J. Theiler et al. 1992, doi 10.1016/0167-2789(92)90102-S), with block shuffling (H. Künsch
 //! 1989, doi 10.1214/aos/1176347265) for the null. Measured, as the mean less 1.5 errors: 24 offices, a bookshop

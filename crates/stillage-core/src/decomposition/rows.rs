@@ -51,10 +51,6 @@ struct Row {
 }
 
 impl Row {
-    fn of(body: &Body, stack: Stack) -> Self {
-        Self { rect: body.rect.with(body.axis.other(), spanned(&stack)), axis: body.axis, layers: stack, open: 0.0 }
-    }
-
     /// What the cells of each layer say.
     fn evidence(&self, frame: &Frame, hints: &Hints) -> Vec<Evidence> {
         self.patches(frame).map(|layer| Evidence::of(&layer, frame.cell, hints.widths())).collect()
@@ -160,6 +156,9 @@ impl<'a> Direction<'a> {
 
     /// Asks each row by itself how surely it repeats itself.
     fn ask_each_row(&mut self, frame: &Frame, hints: &Hints) {
+        if self.reading.is_none() {
+            return;
+        }
         let pitches = reading::pitches(hints.pitch);
         let fit = |row: &Evidence| {
             let own = Rows { rows: vec![row], pitches: pitches.clone() }.in_common();
@@ -225,17 +224,17 @@ impl Standing {
             standing.rests.extend(layers.floors.into_iter().map(|floor| part(floor, PlotKind::Aisle)));
             standing.rests.extend(layers.rests.into_iter().map(|rest| part(rest, PlotKind::Rest)));
             for stack in layers.stacks {
-                let row = Row::of(body, stack);
-                let own = row.rect.range(axis.other());
+                let own = spanned(&stack);
+                let rect = body.rect.with(axis.other(), own.clone());
                 if own.start < across.start || own.end > across.end {
-                    standing.reaching.push(row.rect.clone());
+                    standing.reaching.push(rect.clone());
                 }
-                let [before, within, after] = in_region(frame, &row.rect, axis).map(|part| row.rect.with(axis, part));
+                let [before, within, after] = in_region(frame, &rect, axis).map(|part| rect.with(axis, part));
                 let beside = [before, after].into_iter().filter(|rest| !rest.range(axis).is_empty());
                 standing.rests.extend(beside.map(|rest| Parcel::new(rest, PlotKind::Rest, Some(axis))));
                 if !within.range(axis).is_empty() {
                     let open = depth::front_shares(frame, &within, axis).into_iter().fold(0.0, f64::max);
-                    standing.stacks.push(Row { rect: within, open, ..row });
+                    standing.stacks.push(Row { rect: within, axis, layers: stack, open });
                 }
             }
         }
