@@ -38,11 +38,11 @@ const WALL_FACTOR: f64 = 0.6;
 /// That is said of bodies thicker than two rows of shallow places back to back, metres: the end of a rack may stand before
 /// a wall as well.
 const THICK_M: f64 = 3.0;
-/// A block with open floor all around that is as thick as this both ways is no rack, metres; and by how much more its front
-/// is bare than its sides.
+/// A block with open floor all around that is as thick as this both ways is no rack, metres.
 const DEEP_M: f64 = 7.0;
-const BARER: f64 = 0.03;
+/// Its fronts are so many times as bare as its sides, and by so much more.
 const BARER_FACTOR: f64 = 1.5;
+const BARER: f64 = 0.03;
 
 /// A body with the direction of its rows and the sides they are reached from.
 #[derive(Debug, Clone)]

@@ -61,13 +61,11 @@ impl<'a> Stack<'a> {
         if count < 2 || self.is_shared(0..count) {
             return vec![count];
         }
-        if count == 2 {
-            return vec![1; 2];
-        }
         let mut groups = vec![1];
         for layer in 1..count {
             match groups.last_mut() {
-                Some(last) if self.is_shared(layer - 1..layer + 1) => *last += 1,
+                // Of two layers this was asked already.
+                Some(last) if count > 2 && self.is_shared(layer - 1..layer + 1) => *last += 1,
                 _ => groups.push(1),
             }
         }
