@@ -61,6 +61,8 @@ pub mod evaluation;
 
 mod components;
 mod disjoint_sets;
+mod morphology;
+mod site_ground;
 mod smallest_box;
 pub mod spec;
 mod walls;

@@ -6,7 +6,7 @@ use crate::watch::{Stopped, Watch};
 
 /// Whether a square of `side` cells that ends at a cell, its upper right one, fits into those for which `is_open` holds;
 /// row-major.
-pub(super) fn squares(
+pub(crate) fn squares(
     [columns, rows]: [usize; 2],
     side: usize,
     is_open: impl Fn(usize) -> bool,
@@ -30,7 +30,7 @@ pub(super) fn squares(
 }
 
 /// Marks the cells that squares cover, which end at their upper right cell.
-pub(super) fn cover(
+pub(crate) fn cover(
     squares: &[bool],
     columns: usize,
     side: usize,

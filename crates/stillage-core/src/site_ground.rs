@@ -4,9 +4,9 @@
 //! filled in blocks of a quarter of a metre that hold no known cell, by a square wider than a place: so it does not leak
 //! in through gaps between goods, nor into goods before a wall that shows only between them. Cost: O(cells).
 
-use super::opening;
 use crate::components::{Components, Neighbours};
 use crate::grid::{Occupancy, OccupancyGrid};
+use crate::morphology;
 use crate::segmentation::RegionMap;
 use crate::watch::{Stopped, Watch};
 
@@ -16,7 +16,7 @@ const BLOCK_M: f64 = 0.25;
 const SQUARE: usize = 5;
 
 /// The ground of a grid that lies in its site, by region.
-pub(super) struct Site {
+pub(crate) struct Site {
     width: usize,
     height: usize,
     /// Region of each cell, row-major; [`RegionMap::NONE`] outside the site and the regions.
@@ -43,7 +43,7 @@ impl Blocks {
 }
 
 impl Site {
-    pub(super) fn of(grid: &OccupancyGrid, regions: &RegionMap, watch: &Watch<'_>) -> Result<Self, Stopped> {
+    pub(crate) fn of(grid: &OccupancyGrid, regions: &RegionMap, watch: &Watch<'_>) -> Result<Self, Stopped> {
         let Blocks { side, columns, is_outside } = Blocks::of(grid, watch)?;
         let mut site =
             Self { width: grid.width(), height: grid.height(), regions: vec![RegionMap::NONE; grid.cells().len()] };
@@ -60,7 +60,7 @@ impl Site {
     }
 
     /// Whether a cell of the grid lies in the site and in a region.
-    pub(super) fn holds(&self, column: i64, row: i64, region: u8) -> bool {
+    pub(crate) fn holds(&self, column: i64, row: i64, region: u8) -> bool {
         (0..self.width as i64).contains(&column)
             && (0..self.height as i64).contains(&row)
             && self.regions[row as usize * self.width + column as usize] == region
@@ -91,7 +91,7 @@ fn outside(is_known: &[bool], columns: usize, watch: &Watch<'_>) -> Result<Vec<b
         (column < columns && row < rows).then(|| row * columns + column)
     };
     let is_unseen = |padded: usize| block(padded).is_none_or(|block| !is_known[block]);
-    let fits = opening::squares([across, down], SQUARE, is_unseen, watch)?;
+    let fits = morphology::squares([across, down], SQUARE, is_unseen, watch)?;
     let first = (SQUARE - 1) * (across + 1);
     let mut is_reached = vec![false; fits.len()];
     let connected = Components::of([across, fits.len()], Neighbours::Four, |square| fits[square], watch)?;
@@ -104,6 +104,6 @@ fn outside(is_known: &[bool], columns: usize, watch: &Watch<'_>) -> Result<Vec<b
             is_outside[block] = true;
         }
     };
-    opening::cover(&is_reached, across, SQUARE, mark, watch)?;
+    morphology::cover(&is_reached, across, SQUARE, mark, watch)?;
     Ok(is_outside)
 }

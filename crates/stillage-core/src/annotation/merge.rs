@@ -121,7 +121,7 @@ fn is_alike(faces: &[Purpose], [left, right]: [FaceId; 2]) -> bool {
             PlotKind::Aisle => {
                 other.kind == one.kind && line_angle_between(one.bounds.angle, other.bounds.angle) < SAME_WAY
             }
-            PlotKind::Lane | PlotKind::Gap | PlotKind::Room | PlotKind::Rest => other.kind == one.kind,
+            PlotKind::OpenFloor | PlotKind::Passage | PlotKind::Room | PlotKind::Other => other.kind == one.kind,
         },
         _ => false,
     };
@@ -208,22 +208,22 @@ mod tests {
 
     #[test]
     fn open_floor_is_one_face_and_a_wall_keeps_it_two() {
-        use PlotKind::Lane;
-        check("........\n........", &[3.0, 5.0], &[Lane; 3], &expect!["0.0..8.0"]);
-        check("...#....\n...#....", &[3.0, 5.0], &[Lane; 3], &expect!["0.0..3.0 3.0..8.0"]);
-        check("...?????\n...?????", &[3.0, 5.0], &[Lane; 3], &expect!["0.0..3.0 3.0..8.0"]);
+        use PlotKind::OpenFloor;
+        check("........\n........", &[3.0, 5.0], &[OpenFloor; 3], &expect!["0.0..8.0"]);
+        check("...#....\n...#....", &[3.0, 5.0], &[OpenFloor; 3], &expect!["0.0..3.0 3.0..8.0"]);
+        check("...?????\n...?????", &[3.0, 5.0], &[OpenFloor; 3], &expect!["0.0..3.0 3.0..8.0"]);
     }
 
     #[test]
     fn places_stay_places_and_aisles_are_no_floor() {
-        use PlotKind::{Aisle, Lane, Place};
+        use PlotKind::{Aisle, OpenFloor, Place};
         check("........\n........", &[3.0, 5.0], &[Place; 3], &expect!["0.0..3.0 3.0..5.0 5.0..8.0"]);
-        check("........\n........", &[3.0, 5.0], &[Aisle, Lane, Lane], &expect!["0.0..3.0 3.0..8.0"]);
+        check("........\n........", &[3.0, 5.0], &[Aisle, OpenFloor, OpenFloor], &expect!["0.0..3.0 3.0..8.0"]);
     }
 
     #[test]
     fn a_sliver_goes_to_the_neighbour_it_shares_most_with() {
-        use PlotKind::{Lane, Place};
-        check("........\n........", &[3.0, 3.1], &[Place, Lane, Place], &expect!["0.0..3.0 3.0..8.0"]);
+        use PlotKind::{OpenFloor, Place};
+        check("........\n........", &[3.0, 3.1], &[Place, OpenFloor, Place], &expect!["0.0..3.0 3.0..8.0"]);
     }
 }

@@ -29,7 +29,7 @@ pub(super) fn kinds(
         }
         let annotation = &faces[face as usize];
         let kind = index.at(graph.position(FaceId(face)), annotation.region)?.kind;
-        let is_open = matches!(kind, PlotKind::Aisle | PlotKind::Lane | PlotKind::Gap);
+        let is_open = matches!(kind, PlotKind::Aisle | PlotKind::OpenFloor | PlotKind::Passage);
         (!is_open || annotation.free_fraction >= OPEN_SHARE).then_some(kind)
     };
     (0..faces.len() as u32).map(|face| if FaceId(face) == FaceId::OUTER { None } else { kind(face) }).collect()

@@ -11,7 +11,7 @@
 
 use std::ops::Range;
 
-use super::frame::{Axis, Cell, Frame, Rect};
+use super::ground::{Axis, Cell, Frame, Rect};
 use crate::watch::{Stopped, Watch};
 
 /// Share of a line of cells that must be drivable for an aisle (accuracy study: 0.66 to 0.72; the rest is clutter,
@@ -40,18 +40,18 @@ const SNAP_REACH_M: f64 = 0.45;
 
 /// What a rectangle of a region is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum BlockKind {
+pub(crate) enum BlockKind {
     /// Drivable, between bodies.
     Aisle,
     /// Drivable, across the ends of bodies.
-    Lane,
+    CrossAisle,
     /// Whatever is not drivable, or not cut.
     Body,
 }
 
 /// A rectangle of a region.
 #[derive(Debug, Clone)]
-pub(super) struct Block {
+pub(crate) struct Block {
     pub rect: Rect,
     pub kind: BlockKind,
     /// Direction of the band, or of the aisles beside a body; `None` for a body without aisles.
@@ -61,7 +61,7 @@ pub(super) struct Block {
 }
 
 /// Cuts a region.
-pub(super) fn cut(frame: &Frame, watch: &Watch<'_>) -> Result<Vec<Block>, Stopped> {
+pub(crate) fn cut(frame: &Frame, watch: &Watch<'_>) -> Result<Vec<Block>, Stopped> {
     let mut cutter = Cutter { frame, watch, blocks: Vec::new() };
     let whole = Block { rect: frame.whole(), kind: BlockKind::Body, axis: None, fronts: [false; 2] };
     cutter.cut(&whole, 0)?;
@@ -160,7 +160,7 @@ impl Cutter<'_> {
         let bands: Vec<Band> = crossings.iter().map(|range| Band { range: range.clone(), score: 1.0 }).collect();
         for range in crossings {
             let rect = block.rect.with(axis, range.clone());
-            self.blocks.push(Block { rect, kind: BlockKind::Lane, axis: Some(axis.other()), fronts: [false; 2] });
+            self.blocks.push(Block { rect, kind: BlockKind::CrossAisle, axis: Some(axis.other()), fronts: [false; 2] });
         }
         for part in between(block.rect.range(axis), &bands) {
             let rect = block.rect.with(axis, part);
@@ -295,7 +295,7 @@ fn between(range: &Range<usize>, bands: &[Band]) -> Vec<Range<usize>> {
 }
 
 /// Maximal runs of numbers below `count` for which `is_in` holds.
-pub(super) fn runs(count: usize, is_in: impl Fn(usize) -> bool) -> impl Iterator<Item = Range<usize>> {
+pub(crate) fn runs(count: usize, is_in: impl Fn(usize) -> bool) -> impl Iterator<Item = Range<usize>> {
     let mut found = Vec::new();
     let mut start = None;
     for number in 0..=count {
@@ -312,7 +312,7 @@ pub(super) fn runs(count: usize, is_in: impl Fn(usize) -> bool) -> impl Iterator
 }
 
 /// Counts along every line of a rectangle.
-pub(super) struct Profile {
+pub(crate) struct Profile {
     /// Cells of the site.
     pub ground: Vec<u32>,
     /// Drivable ones among them.
@@ -323,7 +323,7 @@ pub(super) struct Profile {
 
 impl Profile {
     /// Lines along `axis`.
-    pub(super) fn of(frame: &Frame, rect: &Rect, axis: Axis) -> Self {
+    pub(crate) fn of(frame: &Frame, rect: &Rect, axis: Axis) -> Self {
         let lines = rect.range(axis.other()).len();
         let ground = frame.counts(rect, axis, Cell::is_inside);
         let drivable = frame.counts(rect, axis, |cell| cell.is_inside() && cell.is_drivable());

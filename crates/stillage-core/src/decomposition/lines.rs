@@ -7,8 +7,8 @@
 use std::collections::BTreeMap;
 use std::f64::consts::FRAC_PI_2;
 
-use super::Parcel;
-use super::frame::{Axis, Frame};
+use super::ground::{Axis, Frame};
+use super::plot::Parcel;
 use crate::geometry::fold_half_turn;
 use crate::radiography::Line;
 

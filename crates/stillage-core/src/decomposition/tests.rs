@@ -4,7 +4,7 @@ use expect_test::{Expect, expect};
 use proptest::prelude::*;
 
 use super::*;
-use crate::geometry::OrientedBox;
+use crate::geometry::{OrientedBox, Point};
 use crate::grid::{GridFrame, Occupancy};
 use crate::segmentation::Region;
 
@@ -69,7 +69,7 @@ fn decomposed(grid: &OccupancyGrid) -> Decomposition {
 fn check(grid: &OccupancyGrid, wanted: &Expect) {
     let found = decomposed(grid);
     let of = |kind: PlotKind| found.plots.iter().filter(move |plot| plot.kind == kind);
-    let kinds = [PlotKind::Place, PlotKind::Aisle, PlotKind::Lane, PlotKind::Gap, PlotKind::Rest];
+    let kinds = [PlotKind::Place, PlotKind::Aisle, PlotKind::OpenFloor, PlotKind::Passage, PlotKind::Other];
     let counts: Vec<String> = kinds.iter().map(|&kind| format!("{} {kind:?}", of(kind).count())).collect();
     let mut sizes: Vec<[f64; 2]> =
         of(PlotKind::Place).map(|plot| plot.bounds.half_extents.map(|half| 2.0 * half)).collect();
@@ -81,13 +81,13 @@ fn check(grid: &OccupancyGrid, wanted: &Expect) {
 #[test]
 fn a_hall_of_pallets_has_a_place_for_each() {
     let hall = PalletHall { places: 10, double_rows: 2, is_empty: |_| false };
-    check(&hall.grid(), &expect!["40 Place, 3 Aisle, 2 Lane, 0 Gap, 4 Rest of 1.20 x 1.10 m"]);
+    check(&hall.grid(), &expect!["40 Place, 3 Aisle, 2 OpenFloor, 0 Passage, 4 Other of 1.20 x 1.10 m"]);
 }
 
 #[test]
 fn empty_places_are_places_too() {
     let hall = PalletHall { places: 12, double_rows: 2, is_empty: |place| place % 13 == 3 };
-    check(&hall.grid(), &expect!["48 Place, 3 Aisle, 2 Lane, 0 Gap, 4 Rest of 1.20 x 1.10 m"]);
+    check(&hall.grid(), &expect!["48 Place, 3 Aisle, 2 OpenFloor, 0 Passage, 4 Other of 1.20 x 1.10 m"]);
 }
 
 /// A row of boxes before a wall and four double rows, 21 places each, in cells of 0.05 m. Boxes of 1.05 x 1.2 m show
@@ -119,7 +119,7 @@ fn goods_before_a_wall_that_they_hide_lie_in_the_site() {
     };
     let frame = GridFrame { resolution: 0.05, origin: Point::origin(), yaw: 0.0 };
     let grid = OccupancyGrid::new(columns, rows, frame, (0..columns * rows).map(cell).collect());
-    check(&grid, &expect!["188 Place, 5 Aisle, 2 Lane, 0 Gap, 6 Rest of 1.20 x 1.20 m"]);
+    check(&grid, &expect!["188 Place, 5 Aisle, 2 OpenFloor, 0 Passage, 6 Other of 1.20 x 1.20 m"]);
 }
 
 /// Four double rows of bare racks 24 m long, with posts at one distance from one another, cells.
@@ -147,14 +147,14 @@ fn racks(distance: usize) -> OccupancyGrid {
 
 #[test]
 fn bare_racks_are_combed_by_their_posts() {
-    check(&racks(20), &expect!["184 Place, 5 Aisle, 2 Lane, 0 Gap, 4 Rest of 1.00 x 1.20 m"]);
+    check(&racks(20), &expect!["184 Place, 5 Aisle, 2 OpenFloor, 0 Passage, 4 Other of 1.00 x 1.20 m"]);
 }
 
 #[test]
 fn a_row_ends_with_its_last_goods() {
     // The first row is two places shorter than the others: floor, and the aisles run on along the others.
     let ragged = PalletHall { places: 10, double_rows: 2, is_empty: |place| (8..10).contains(&place) };
-    check(&ragged.grid(), &expect!["38 Place, 3 Aisle, 4 Lane, 0 Gap, 4 Rest of 1.20 x 1.10 m"]);
+    check(&ragged.grid(), &expect!["38 Place, 3 Aisle, 4 OpenFloor, 0 Passage, 4 Other of 1.20 x 1.10 m"]);
 }
 
 #[test]
@@ -166,7 +166,7 @@ fn a_passage_goes_through_every_row_that_has_room_for_it() {
     let in_passage = |plot: &&Plot| (plot.bounds.center.x - (LANE + 8.5 * PITCH)).abs() < 1.5 * PITCH;
     let of = |kind: PlotKind| found.plots.iter().filter(in_passage).filter(|plot| plot.kind == kind).count();
     assert_eq!(of(PlotKind::Place), 3, "those of the first row");
-    assert!(of(PlotKind::Gap) >= 5, "one piece of each other row at least");
+    assert!(of(PlotKind::Passage) >= 5, "one piece of each other row at least");
 }
 
 /// A hall in ground that nobody saw, but for a yard behind a gate in its left wall.
@@ -186,7 +186,7 @@ fn open_floor_reaches_as_far_as_it_was_seen() {
     };
     let grid = OccupancyGrid::new(columns, rows, *hall.frame(), (0..columns * rows).map(cell).collect());
     let found = decomposed(&grid);
-    let is_open = |plot: &&Plot| matches!(plot.kind, PlotKind::Aisle | PlotKind::Lane | PlotKind::Gap);
+    let is_open = |plot: &&Plot| matches!(plot.kind, PlotKind::Aisle | PlotKind::OpenFloor | PlotKind::Passage);
     let mut yard = 0;
     for plot in found.plots.iter().filter(is_open) {
         let (column, row) = grid.cell_at(plot.bounds.center).expect("in the grid");
@@ -213,9 +213,9 @@ fn rooms_are_not_combed() {
     // Five cells of 0.1 m for each character.
     let wide = |line: &str| line.trim().chars().flat_map(|symbol| [symbol; 5]).collect::<String>() + "\n";
     let fine: String = room.lines().filter(|line| !line.trim().is_empty()).map(|line| wide(line).repeat(5)).collect();
-    check(&OccupancyGrid::from_ascii(&fine, 0.1), &expect!["0 Place, 0 Aisle, 1 Lane, 0 Gap, 4 Rest"]);
+    check(&OccupancyGrid::from_ascii(&fine, 0.1), &expect!["0 Place, 0 Aisle, 1 OpenFloor, 0 Passage, 4 Other"]);
     // And too coarse to tell.
-    check(&OccupancyGrid::from_ascii(room, 0.5), &expect!["0 Place, 0 Aisle, 1 Lane, 0 Gap, 4 Rest"]);
+    check(&OccupancyGrid::from_ascii(room, 0.5), &expect!["0 Place, 0 Aisle, 1 OpenFloor, 0 Passage, 4 Other"]);
 }
 
 #[test]

@@ -12,9 +12,9 @@ use super::flood::{Passage, WIDEST_M};
 use super::ground::Ground;
 use super::nearest::Nearest;
 use crate::components::{Component, Components, Neighbours};
-use crate::decomposition::Blocks;
 use crate::geometry::{Point, Vector, direction};
 use crate::grid::{Occupancy, OccupancyGrid};
+use crate::site_ground::Blocks;
 use crate::smallest_box::SmallestBox;
 use crate::watch::{Stopped, Watch};
 

@@ -258,9 +258,9 @@ pub(super) fn category_evidence(analysis: &Analysis) -> Vec<CategoryEvidence> {
         match annotation.kind {
             Some(PlotKind::Place) => sum.place_fraction += weight,
             Some(PlotKind::Aisle) => sum.aisle_fraction += weight,
-            Some(PlotKind::Lane | PlotKind::Gap) => sum.floor_fraction += weight,
+            Some(PlotKind::OpenFloor | PlotKind::Passage) => sum.floor_fraction += weight,
             Some(PlotKind::Room) => sum.room_fraction += weight,
-            Some(PlotKind::Rest) => sum.rest_fraction += weight,
+            Some(PlotKind::Other) => sum.rest_fraction += weight,
             None => {}
         }
         sum.open_fraction += borders.open[face];

@@ -8,8 +8,8 @@
 
 use std::ops::Range;
 
-use super::blocks::Block;
-use super::frame::{Axis, Cell, Frame, Rect};
+use crate::decomposition::aisles::Block;
+use crate::decomposition::ground::{Axis, Cell, Frame, Rect};
 
 /// The depth that a place has when nothing else is known, metres (a 1.2 m pallet), and what a metre of deviation costs.
 const USUAL_DEPTH_M: f64 = 1.15;
@@ -22,9 +22,9 @@ const MISSING_DEPTH_COST: f64 = 1.0;
 /// Widest flue, metres: building columns stand in it.
 const WIDEST_FLUE_M: f64 = 0.7;
 /// A body thinner than this share of the depth holds no row.
-pub(super) const THIN_SHARE: f64 = 0.6;
+pub(crate) const THIN_SHARE: f64 = 0.6;
 /// The same before a wall, which with its pilasters and what lies behind it is some thickness itself.
-pub(super) const WHOLE_SHARE: f64 = 0.85;
+pub(crate) const WHOLE_SHARE: f64 = 0.85;
 /// A body must be so long to have a say about the depth, metres.
 const LEAST_LENGTH_M: f64 = 2.0;
 /// Where vehicles must find room before a front, from the border on, metres: borders may lie inside the goods.
@@ -46,7 +46,7 @@ const BARER: f64 = 0.03;
 
 /// A body with the direction of its rows and the sides they are reached from.
 #[derive(Debug, Clone)]
-pub(super) struct Body {
+pub(crate) struct Body {
     pub rect: Rect,
     pub axis: Axis,
     /// Low and high side across the rows.
@@ -55,7 +55,7 @@ pub(super) struct Body {
 
 impl Body {
     /// Looks at what is drivable around a block.
-    pub(super) fn of(frame: &Frame, block: &Block) -> Self {
+    pub(crate) fn of(frame: &Frame, block: &Block) -> Self {
         let long = if block.rect.u.len() >= block.rect.v.len() { Axis::U } else { Axis::V };
         let usual = block.axis.unwrap_or(long);
         let [usual, other] = [usual, usual.other()].map(|axis| Look::of(frame, &block.rect, axis));
@@ -64,7 +64,7 @@ impl Body {
     }
 
     /// Its range across the rows.
-    pub(super) fn across(&self) -> Range<usize> {
+    pub(crate) fn across(&self) -> Range<usize> {
         self.rect.range(self.axis.other()).clone()
     }
 
@@ -122,7 +122,7 @@ impl Look {
 }
 
 /// Share of the two sides along `axis` with room for a vehicle before them.
-pub(super) fn front_shares(frame: &Frame, rect: &Rect, axis: Axis) -> [f64; 2] {
+pub(crate) fn front_shares(frame: &Frame, rect: &Rect, axis: Axis) -> [f64; 2] {
     frame.beside(rect, axis, FRONT_STRIP_M.map(|metres| frame.cells_of(metres))).map(|strip| {
         let patch = frame.patch(&strip, axis);
         let has_room = |column: &usize| (0..patch.height).any(|row| patch.row(row)[*column].is_drivable());
@@ -131,7 +131,7 @@ pub(super) fn front_shares(frame: &Frame, rect: &Rect, axis: Axis) -> [f64; 2] {
 }
 
 /// The depth of a place that explains the bodies between two fronts best.
-pub(super) fn usual(frame: &Frame, bodies: &[Body], range: [f64; 2]) -> f64 {
+pub(crate) fn usual(frame: &Frame, bodies: &[Body], range: [f64; 2]) -> f64 {
     let bodies: Vec<[f64; 2]> = bodies
         .iter()
         .filter(|body| body.fronts == [true; 2])
@@ -154,7 +154,7 @@ pub(super) fn usual(frame: &Frame, bodies: &[Body], range: [f64; 2]) -> f64 {
 }
 
 /// Two rows back to back cannot be thicker, metres.
-pub(super) fn thickest_pair(deepest: f64) -> f64 {
+pub(crate) fn thickest_pair(deepest: f64) -> f64 {
     2.0 * deepest + WIDEST_FLUE_M
 }
 
@@ -169,9 +169,9 @@ fn misfit_of_pair(thickness: f64, depth: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::blocks::BlockKind;
-    use super::super::drivable;
     use super::*;
+    use crate::decomposition::aisles::BlockKind;
+    use crate::decomposition::ground::drivable;
     use crate::watch::Watch;
 
     /// The body of a block, drawn in characters of 0.25 m, with lanes of 1.5 m around it or a wall below.

@@ -2,17 +2,17 @@
 //!
 //! What lies between two aisles, or between an aisle and a wall. Aisles may have been cut for more than this body, so goods
 //! may begin further in; and few goods stand in the outer layers of a deep block that is filled from within, so they may
-//! begin further out. Which of these is right, [`super::across`] finds.
+//! begin further out. Which of these is right, [`super::layer_count`] finds.
 //!
 //! Cost: O(cells of the body). Limits: walls run along the body.
 
 use std::ops::Range;
 
 use super::depth::{Body, THIN_SHARE, thickest_pair};
-use super::frame::{Cell, Frame, Patch};
+use crate::decomposition::ground::{Cell, Frame, Patch};
 
 /// A body with room for more than this many rows is more than one row.
-pub(super) const DEEP_ROOM: f64 = 1.5;
+pub(crate) const DEEP_ROOM: f64 = 1.5;
 /// Rows are at most so many times as deep as usual.
 const DEEPER: f64 = 1.15;
 /// How far a deep body reaches into the aisles at most, as a multiple of the depth of a place, and occupied share of a
@@ -37,7 +37,7 @@ const SEEN_BETWEEN_GOODS: [f64; 2] = [0.04, 0.7];
 
 /// The lines that the layers of a body may fill, where places are about `depth` deep within a range, metres: first, and
 /// always, those between aisles and walls.
-pub(super) fn extents(frame: &Frame, body: &Body, depth: f64, range: [f64; 2]) -> Vec<Range<usize>> {
+pub(crate) fn extents(frame: &Frame, body: &Body, depth: f64, range: [f64; 2]) -> Vec<Range<usize>> {
     let room = room(frame, body, depth);
     let far = if is_deep(frame, body, &room, depth, range) { frame.cells_of(MOST_REACH * depth) } else { 0 };
     let signs = Signs::around(frame, body, room.start.saturating_sub(far)..room.end + far);
@@ -58,7 +58,7 @@ pub(super) fn extents(frame: &Frame, body: &Body, depth: f64, range: [f64; 2]) -
 }
 
 /// Whether a body has room for more than two rows back to back, or than one before a wall.
-pub(super) fn is_deep(frame: &Frame, body: &Body, room: &Range<usize>, depth: f64, range: [f64; 2]) -> bool {
+pub(crate) fn is_deep(frame: &Frame, body: &Body, room: &Range<usize>, depth: f64, range: [f64; 2]) -> bool {
     let thickness = room.len() as f64 * frame.cell;
     let is_single_front = body.fronts[0] != body.fronts[1];
     thickness >= if is_single_front { DEEP_ROOM * depth } else { thickest_pair(range[1].min(DEEPER * depth)) }
@@ -146,8 +146,8 @@ fn sees_between_goods(frame: &Frame, patch: &Patch, line: usize, low_front: bool
 
 #[cfg(test)]
 mod tests {
-    use super::super::frame::Axis;
     use super::*;
+    use crate::decomposition::ground::Axis;
 
     /// How many lines of a body that has an aisle above it may hold goods, in cells of 0.05 m.
     fn check(picture: &str, lines: &[usize]) {

@@ -16,9 +16,9 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use super::depth::{Body, WHOLE_SHARE};
-use super::evidence::{LEAST_KNOWN, UNKNOWN_CONTENT};
-use super::frame::{Cell, Frame, Patch};
-use super::reading::{self, GOODS_PRICE, LEAST_NOISE, PLACE_PRICE};
+use crate::decomposition::ground::{Cell, Frame, Patch};
+use crate::decomposition::rows::evidence::{LEAST_KNOWN, UNKNOWN_CONTENT};
+use crate::decomposition::rows::row_model::{self, GOODS_PRICE, LEAST_NOISE, PLACE_PRICE};
 use crate::watch::{Stopped, Watch};
 
 /// Width of a strip, metres: goods show in every one, and few lanes lie in it.
@@ -37,7 +37,7 @@ const BEHIND_SHARE: f64 = 0.1;
 const LEAST_EXPLAINED: f64 = 0.5;
 
 /// A deep body as strips across its rows.
-pub(super) struct Strips {
+pub(crate) struct Strips {
     /// Content by strip and line, from the low side on.
     content: Vec<Vec<f64>>,
     /// Line of the frame that the first one is.
@@ -117,7 +117,7 @@ impl Lattice {
 
 impl Strips {
     /// Cuts a body into strips across its rows; its layers fill one of some extents, which may reach out of it.
-    pub(super) fn of(frame: &Frame, body: &Body, extents: &[Range<usize>]) -> Self {
+    pub(crate) fn of(frame: &Frame, body: &Body, extents: &[Range<usize>]) -> Self {
         let low = extents.iter().map(|extent| extent.start).min().unwrap_or(0);
         let high = extents.iter().map(|extent| extent.end).max().unwrap_or(low);
         let patch = frame.patch(&body.rect.with(body.axis.other(), low..high), body.axis);
@@ -202,7 +202,7 @@ impl Strips {
         }
         let cells = self.content.iter().map(Vec::len).sum::<usize>().max(1) as f64;
         let noise = (energy - most).max(LEAST_NOISE * energy).max(f64::MIN_POSITIVE) / cells;
-        let weight = reading::weight(noise, self.cell);
+        let weight = row_model::weight(noise, self.cell);
         let price = PLACE_PRICE * self.content.len() as f64;
         let score = |(lattice, layers): (Lattice, Vec<f64>)| {
             let score = layers.iter().map(|explained| explained * weight - price).sum();
@@ -222,7 +222,7 @@ fn content(patch: &Patch, line: usize, columns: &Range<usize>) -> f64 {
 }
 
 /// The layers of bodies, as ranges of lines of the frame, ascending; depths in metres. None where nothing fits.
-pub(super) fn layers(bodies: &[Strips], range: [f64; 2], watch: &Watch<'_>) -> Result<Vec<Vec<Range<usize>>>, Stopped> {
+pub(crate) fn layers(bodies: &[Strips], range: [f64; 2], watch: &Watch<'_>) -> Result<Vec<Vec<Range<usize>>>, Stopped> {
     let score = |body: &Strips| watch.check().map(|()| Choice { scored: body.scored(range), cell: body.cell });
     let choices: Vec<Choice> = bodies.par_iter().map(score).collect::<Result<_, _>>()?;
     let steps = ((range[1] - range[0]) / DEPTH_STEP_M).round() as usize;

@@ -2,7 +2,7 @@
 //!
 //! Every place of a rack must be reached, so what is thin enough between two aisles is one row, or two back to back. What
 //! is deeper - double-deep racks, block storage, marked floors - and what stands before a wall may have any number of
-//! layers. How many there are and how deep, [`super::across`] finds; where goods show too little to tell, the thickness of
+//! layers. How many there are and how deep, [`super::layer_count`] finds; where goods show too little to tell, the thickness of
 //! the body decides. Layers that are reached from one side form a stack: their lanes run through all
 //! of them, so they are cut together, and end together.
 //!
@@ -11,18 +11,18 @@
 
 use std::ops::Range;
 
-use super::across::{self, Strips};
 use super::depth::{Body, THIN_SHARE, WHOLE_SHARE};
 use super::extent::{DEEP_ROOM, extents, is_deep};
-use super::frame::Frame;
+use super::layer_count::{self, Strips};
+use crate::decomposition::ground::Frame;
 use crate::watch::{Stopped, Watch};
 
 /// The layers of a body that are reached from one side, as ranges across its rows.
-pub(super) type Stack = Vec<Range<usize>>;
+pub(crate) type Stack = Vec<Range<usize>>;
 
 /// The rows of a body, and what is left beside them, as ranges across.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub(super) struct Layers {
+pub(crate) struct Layers {
     pub stacks: Vec<Stack>,
     /// On the side of an aisle: floor.
     pub floors: Vec<Range<usize>>,
@@ -53,7 +53,7 @@ impl Layers {
 }
 
 /// Cuts the bodies of one direction into rows of about a depth, metres, within a range.
-pub(super) fn cut(
+pub(crate) fn cut(
     frame: &Frame,
     bodies: &[&Body],
     depth: f64,
@@ -62,7 +62,7 @@ pub(super) fn cut(
 ) -> Result<Vec<Layers>, Stopped> {
     let extents: Vec<Vec<Range<usize>>> = bodies.iter().map(|body| extents(frame, body, depth, range)).collect();
     let strips = bodies.iter().zip(&extents).map(|(body, extents)| Strips::of(frame, body, extents));
-    let found = across::layers(&strips.collect::<Vec<_>>(), range, watch)?;
+    let found = layer_count::layers(&strips.collect::<Vec<_>>(), range, watch)?;
     let mut layers = Vec::with_capacity(bodies.len());
     for ((body, extents), found) in bodies.iter().zip(extents).zip(found) {
         let room = &extents[0];

@@ -8,10 +8,10 @@ use crate::grid::{Occupancy, OccupancyGrid};
 use crate::segmentation::RegionMap;
 use crate::watch::{Stopped, Watch};
 
-use super::site::Site;
+use crate::site_ground::Site;
 
 /// Side of a cell of the frame, metres: posts of 0.09 m are two cells wide, and combs need that (accuracy study).
-pub(super) const CELL_M: f64 = 0.05;
+pub(crate) const CELL_M: f64 = 0.05;
 /// Coarse grids are not refined beyond half their cell.
 const FINEST_SHARE: f64 = 0.5;
 /// Room around the region, metres: wider than a vehicle, so that its border does not close a passage.
@@ -23,7 +23,7 @@ const DRIVABLE: u8 = 0b1000;
 
 /// A cell of the frame: what is there, whether it belongs to the region, whether a vehicle finds room.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Cell(u8);
+pub(crate) struct Cell(u8);
 
 impl Cell {
     pub const fn is_free(self) -> bool {
@@ -47,14 +47,14 @@ impl Cell {
         self.0 & DRIVABLE != 0
     }
 
-    pub(super) fn mark_drivable(&mut self) {
+    pub(crate) fn mark_drivable(&mut self) {
         self.0 |= DRIVABLE;
     }
 }
 
 /// A rectangle of cells of a frame: columns along u, rows along v.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct Rect {
+pub(crate) struct Rect {
     pub u: std::ops::Range<usize>,
     pub v: std::ops::Range<usize>,
 }
@@ -97,7 +97,7 @@ impl Rect {
 
 /// One of the two directions of a frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Axis {
+pub(crate) enum Axis {
     U,
     V,
 }
@@ -114,7 +114,7 @@ impl Axis {
 }
 
 /// A region in its own frame.
-pub(super) struct Frame {
+pub(crate) struct Frame {
     /// Direction of u, radians.
     pub angle: f64,
     /// Side of a cell, metres.
@@ -127,7 +127,7 @@ pub(super) struct Frame {
 }
 
 impl Frame {
-    pub(super) fn new(
+    pub(crate) fn new(
         grid: &OccupancyGrid,
         regions: &RegionMap,
         region: u8,
@@ -157,7 +157,7 @@ impl Frame {
 
     /// The frame of a grid that is all of its site, drawn in characters, and the rectangle that it takes there.
     #[cfg(test)]
-    pub(super) fn of_picture(picture: &str, cell: f64) -> (Self, Rect) {
+    pub(crate) fn of_picture(picture: &str, cell: f64) -> (Self, Rect) {
         use crate::{geometry::OrientedBox, segmentation::Region};
         let grid = OccupancyGrid::from_ascii(picture, cell);
         let bounds = OrientedBox { center: Point::origin(), half_extents: [0.0; 2], angle: 0.0 };
@@ -284,7 +284,7 @@ fn fixed(place: f64) -> i64 {
 }
 
 /// A copy of a rectangle of a frame, rows along the direction of its shelves.
-pub(super) struct Patch {
+pub(crate) struct Patch {
     pub width: usize,
     pub height: usize,
     pub cells: Vec<Cell>,

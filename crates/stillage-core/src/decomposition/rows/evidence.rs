@@ -6,14 +6,14 @@
 //!
 //! Source: the accuracy study behind this project (its largest single gain). Cost: O(cells of the row).
 
-use super::frame::Patch;
+use crate::decomposition::ground::{Cell, Patch};
 
 /// How deep the front and the back of a row reach, metres: posts are 0.09 deep, pallets stand 0.05 off.
 const FACE_M: f64 = 0.15;
 /// Share of the depth at either side that is not the middle.
 const RIM_SHARE: f64 = 0.25;
 /// What an unknown cell counts as content beside an occupied one (accuracy study: goods hide what is in them).
-pub(super) const UNKNOWN_CONTENT: f64 = 0.6;
+pub(crate) const UNKNOWN_CONTENT: f64 = 0.6;
 /// Smoothing of content and posts, metres (accuracy study).
 const CONTENT_SIGMA_M: f64 = 0.04;
 const POST_SIGMA_M: f64 = 0.03;
@@ -44,13 +44,13 @@ const USUAL_PLACE_M: f64 = 1.2;
 /// Content below which a place holds nothing, cells.
 const LEAST_CONTENT: f64 = 0.5;
 /// Known share of a column of cells below which nobody looked at it: sensors see the fronts at least.
-pub(super) const LEAST_KNOWN: f64 = 0.04;
+pub(crate) const LEAST_KNOWN: f64 = 0.04;
 /// Free share of a column of cells that is clear.
 const CLEAR_SHARE: f64 = 0.9;
 
 /// Evidence along a row, one number per cell.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub(super) struct Evidence {
+pub(crate) struct Evidence {
     /// How much the cells speak for a border here: about 1 at a gap with posts, below 0 within goods.
     pub border: Vec<f64>,
     /// Nothing stands here, in the whole depth.
@@ -68,14 +68,14 @@ pub(super) struct Evidence {
 
 impl Evidence {
     /// Reads a row; `cell` is the side of its cells and `widths` the range of places that will be asked about, metres.
-    pub(super) fn of(row: &Patch, cell: f64, widths: [f64; 2]) -> Self {
+    pub(crate) fn of(row: &Patch, cell: f64, widths: [f64; 2]) -> Self {
         let height = row.height;
         let face = ((FACE_M / cell).round() as usize).max(1);
         let rim = ((height as f64 * RIM_SHARE).round() as usize).max(face + 1);
         let middle = if height >= 2 * rim + 3 { rim..height - rim } else { 0..height };
         let front = 0..(face + 1).min(height);
         let back = height.saturating_sub(face + 1)..height;
-        let share = |rows: std::ops::Range<usize>, is: fn(super::frame::Cell) -> bool| -> Vec<f64> {
+        let share = |rows: std::ops::Range<usize>, is: fn(Cell) -> bool| -> Vec<f64> {
             let mut counts = vec![0_u32; row.width];
             for y in rows.clone() {
                 for (count, &cell) in counts.iter_mut().zip(row.row(y)) {
@@ -84,15 +84,15 @@ impl Evidence {
             }
             counts.iter().map(|&count| f64::from(count) / rows.len().max(1) as f64).collect()
         };
-        let occupied = share(middle.clone(), super::frame::Cell::is_occupied);
-        let unknown = share(middle, super::frame::Cell::is_unknown);
+        let occupied = share(middle.clone(), Cell::is_occupied);
+        let unknown = share(middle, Cell::is_unknown);
         let content: Vec<f64> =
             occupied.iter().zip(&unknown).map(|(occupied, unknown)| occupied + UNKNOWN_CONTENT * unknown).collect();
         let content = gaussian(&content, CONTENT_SIGMA_M / cell);
         let any = |share: &f64| f64::from(u8::from(*share > 0.0));
-        let faces: Vec<f64> = share(front, super::frame::Cell::is_occupied)
+        let faces: Vec<f64> = share(front, Cell::is_occupied)
             .iter()
-            .zip(&share(back, super::frame::Cell::is_occupied))
+            .zip(&share(back, Cell::is_occupied))
             .map(|(front, back)| f64::midpoint(any(front), any(back)))
             .collect();
         let soft_middle = gaussian(&occupied, MIDDLE_SIGMA_M / cell);
@@ -114,8 +114,8 @@ impl Evidence {
         let [bare, covered] = POST_WEIGHTS;
         let post_weight = bare + (covered - bare) * (hidden / HIDDEN_SHARE).min(1.0);
         let border = (0..row.width).map(|x| gap(x) + post_weight * (posts[x] - mean_posts[x])).collect();
-        let free = share(0..height, super::frame::Cell::is_free);
-        let all_occupied = share(0..height, super::frame::Cell::is_occupied);
+        let free = share(0..height, Cell::is_free);
+        let all_occupied = share(0..height, Cell::is_occupied);
         let whole: Vec<f64> = free
             .iter()
             .zip(&all_occupied)
@@ -141,7 +141,7 @@ impl Evidence {
     }
 
     /// Rows of one length that are cut alike, as one row: the mean of what speaks for borders, and the content of each.
-    pub(super) fn bundle(rows: impl IntoIterator<Item = Self>) -> Self {
+    pub(crate) fn bundle(rows: impl IntoIterator<Item = Self>) -> Self {
         let mut rows = rows.into_iter();
         let mut bundle = rows.next().unwrap_or_default();
         let mut count = 1.0;
@@ -162,23 +162,23 @@ impl Evidence {
     }
 
     /// The content of each row of a bundle.
-    pub(super) fn contents(&self) -> impl Iterator<Item = &[f64]> {
+    pub(crate) fn contents(&self) -> impl Iterator<Item = &[f64]> {
         self.content.chunks(self.len().max(1))
     }
 
     /// Number of cells along the row.
-    pub(super) fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.border.len()
     }
 
     /// Length of the row, metres.
-    pub(super) fn length(&self) -> f64 {
+    pub(crate) fn length(&self) -> f64 {
         self.len() as f64 * self.cell
     }
 
     /// How far the content of a place differs from its mirror image: 0 for even goods and for none, 1 where all the
     /// goods of a place stand on one side. Goods that are cut in two are uneven, whatever they are.
-    pub(super) fn unevenness(&self, start: usize, width: usize) -> f64 {
+    pub(crate) fn unevenness(&self, start: usize, width: usize) -> f64 {
         let at = width.saturating_sub(self.least_width).min(self.widths.saturating_sub(1));
         self.mirror.get(start * self.widths + at).copied().map_or(0.0, f64::from)
     }

@@ -1,34 +1,40 @@
 //! From the bodies between aisles to rows, from rows to places.
 //!
-//! The bodies are cut into rows by the depth of their places ([`super::layers`]), the rows into places by the comb, with
-//! the pitch and the goods that [`super::reading`] finds in all rows of one direction together. Where nothing repeats,
+//! The bodies are cut into rows by the depth of their places ([`super::bodies::layers`]), the rows into places by the comb, with
+//! the pitch and the goods that [`row_model`] finds in all rows of one direction together. Where nothing repeats,
 //! there is no comb: walls, shelves and furniture are not cut into places. Cost: O(cells x pitches).
+
+mod comb;
+pub(crate) mod evidence;
+mod load_template;
+mod periodicity;
+mod pieces;
+pub(crate) mod row_model;
+mod storage_lanes;
 
 use std::ops::Range;
 
-use super::blocks::{Block, BlockKind};
-use super::comb;
-use super::depth::{self, Body};
-use super::evidence::Evidence;
-use super::frame::{Axis, Frame, Patch, Rect};
-use super::gate::{Bar, Periodicity};
-use super::lanes;
-use super::layers::{self, Layers, Stack};
-use super::pieces;
-use super::reading::{self, Reading, Rows};
-use super::{Parcel, PlotKind};
+use crate::decomposition::aisles::{Block, BlockKind};
+use crate::decomposition::bodies::depth::{self, Body};
+use crate::decomposition::bodies::layers::{self, Layers, Stack};
+use crate::decomposition::ground::{Axis, Frame, Patch, Rect};
+use crate::decomposition::plot::{Parcel, PlotKind};
 use crate::watch::{Stopped, Watch};
 
+use evidence::Evidence;
+use periodicity::{Bar, Periodicity};
+use row_model::{Reading, Rows};
+
 /// Depths of places that occur, metres: from 0.8 m (Euro pallets along the aisle) to 1.3 m and what drift adds.
-pub(super) const DEPTHS_M: [f64; 2] = [0.8, 1.45];
+pub(crate) const DEPTHS_M: [f64; 2] = [0.8, 1.45];
 /// Widths of places that occur, metres.
-pub(super) const PITCHES_M: [f64; 2] = [0.8, 1.6];
+pub(crate) const PITCHES_M: [f64; 2] = [0.8, 1.6];
 /// Cells above this are too coarse for gaps and posts, metres.
 const COARSEST_CELL_M: f64 = 0.1;
 
 /// Hints of the user, metres.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Hints {
+pub(crate) struct Hints {
     pub pitch: [f64; 2],
     pub depth: [f64; 2],
 }
@@ -81,7 +87,7 @@ fn spanned(layers: &[Range<usize>]) -> Range<usize> {
 }
 
 /// Lays the blocks of a region out.
-pub(super) fn lay_out(
+pub(crate) fn lay_out(
     frame: &Frame,
     blocks: &[Block],
     hints: &Hints,
@@ -92,7 +98,7 @@ pub(super) fn lay_out(
     for block in blocks {
         match block.kind {
             BlockKind::Aisle => parcels.push(Parcel::new(block.rect.clone(), PlotKind::Aisle, block.axis)),
-            BlockKind::Lane => parcels.push(Parcel::new(block.rect.clone(), PlotKind::Lane, block.axis)),
+            BlockKind::CrossAisle => parcels.push(Parcel::new(block.rect.clone(), PlotKind::OpenFloor, block.axis)),
             BlockKind::Body => bodies.push(Body::of(frame, block)),
         }
     }
@@ -148,7 +154,7 @@ impl<'a> Direction<'a> {
         let mut found =
             Self { axis, bodies, rows, evidence, rests, reaching, reading, periodicity: Periodicity::default() };
         if let Some(reading) = &found.reading {
-            let pitches = reading::pitches(hints.pitch);
+            let pitches = row_model::pitches(hints.pitch);
             found.periodicity = found.excess(frame, hints, |row| reading.best_fit(row, &pitches), Bar::IN_COMMON);
         }
         Ok(found)
@@ -159,7 +165,7 @@ impl<'a> Direction<'a> {
         if self.reading.is_none() {
             return;
         }
-        let pitches = reading::pitches(hints.pitch);
+        let pitches = row_model::pitches(hints.pitch);
         let fit = |row: &Evidence| {
             let own = Rows { rows: vec![row], pitches: pitches.clone() }.in_common();
             own.map_or((0.0, 0.0), |own| own.fit(row))
@@ -186,7 +192,7 @@ impl<'a> Direction<'a> {
     fn lay_out(self, frame: &Frame, parcels: Vec<Parcel>, is_storage: bool, hints: &Hints) -> Vec<Parcel> {
         let is_read = self.periodicity.is_certain() || is_storage && self.periodicity.is_likely();
         let Some(first) = self.reading.filter(|_| is_read) else {
-            let whole = |body: &&Body| Parcel::new(body.rect.clone(), PlotKind::Rest, Some(self.axis));
+            let whole = |body: &&Body| Parcel::new(body.rect.clone(), PlotKind::Other, Some(self.axis));
             return parcels.into_iter().chain(self.bodies.iter().map(whole)).collect();
         };
         let readings = in_common(frame, &self.evidence, hints).read(first);
@@ -198,7 +204,7 @@ impl<'a> Direction<'a> {
                     let pieces = pieces::of_comb(&reading.cut(evidence), reading.pitch, frame);
                     parcels.extend(parcels_of(row, pieces));
                 }
-                None => parcels.push(Parcel::new(row.rect.clone(), PlotKind::Rest, Some(row.axis))),
+                None => parcels.push(Parcel::new(row.rect.clone(), PlotKind::Other, Some(row.axis))),
             }
         }
         parcels
@@ -222,7 +228,7 @@ impl Standing {
             let across = body.across();
             let part = |range, kind| Parcel::new(body.rect.with(axis.other(), range), kind, Some(axis));
             standing.rests.extend(layers.floors.into_iter().map(|floor| part(floor, PlotKind::Aisle)));
-            standing.rests.extend(layers.rests.into_iter().map(|rest| part(rest, PlotKind::Rest)));
+            standing.rests.extend(layers.rests.into_iter().map(|rest| part(rest, PlotKind::Other)));
             for stack in layers.stacks {
                 let own = spanned(&stack);
                 let rect = body.rect.with(axis.other(), own.clone());
@@ -231,7 +237,7 @@ impl Standing {
                 }
                 let [before, within, after] = in_region(frame, &rect, axis).map(|part| rect.with(axis, part));
                 let beside = [before, after].into_iter().filter(|rest| !rest.range(axis).is_empty());
-                standing.rests.extend(beside.map(|rest| Parcel::new(rest, PlotKind::Rest, Some(axis))));
+                standing.rests.extend(beside.map(|rest| Parcel::new(rest, PlotKind::Other, Some(axis))));
                 if !within.range(axis).is_empty() {
                     let open = depth::front_shares(frame, &within, axis).into_iter().fold(0.0, f64::max);
                     standing.stacks.push(Row { rect: within, axis, layers: stack, open });
@@ -254,7 +260,7 @@ fn without(parcels: Vec<Parcel>, row: &Rect, axis: Axis) -> Vec<Parcel> {
 /// Rows with what their cells say: the layers of a stack that share their lanes are one.
 fn in_lanes(frame: &Frame, stacks: Vec<Row>, hints: &Hints) -> (Vec<Row>, Vec<Evidence>) {
     let evidence: Vec<Vec<Evidence>> = stacks.iter().map(|stack| stack.evidence(frame, hints)).collect();
-    let shared = lanes::shared(&evidence, &reading::pitches(hints.pitch));
+    let shared = storage_lanes::shared(&evidence, &row_model::pitches(hints.pitch));
     let (mut rows, mut of_rows) = (Vec::new(), Vec::new());
     for ((stack, evidence), counts) in stacks.into_iter().zip(evidence).zip(shared) {
         let mut layers = evidence.into_iter();
@@ -280,7 +286,7 @@ fn in_region(frame: &Frame, layer: &Rect, axis: Axis) -> [Range<usize>; 3] {
 /// Rows that are read together; none where cells are too coarse.
 fn in_common<'a>(frame: &Frame, evidence: &'a [Evidence], hints: &Hints) -> Rows<'a> {
     let evidence = if frame.cell > COARSEST_CELL_M { &[] } else { evidence };
-    Rows { rows: evidence.iter().collect(), pitches: reading::pitches(hints.pitch) }
+    Rows { rows: evidence.iter().collect(), pitches: row_model::pitches(hints.pitch) }
 }
 
 /// The pieces of a row as parcels.

@@ -25,7 +25,7 @@
 use rayon::prelude::*;
 
 use super::evidence::Evidence;
-use super::frame::Patch;
+use crate::decomposition::ground::Patch;
 use crate::orientation::energy::mix;
 
 /// What rows must score above chance, logarithms of a likelihood per metre of a layer.

@@ -2,9 +2,9 @@
 
 use std::ops::Range;
 
-use super::PlotKind;
 use super::comb::{Comb, Tooth};
-use super::frame::Frame;
+use crate::decomposition::ground::Frame;
+use crate::decomposition::plot::PlotKind;
 
 /// Pieces narrower than this are given to their neighbour, metres.
 const SLIVER_M: f64 = 0.4;
@@ -22,9 +22,9 @@ pub(super) fn of_comb(comb: &Comb, pitch: f64, frame: &Frame) -> Vec<(Range<usiz
         let width = (end - start) as f64 * frame.cell;
         let kind = match tooth {
             Tooth::Place => PlotKind::Place,
-            Tooth::Gap => PlotKind::Gap,
+            Tooth::Gap => PlotKind::Passage,
             Tooth::End if (width - pitch).abs() < END_SHARE * pitch => PlotKind::Place,
-            Tooth::Slip | Tooth::End => PlotKind::Rest,
+            Tooth::Slip | Tooth::End => PlotKind::Other,
         };
         pieces.push((start..end, kind));
         start = end;
@@ -36,7 +36,7 @@ pub(super) fn of_comb(comb: &Comb, pitch: f64, frame: &Frame) -> Vec<(Range<usiz
 /// Gives pieces too narrow for anything to the narrower of their neighbours.
 fn absorb_slivers(pieces: &mut Vec<(Range<usize>, PlotKind)>, least: usize) {
     while let Some(index) =
-        pieces.iter().position(|(range, kind)| *kind == PlotKind::Rest && range.len() < least && pieces.len() > 1)
+        pieces.iter().position(|(range, kind)| *kind == PlotKind::Other && range.len() < least && pieces.len() > 1)
     {
         let (range, _) = pieces.remove(index);
         let before = index.checked_sub(1).map(|before| pieces[before].0.len());

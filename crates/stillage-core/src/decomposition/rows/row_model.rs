@@ -17,23 +17,23 @@ use rayon::prelude::*;
 
 use super::comb::{self, Comb, Lanes};
 use super::evidence::Evidence;
-use super::goods::{self, Goods};
+use super::load_template::{self, Goods};
 
 /// Length along which the noise of content is the same, metres: goods off their mark, and the smoothing.
 const CORRELATION_M: f64 = 0.2;
 /// Share of the energy that is noise even where goods explain all of it.
-pub(super) const LEAST_NOISE: f64 = 0.15;
+pub(crate) const LEAST_NOISE: f64 = 0.15;
 /// Noise before anything is explained, as a share of the energy.
 const FIRST_NOISE: f64 = 0.4;
 /// Turns of cutting and learning; there is no change worth it afterwards.
 const TURNS: usize = 2;
 /// Price of a place: whether it is full and how wide it is, half a logarithm of its cells.
-pub(super) const PLACE_PRICE: f64 = 1.5;
+pub(crate) const PLACE_PRICE: f64 = 1.5;
 /// Price of a shape of goods of a row's own: its dozen values, each half a logarithm of the cells of a row.
-pub(super) const GOODS_PRICE: f64 = 25.0;
+pub(crate) const GOODS_PRICE: f64 = 25.0;
 /// Price of another reading that is there already, and of a pitch of a row's own.
 const READING_PRICE: f64 = 5.0;
-pub(super) const PITCH_PRICE: f64 = 10.0;
+pub(crate) const PITCH_PRICE: f64 = 10.0;
 /// No direction of a region holds more sorts of storage.
 const MOST_READINGS: usize = 6;
 /// Rows of this length together are enough to learn from, metres: some 300 places.
@@ -47,7 +47,7 @@ const STRIDE: usize = 2;
 const LEAST_PLACES: f64 = 2.2;
 
 /// The pitches that are tried within `range`, metres.
-pub(super) fn pitches(range: [f64; 2]) -> Vec<f64> {
+pub(crate) fn pitches(range: [f64; 2]) -> Vec<f64> {
     let count = ((range[1] - range[0]) / STEP_M).round() as usize + 1;
     (0..count).map(|index| range[0] + index as f64 * STEP_M).collect()
 }
@@ -59,7 +59,7 @@ fn tells(row: &Evidence, pitch: f64) -> bool {
 
 /// A way to read rows.
 #[derive(Debug, Clone)]
-pub(super) struct Reading {
+pub(crate) struct Reading {
     /// Metres.
     pub pitch: f64,
     goods: Goods,
@@ -107,7 +107,7 @@ impl Account {
 }
 
 /// What energy counts in a logarithm of a likelihood.
-pub(super) fn weight(noise: f64, cell: f64) -> f64 {
+pub(crate) fn weight(noise: f64, cell: f64) -> f64 {
     cell / (2.0 * CORRELATION_M * noise)
 }
 
@@ -141,8 +141,8 @@ impl Reading {
 
     /// Twice the middles of the places of a row that hold goods, cells.
     pub(super) fn goods_in(&self, row: &Evidence) -> Vec<usize> {
-        let explained = goods::explained([&self.goods], row);
-        goods::middles(&self.cut(row)).filter(|&twice| explained[twice][0] > 0.0).collect()
+        let explained = load_template::explained([&self.goods], row);
+        load_template::middles(&self.cut(row)).filter(|&twice| explained[twice][0] > 0.0).collect()
     }
 
     fn score(&self, row: &Evidence, noise: f64) -> f64 {
@@ -150,7 +150,7 @@ impl Reading {
     }
 
     fn cut_and_account(&self, row: &Evidence, noise: f64) -> (Comb, Account) {
-        let explained = goods::explained([&self.goods], row);
+        let explained = load_template::explained([&self.goods], row);
         let [comb] = cut(row, self.pitch, &explained, [noise]);
         let mut account = Account::default();
         account.add(row, &comb, |twice| explained[twice][0], noise);
@@ -188,12 +188,12 @@ fn fit<const N: usize>(rows: &[&Evidence], pitch: f64, guesses: [Vec<Weighted>; 
         let mut accounts = [Account::default(); N];
         places = std::array::from_fn(|_| Vec::with_capacity(rows.len()));
         for row in rows {
-            let explained = goods::explained(goods.each_ref(), row);
+            let explained = load_template::explained(goods.each_ref(), row);
             for (lane, comb) in cut(row, pitch, &explained, noise).into_iter().enumerate() {
                 let at = |twice: usize| explained[twice][lane];
                 accounts[lane].add(row, &comb, at, noise[lane]);
                 let amplitude = |twice: usize| (twice, f64::from(at(twice).max(0.0)).sqrt());
-                places[lane].push(goods::middles(&comb).map(amplitude).collect());
+                places[lane].push(load_template::middles(&comb).map(amplitude).collect());
             }
         }
         noise = accounts.map(|account| account.noise());
@@ -209,7 +209,7 @@ fn fit<const N: usize>(rows: &[&Evidence], pitch: f64, guesses: [Vec<Weighted>; 
 }
 
 /// Rows of one direction.
-pub(super) struct Rows<'a> {
+pub(crate) struct Rows<'a> {
     pub rows: Vec<&'a Evidence>,
     /// The pitches that are tried, metres, ascending.
     pub pitches: Vec<f64>,
@@ -280,7 +280,7 @@ impl Rows<'_> {
         let Some(cell) = rows.first().map(|row| row.cell) else { return Vec::new() };
         let guess = |row: &&Evidence| -> Vec<usize> {
             let [comb] = comb::cut(row, pitch, comb::even(row));
-            goods::middles(&comb).collect()
+            load_template::middles(&comb).collect()
         };
         let guess: Vec<Vec<usize>> = rows.iter().map(guess).collect();
         // Middles are doubled, so half a pitch is a quarter of a place.
@@ -312,8 +312,8 @@ impl Rows<'_> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::frame::{Axis, Frame};
     use super::*;
+    use crate::decomposition::ground::{Axis, Frame};
 
     /// Borders of the places that a row drawn in cells of 5 cm is cut into.
     fn check(row: &str, wanted: &expect_test::Expect) {

@@ -19,7 +19,7 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use super::evidence::Evidence;
-use super::reading::{PITCH_PRICE, Reading, Rows};
+use super::row_model::{PITCH_PRICE, Reading, Rows};
 
 /// Mean cosine above which lanes are shared: half-way.
 const SHARED: f64 = 0.5;
@@ -102,9 +102,9 @@ fn cosines(layers: &[Evidence], own: &[Reading]) -> Vec<f64> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::frame::{Axis, Frame};
-    use super::super::reading;
+    use super::super::row_model;
     use super::*;
+    use crate::decomposition::ground::{Axis, Frame};
 
     /// How many layers in a row, drawn in cells of 5 cm, share their lanes.
     fn check(layers: &[&str], wanted: &[usize]) {
@@ -113,7 +113,7 @@ mod tests {
             Evidence::of(&frame.patch(&rect, Axis::U), frame.cell, [0.7, 1.8])
         };
         let stack = layers.iter().map(evidence).collect();
-        assert_eq!(shared(&[stack], &reading::pitches([0.8, 1.6])), [wanted]);
+        assert_eq!(shared(&[stack], &row_model::pitches([0.8, 1.6])), [wanted]);
     }
 
     const FULL: &str = "..################..";

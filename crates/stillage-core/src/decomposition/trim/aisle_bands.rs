@@ -1,15 +1,15 @@
 //! Aisles end where the places along them do.
 //!
 //! A band serves a row along its places only, and on beside what nobody saw: a row ends where it is seen to end. Where a
-//! band runs on without any row it is open floor. How much of its width is aisle, [`super::aisles`] says.
+//! band runs on without any row it is open floor. How much of its width is aisle, [`super::aisle_width`] says.
 //!
 //! Cost: O(bands x places).
 
 use std::ops::Range;
 
-use super::super::frame::{Axis, Cell, Frame, Rect};
-use super::super::{Parcel, PlotKind};
-use super::aisles::{self, Stretch};
+use super::aisle_width::{self, Stretch};
+use crate::decomposition::ground::{Axis, Cell, Frame, Rect};
+use crate::decomposition::plot::{Parcel, PlotKind};
 
 /// Places and band meet within this, metres.
 pub(super) const CONTACT_M: f64 = 0.8;
@@ -24,7 +24,7 @@ pub(super) const GROUND_SHARE: f64 = 0.5;
 
 /// Cuts the bands where places stop to lie along them.
 pub(super) fn end(frame: &Frame, parcels: Vec<Parcel>) -> Vec<Parcel> {
-    let is_band = |parcel: &Parcel| matches!(parcel.kind, PlotKind::Aisle | PlotKind::Lane);
+    let is_band = |parcel: &Parcel| matches!(parcel.kind, PlotKind::Aisle | PlotKind::OpenFloor);
     let (bands, mut ended): (Vec<Parcel>, Vec<Parcel>) = parcels.into_iter().partition(is_band);
     let mut bands: Vec<Band> = bands.into_iter().map(|band| Band::of(frame, band, &ended)).collect();
     // Bands of one length are those of one block.
@@ -39,7 +39,7 @@ pub(super) fn end(frame: &Frame, parcels: Vec<Parcel>) -> Vec<Parcel> {
         }
     }
     let stretches: Vec<Stretch> = bands.iter().flat_map(|band| band.stretches(frame)).collect();
-    aisles::cut(frame, stretches, &mut ended);
+    aisle_width::cut(frame, stretches, &mut ended);
     ended
 }
 
@@ -160,7 +160,7 @@ mod tests {
     use expect_test::{Expect, expect};
 
     use super::*;
-    use crate::decomposition::drivable;
+    use crate::decomposition::ground::drivable;
     use crate::watch::Watch;
 
     /// Cells of 0.05 m along the side of a character: half a metre.

@@ -9,9 +9,9 @@
 use std::cmp::Ordering;
 use std::ops::Range;
 
-use super::super::frame::{Axis, Cell, Frame, Rect};
-use super::super::{Parcel, PlotKind};
-use super::bands::{CONTACT_M, GROUND_SHARE, closed};
+use super::aisle_bands::{CONTACT_M, GROUND_SHARE, closed};
+use crate::decomposition::ground::{Axis, Cell, Frame, Rect};
+use crate::decomposition::plot::{Parcel, PlotKind};
 
 /// What is left beside an aisle is open floor from this width on, metres: the depth of a row that is missing.
 const OPEN_STRIP_M: f64 = 1.0;
@@ -58,7 +58,7 @@ impl Stretch {
         let across = self.across();
         for floor in [across.start..aisle.start, aisle.end..across.end] {
             if !floor.is_empty() {
-                parcels.push(self.part(floor, PlotKind::Lane));
+                parcels.push(self.part(floor, PlotKind::OpenFloor));
             }
         }
         parcels.push(self.part(aisle, PlotKind::Aisle));
@@ -71,7 +71,7 @@ impl Stretch {
         let reach = served.iter().position(|&here| here).unwrap_or(reach.end)..reach.end;
         let mut start = self.rect.range(self.axis).start;
         for run in closed(frame, served, &reach).chunk_by(PartialEq::eq) {
-            let part = self.part(across.clone(), if run[0] { PlotKind::Aisle } else { PlotKind::Lane });
+            let part = self.part(across.clone(), if run[0] { PlotKind::Aisle } else { PlotKind::OpenFloor });
             let along = start..start + run.len();
             start = along.end;
             parcels.push(Parcel { rect: part.rect.with(self.axis, along), ..part });
@@ -111,7 +111,7 @@ impl Stretch {
 
     /// All of it is what places along it say.
     fn whole(self) -> Parcel {
-        let kind = if self.fronts == [false; 2] { PlotKind::Lane } else { PlotKind::Aisle };
+        let kind = if self.fronts == [false; 2] { PlotKind::OpenFloor } else { PlotKind::Aisle };
         self.part(self.across(), kind)
     }
 }
@@ -208,7 +208,7 @@ impl Aisles {
         match stretch.fronts {
             [true, true] if has_room(2, self.strip) => {
                 stretch.aisle(frame, start..start + width, 0, parcels);
-                parcels.push(stretch.part(start + width..end - width, PlotKind::Lane));
+                parcels.push(stretch.part(start + width..end - width, PlotKind::OpenFloor));
                 stretch.aisle(frame, end - width..end, 1, parcels);
             }
             [true, true] if has_room(1, self.strip) => match self.only_side(frame, rows, &stretch) {

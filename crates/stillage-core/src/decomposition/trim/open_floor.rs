@@ -4,13 +4,13 @@
 //! saw, and past it into what a robot saw through a door. Each is cut again where most of its lines change from free to
 //! not free, in the direction that tells the two apart best, until its parts are one or the other.
 //!
-//! Source: the recursive XY-cut of [`super::super::blocks`]. Cost: O(cells of the lanes x cuts). Limits: walls aslant
+//! Source: the recursive XY-cut of [`crate::decomposition::aisles`]. Cost: O(cells of the lanes x cuts). Limits: walls aslant
 //! leave steps.
 
 use std::ops::Range;
 
-use super::super::frame::{Axis, Cell, Frame, Rect};
-use super::super::{Parcel, PlotKind};
+use crate::decomposition::ground::{Axis, Cell, Frame, Rect};
+use crate::decomposition::plot::{Parcel, PlotKind};
 
 /// Share of a line, or of a part, that is free where it was seen.
 const MAJORITY: f64 = 0.5;
@@ -24,7 +24,7 @@ const MOST_CUTS: usize = 4;
 pub(super) fn cut(frame: &Frame, parcels: Vec<Parcel>) -> Vec<Parcel> {
     let mut parts = Vec::new();
     for parcel in parcels {
-        if parcel.kind == PlotKind::Lane {
+        if parcel.kind == PlotKind::OpenFloor {
             cut_lane(frame, parcel, 0, &mut parts);
         } else {
             parts.push(parcel);
@@ -47,7 +47,7 @@ fn cut_lane(frame: &Frame, lane: Parcel, depth: usize, parts: &mut Vec<Parcel>) 
         }
         _ => {
             let is_seen = frame.share(&lane.rect, Cell::is_free) >= MAJORITY;
-            parts.push(Parcel { kind: if is_seen { PlotKind::Lane } else { PlotKind::Rest }, ..lane });
+            parts.push(Parcel { kind: if is_seen { PlotKind::OpenFloor } else { PlotKind::Other }, ..lane });
         }
     }
 }

@@ -8,9 +8,9 @@
 
 use std::ops::Range;
 
-use super::super::PlotKind;
-use super::super::frame::{Cell, Frame};
-use super::rows::Row;
+use super::row_ends::Row;
+use crate::decomposition::ground::{Cell, Frame};
+use crate::decomposition::plot::PlotKind;
 
 /// Narrowest passage, metres: two empty places are none.
 const PASSAGE_M: f64 = 2.6;
@@ -50,7 +50,7 @@ pub(super) fn open(frame: &Frame, rows: &mut [Row], passages: Vec<Passage>) {
                 if common(along, &passage) as f64 >= SHARE * along.len() as f64
                     && frame.share(&piece.rect, Cell::is_drivable) >= SHARE
                 {
-                    piece.kind = PlotKind::Gap;
+                    piece.kind = PlotKind::Passage;
                 }
             }
         }
@@ -75,7 +75,7 @@ fn stretches(frame: &Frame, rows: &[Row], number: usize, least: usize) -> Vec<St
         first += run.len();
         let along = row.along(&pieces[0]).start..row.along(&pieces[pieces.len() - 1]).end;
         if run[0] && along.len() >= least {
-            let has_gap = pieces.iter().any(|piece| piece.kind == PlotKind::Gap && row.along(piece).len() >= least);
+            let has_gap = pieces.iter().any(|piece| piece.kind == PlotKind::Passage && row.along(piece).len() >= least);
             found.push(Stretch { row: number, along, has_gap });
         }
     }

@@ -11,9 +11,9 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use super::super::frame::{Axis, Cell, Frame};
-use super::super::{Parcel, PlotKind};
 use super::passages;
+use crate::decomposition::ground::{Axis, Cell, Frame};
+use crate::decomposition::plot::{Parcel, PlotKind};
 
 /// Share of a piece that must lie in the site: goods hide as much of their place where they are seen from one side
 /// only.
@@ -41,7 +41,7 @@ const WALL_WIDTH_M: f64 = 0.1;
 
 /// Ends the rows; other parcels stay as they are.
 pub(super) fn end(frame: &Frame, parcels: Vec<Parcel>) -> Vec<Parcel> {
-    let is_of_row = |one: &Parcel| one.axis.is_some() && !matches!(one.kind, PlotKind::Aisle | PlotKind::Lane);
+    let is_of_row = |one: &Parcel| one.axis.is_some() && !matches!(one.kind, PlotKind::Aisle | PlotKind::OpenFloor);
     let (pieces, mut ended): (Vec<Parcel>, Vec<Parcel>) = parcels.into_iter().partition(is_of_row);
     for axis in Axis::BOTH {
         let mut rows = Row::all(pieces.iter().filter(|piece| piece.axis == Some(axis)), axis);
@@ -96,7 +96,7 @@ impl Row {
         let least = if is_end { SITE_SHARE_OF_END } else { SITE_SHARE };
         for (place, share) in places.iter_mut().zip(shares) {
             if share < least {
-                place.kind = PlotKind::Rest;
+                place.kind = PlotKind::Other;
             }
         }
     }
@@ -117,8 +117,8 @@ impl Row {
             let is_alike = (along.len() as f64 - width as f64).abs() < LIKE_PLACE * width as f64;
             let is_between = index > 0 && is_place(index - 1) && is_place(index + 1);
             let is_empty = match piece.kind {
-                PlotKind::Gap => is_few,
-                PlotKind::Rest => is_few && is_alike && self.is_bare(frame, piece, true, &[]),
+                PlotKind::Passage => is_few,
+                PlotKind::Other => is_few && is_alike && self.is_bare(frame, piece, true, &[]),
                 _ => false,
             };
             if !is_between || !is_empty {
@@ -158,7 +158,11 @@ impl Row {
             for floor in [before, after] {
                 if let [first, .., last] | [first @ last] = floor {
                     let along = self.along(first).start..self.along(last).end;
-                    ended.push(Parcel::new(first.rect.with(self.axis, along), PlotKind::Lane, Some(self.axis.other())));
+                    ended.push(Parcel::new(
+                        first.rect.with(self.axis, along),
+                        PlotKind::OpenFloor,
+                        Some(self.axis.other()),
+                    ));
                 }
             }
         }
