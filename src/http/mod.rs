@@ -6,30 +6,15 @@
 
 #![allow(unused_qualifications, reason = "the macro of utoipa repeats the types of arguments")]
 
-mod analyses;
-mod bbox;
-mod collections;
-mod conditional;
-mod crs;
+mod admin;
 mod docs;
-mod evaluations;
-mod extractors;
-mod guards;
-mod health;
-mod items;
-mod jobs;
+mod extract;
+mod fleet;
+mod guard;
 mod links;
 mod maps;
-mod negotiation;
-mod observe;
-mod openapi;
-mod options;
-mod pictures;
+mod ogc;
 mod problem;
-mod routes;
-mod rule_sets;
-mod semantics;
-mod upload;
 mod views;
 
 use std::sync::Arc;
@@ -49,7 +34,7 @@ use utoipa_axum::routes;
 
 use crate::app::App;
 
-pub use evaluations::EvaluationView;
+pub use maps::evaluations::EvaluationView;
 
 /// Bytes that a body may have where nothing else is said: overrides for a hundred thousand faces.
 const BODY_BYTES: usize = 8 << 20;
@@ -59,46 +44,46 @@ fn routes(upload_bytes: usize) -> OpenApiRouter<Arc<App>> {
     // Refuses by the declared length before anything is read, and while reading where none was declared.
     let upload_limit =
         ServiceBuilder::new().layer(RequestBodyLimitLayer::new(upload_bytes)).layer(DefaultBodyLimit::disable());
-    OpenApiRouter::with_openapi(openapi::head())
+    OpenApiRouter::with_openapi(docs::openapi::head())
         .routes(routes!(docs::landing))
         .routes(routes!(docs::openapi))
         .routes(routes!(problem::describe))
-        .routes(routes!(health::live))
-        .routes(routes!(health::ready))
-        .routes(routes!(observe::metrics))
-        .routes(routes!(maps::list, maps::create).layer(upload_limit))
-        .routes(routes!(maps::get, maps::update, maps::delete))
-        .routes(routes!(analyses::list, analyses::create))
-        .routes(routes!(analyses::diagnostics))
-        .routes(routes!(evaluations::create))
-        .routes(routes!(pictures::image))
-        .routes(routes!(pictures::categories))
-        .routes(routes!(pictures::regions))
-        .routes(routes!(pictures::semantic))
-        .routes(routes!(semantics::categories))
-        .routes(routes!(semantics::get, semantics::assign))
-        .routes(routes!(semantics::versions))
-        .routes(routes!(collections::list))
-        .routes(routes!(collections::get))
-        .routes(routes!(items::list))
-        .routes(routes!(items::get))
-        .routes(routes!(routes::get))
-        .routes(routes!(jobs::list))
-        .routes(routes!(jobs::get, jobs::dismiss))
-        .routes(routes!(jobs::events))
-        .routes(routes!(rule_sets::list, rule_sets::create))
-        .routes(routes!(rule_sets::get, rule_sets::replace, rule_sets::delete))
+        .routes(routes!(admin::health::live))
+        .routes(routes!(admin::health::ready))
+        .routes(routes!(guard::observe::metrics))
+        .routes(routes!(maps::map::list, maps::map::create).layer(upload_limit))
+        .routes(routes!(maps::map::get, maps::map::update, maps::map::delete))
+        .routes(routes!(maps::analyses::list, maps::analyses::create))
+        .routes(routes!(maps::analyses::diagnostics))
+        .routes(routes!(maps::evaluations::create))
+        .routes(routes!(maps::pictures::image))
+        .routes(routes!(maps::pictures::categories))
+        .routes(routes!(maps::pictures::regions))
+        .routes(routes!(maps::pictures::semantic))
+        .routes(routes!(maps::semantics::categories))
+        .routes(routes!(maps::semantics::get, maps::semantics::assign))
+        .routes(routes!(maps::semantics::versions))
+        .routes(routes!(ogc::collections::list))
+        .routes(routes!(ogc::collections::get))
+        .routes(routes!(ogc::items::list))
+        .routes(routes!(ogc::items::get))
+        .routes(routes!(fleet::route::get))
+        .routes(routes!(ogc::jobs::list))
+        .routes(routes!(ogc::jobs::get, ogc::jobs::dismiss))
+        .routes(routes!(ogc::jobs::events))
+        .routes(routes!(maps::rule_sets::list, maps::rule_sets::create))
+        .routes(routes!(maps::rule_sets::get, maps::rule_sets::replace, maps::rule_sets::delete))
 }
 
 /// The OpenAPI 3.1 document of the service, as it is served and as it lies in `openapi/openapi.json`.
 #[must_use]
 pub fn openapi_json() -> String {
-    openapi::write(&document(routes(BODY_BYTES)).1)
+    docs::openapi::write(&document(routes(BODY_BYTES)).1)
 }
 
 fn document<S: Clone + Send + Sync + 'static>(routes: OpenApiRouter<S>) -> (Router<S>, utoipa::openapi::OpenApi) {
     let (router, mut document) = routes.split_for_parts();
-    openapi::complete(&mut document);
+    docs::openapi::complete(&mut document);
     (router, document)
 }
 
@@ -107,28 +92,28 @@ fn document<S: Clone + Send + Sync + 'static>(routes: OpenApiRouter<S>) -> (Rout
 /// From the outside in: id, log line and metrics of the request; headers for browsers; entity tags by coding, around
 /// the compression; bodies of problems; panics; checks of host and origin; patience; unknown parameters; `Accept`.
 pub fn router(app: Arc<App>) -> Router {
-    let upload_bytes = app.config().limits.max_bytes + upload::FORM_OVERHEAD_BYTES;
+    let upload_bytes = app.config().limits.max_bytes + maps::upload::FORM_OVERHEAD_BYTES;
     let (router, document) = document(routes(upload_bytes));
-    let known = Arc::new(guards::KnownParameters::of(&document));
-    let metrics = observe::Metrics::new();
+    let known = Arc::new(guard::KnownParameters::of(&document));
+    let metrics = guard::observe::Metrics::new();
     let layers = ServiceBuilder::new()
-        .layer(from_fn_with_state(metrics.clone(), observe::observe))
+        .layer(from_fn_with_state(metrics.clone(), guard::observe::observe))
         .layer(from_fn(browser_headers))
-        .layer(from_fn(conditional::tag_encodings))
+        .layer(from_fn(extract::conditional::tag_encodings))
         .layer(CompressionLayer::new())
         .layer(from_fn(problem::render))
         .layer(CatchPanicLayer::custom(problem::of_panic))
-        .layer(from_fn(guards::one_host))
-        .layer(from_fn(guards::other_origins))
-        .layer(from_fn(guards::in_time))
-        .layer(from_fn_with_state(known, guards::known_parameters))
-        .layer(from_fn(negotiation::negotiate))
+        .layer(from_fn(guard::one_host))
+        .layer(from_fn(guard::other_origins))
+        .layer(from_fn(guard::in_time))
+        .layer(from_fn_with_state(known, guard::known_parameters))
+        .layer(from_fn(extract::negotiation::negotiate))
         .layer(DefaultBodyLimit::max(BODY_BYTES))
         .layer(Extension(metrics))
-        .layer(Extension(docs::Document(openapi::write(&document).into())));
+        .layer(Extension(docs::Document(docs::openapi::write(&document).into())));
     router
         // Clients that take a map for the root of an API ask for it with a slash.
-        .route("/v1/maps/{mapId}/", get(maps::get))
+        .route("/v1/maps/{mapId}/", get(maps::map::get))
         .merge(docs::reference_page())
         .layer(layers)
         .with_state(app)

@@ -4,9 +4,9 @@ use serde::{Deserialize, Serialize};
 use stillage_core::analysis::Diagnostic;
 use utoipa::ToSchema;
 
-use super::problem::Problem;
 use crate::app::StageReport;
 use crate::geojson::Georeference;
+use crate::http::problem::Problem;
 
 /// A remark on something that is valid but may surprise.
 #[derive(Debug, Serialize, ToSchema)]

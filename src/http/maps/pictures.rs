@@ -6,12 +6,12 @@ use axum::extract::State;
 use axum::http::header;
 use axum::response::{IntoResponse, Response};
 
-use super::collections::{off_the_runtime, tag};
-use super::conditional::IfNoneMatch;
-use super::extractors::{Id, MapPath, Path};
-use super::links::PNG;
-use super::problem::Problem;
 use crate::app::{App, MapContext};
+use crate::http::extract::conditional::IfNoneMatch;
+use crate::http::extract::{Id, MapPath, Path};
+use crate::http::links::PNG;
+use crate::http::ogc::collections::{off_the_runtime, tag};
+use crate::http::problem::Problem;
 use crate::render;
 
 /// Names and titles of the pictures.

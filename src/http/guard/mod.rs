@@ -1,5 +1,7 @@
 //! What is checked of every request before a handler sees it: host, origin, parameters, pace and patience.
 
+pub mod observe;
+
 use std::collections::{HashMap, HashSet};
 use std::pin::Pin;
 use std::sync::Arc;
@@ -16,7 +18,7 @@ use futures::Stream;
 use utoipa::openapi::path::ParameterIn;
 use utoipa::openapi::{OpenApi, RefOr};
 
-use super::problem::{Problem, ProblemType};
+use crate::http::problem::{Problem, ProblemType};
 
 /// Longest time in which a request is answered, once its body is there.
 const PATIENCE: Duration = Duration::from_secs(30);

@@ -1,5 +1,9 @@
 //! What handlers take from a request, typed; what cannot be taken is a problem.
 
+pub mod conditional;
+pub mod crs;
+pub mod negotiation;
+
 use std::error::Error;
 use std::fmt;
 
@@ -13,7 +17,7 @@ use serde::{Deserialize, Deserializer, Serialize};
 use utoipa::{IntoParams, ToSchema};
 use uuid::Uuid;
 
-use super::problem::{Problem, ProblemType};
+use crate::http::problem::{Problem, ProblemType};
 
 /// Typed path parameters: an id that cannot be valid names nothing, so it is a 404.
 #[derive(Debug)]
@@ -67,7 +71,7 @@ pub struct MapPath {
     pub map_id: Id,
 }
 
-/// Typed query parameters. Which names exist at all is checked before, by [`super::guards::known_parameters`].
+/// Typed query parameters. Which names exist at all is checked before, by [`crate::http::guard::known_parameters`].
 #[derive(Debug)]
 pub struct Query<T>(pub T);
 
@@ -169,7 +173,7 @@ pub async fn body<S: Send + Sync>(request: Request, state: &S) -> Result<Bytes, 
 /// Why a body could not be read to its end.
 pub fn broken_body(error: &(dyn Error + 'static)) -> Problem {
     let mut causes = std::iter::successors(Some(error), |&cause| cause.source());
-    match causes.find_map(|cause| cause.downcast_ref::<super::guards::TooSlow>()) {
+    match causes.find_map(|cause| cause.downcast_ref::<crate::http::guard::TooSlow>()) {
         Some(slow) => Problem::new(ProblemType::Timeout, slow.to_string()),
         None => Problem::new(ProblemType::BadRequest, format!("the body cannot be read: {error}")),
     }

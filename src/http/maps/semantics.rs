@@ -15,11 +15,11 @@ use stillage_core::spec::AnnotationMethod;
 use utoipa::ToSchema;
 use uuid::Uuid;
 
-use super::conditional::{EntityTag, IfMatch, IfNoneMatch};
-use super::extractors::{JsonBody, MapPath, Path, pointer_step};
-use super::links::{Base, JSON, Link};
-use super::problem::Problem;
 use crate::app::{App, MapContext, NewSemantics, SemanticsOrigin, SemanticsRecord};
+use crate::http::extract::conditional::{EntityTag, IfMatch, IfNoneMatch};
+use crate::http::extract::{JsonBody, MapPath, Path, pointer_step};
+use crate::http::links::{Base, JSON, Link};
+use crate::http::problem::Problem;
 
 /// A category of places, as the person who names it needs to see it.
 #[derive(Debug, Serialize, ToSchema)]
@@ -300,7 +300,7 @@ pub async fn get(
     request_body = SemanticsBody,
     responses((status = 200, description = "The labels as they are now", body = SemanticsView,
             headers(("ETag" = String, description = "Changes with them"))),
-        (status = 428, description = "If-Match is missing", body = super::problem::ProblemDocument,
+        (status = 428, description = "If-Match is missing", body = crate::http::problem::ProblemDocument,
             content_type = "application/problem+json")))]
 pub async fn assign(
     State(app): State<Arc<App>>,

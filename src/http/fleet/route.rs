@@ -12,14 +12,14 @@ use stillage_core::arrangement::FaceId;
 use stillage_core::routing::{self, RoutingMap, Waypoint};
 use utoipa::{IntoParams, ToSchema};
 
-use super::collections::off_the_runtime;
-use super::crs::CrsName;
-use super::extractors::{MapPath, Path, Query};
-use super::items::CONTENT_CRS;
-use super::links::GEO_JSON;
-use super::problem::Problem;
 use crate::app::{App, MapContext};
 use crate::geojson::{Geometry, Transform};
+use crate::http::extract::crs::CrsName;
+use crate::http::extract::{MapPath, Path, Query};
+use crate::http::links::GEO_JSON;
+use crate::http::ogc::collections::off_the_runtime;
+use crate::http::ogc::items::CONTENT_CRS;
+use crate::http::problem::Problem;
 
 /// From where to where.
 #[derive(Debug, Deserialize, IntoParams)]

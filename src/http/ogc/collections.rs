@@ -9,13 +9,13 @@ use serde::{Deserialize, Serialize};
 use stillage_core::Point;
 use utoipa::{IntoParams, ToSchema};
 
-use super::conditional::{EntityTag, IfNoneMatch};
-use super::crs::{CRS84, EPSG_3857};
-use super::extractors::{Id, MapPath, Path};
-use super::links::{Base, CSV, GEO_JSON, JSON, Link};
-use super::problem::Problem;
 use crate::app::{App, MapContext};
 use crate::geojson::{Collection, Crs, Transform};
+use crate::http::extract::conditional::{EntityTag, IfNoneMatch};
+use crate::http::extract::crs::{CRS84, EPSG_3857};
+use crate::http::extract::{Id, MapPath, Path};
+use crate::http::links::{Base, CSV, GEO_JSON, JSON, Link};
+use crate::http::problem::Problem;
 
 /// A collection as a part of a path.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, ToSchema)]

@@ -9,9 +9,9 @@ use serde::Serialize;
 use stillage_core::evaluation::{Evaluation, GeometryScores, LabelScores, OccupancyScores, PlaceScores};
 use utoipa::ToSchema;
 
-use super::extractors::{JsonBody, MapPath, Path};
-use super::problem::Problem;
 use crate::app::{App, AppError};
+use crate::http::extract::{JsonBody, MapPath, Path};
+use crate::http::problem::Problem;
 use crate::ingest;
 
 /// How well an analysis fits the truth. Shares and ratios lie between 0 and 1.

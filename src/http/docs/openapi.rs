@@ -7,9 +7,9 @@ use utoipa::openapi::schema::Type;
 use utoipa::openapi::{ContentBuilder, OpenApi, Ref, RefOr, Required, Response, ResponseBuilder, Schema};
 use utoipa::{OpenApi as _, ToSchema as _};
 
-use super::collections::CollectionIdView;
-use super::crs::CrsName;
-use super::problem::{PROBLEM_JSON, ProblemDocument};
+use crate::http::extract::crs::CrsName;
+use crate::http::ogc::collections::CollectionIdView;
+use crate::http::problem::{PROBLEM_JSON, ProblemDocument};
 
 /// What the document says of itself.
 #[derive(utoipa::OpenApi)]

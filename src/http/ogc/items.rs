@@ -10,16 +10,16 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use utoipa::{IntoParams, ToSchema};
 
-use super::bbox::{Bbox, Selection};
-use super::collections::{CollectionId, CollectionPath, off_the_runtime, tag};
-use super::conditional::IfNoneMatch;
-use super::crs::CrsName;
-use super::extractors::{Id, Limit, Path, Query};
-use super::links::{Base, CSV, GEO_JSON, JSON, Link, encode};
-use super::negotiation::Accept;
-use super::problem::{Problem, ProblemType};
 use crate::app::{App, MapContext};
 use crate::geojson::{Collection, Feature, FeatureId, MapView, Transform, locations_csv};
+use crate::http::extract::conditional::IfNoneMatch;
+use crate::http::extract::crs::CrsName;
+use crate::http::extract::negotiation::Accept;
+use crate::http::extract::{Id, Limit, Path, Query};
+use crate::http::links::{Base, CSV, GEO_JSON, JSON, Link, encode};
+use crate::http::ogc::bbox::{Bbox, Selection};
+use crate::http::ogc::collections::{CollectionId, CollectionPath, off_the_runtime, tag};
+use crate::http::problem::{Problem, ProblemType};
 
 /// Longest id of a feature: codes of locations are far shorter.
 const MAX_ID: usize = 64;

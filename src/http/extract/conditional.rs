@@ -11,7 +11,7 @@ use axum::http::{HeaderMap, HeaderName, HeaderValue, StatusCode, header};
 use axum::middleware::Next;
 use axum::response::{IntoResponse, Response};
 
-use super::problem::{Problem, ProblemType};
+use crate::http::problem::{Problem, ProblemType};
 
 /// The codings of the compression layer.
 const CODINGS: [&str; 3] = ["gzip", "br", "zstd"];

@@ -13,14 +13,14 @@ use stillage_core::AnalysisOptions;
 use stillage_core::declutter::Removed;
 use utoipa::ToSchema;
 
-use super::conditional::{EntityTag, IfNoneMatch};
-use super::extractors::{Id, JsonBody, MapPath, Path};
-use super::jobs::JobView;
-use super::links::{Base, JSON, Link};
-use super::options::AnalysisOptionsView;
-use super::problem::Problem;
-use super::views::{DiagnosticView, StageView};
 use crate::app::{AnalysisRecord, AnalysisTicket, App, MapContext};
+use crate::http::extract::conditional::{EntityTag, IfNoneMatch};
+use crate::http::extract::{Id, JsonBody, MapPath, Path};
+use crate::http::links::{Base, JSON, Link};
+use crate::http::maps::options::AnalysisOptionsView;
+use crate::http::ogc::jobs::JobView;
+use crate::http::problem::Problem;
+use crate::http::views::{DiagnosticView, StageView};
 
 /// A finished analysis.
 #[derive(Debug, Serialize, ToSchema)]
@@ -84,7 +84,7 @@ pub async fn list(
         (status = 200, description = "These options were analysed before", body = AnalysisView),
         (status = 202, description = "The job will do it", body = JobView,
             headers(("Location" = String, description = "The job"))),
-        (status = 507, description = "Short of disk space", body = super::problem::ProblemDocument,
+        (status = 507, description = "Short of disk space", body = crate::http::problem::ProblemDocument,
             content_type = "application/problem+json")))]
 pub async fn create(
     State(app): State<Arc<App>>,

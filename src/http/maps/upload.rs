@@ -6,10 +6,10 @@ use axum::http::{HeaderMap, StatusCode};
 use stillage_core::AnalysisOptions;
 use utoipa::ToSchema;
 
-use super::extractors::{self, Name, broken_body, is_json, parse_json};
-use super::problem::{Problem, ProblemType};
-use super::views::GeoreferenceView;
 use crate::app::NewMap;
+use crate::http::extract::{self, Name, broken_body, is_json, parse_json};
+use crate::http::problem::{Problem, ProblemType};
+use crate::http::views::GeoreferenceView;
 use crate::ingest::{Limits, MapSource};
 
 /// Bytes that the part `metadata` or `options` may have: a hundred times what `map_server` writes.
@@ -35,7 +35,7 @@ pub struct MapUploadView {
     name: Option<Name>,
     /// Options of the first analysis.
     #[schema(required = false)]
-    options: super::options::AnalysisOptionsView,
+    options: crate::http::maps::options::AnalysisOptionsView,
     /// Where the map lies on Earth.
     #[schema(required = false)]
     georeference: GeoreferenceView,
@@ -53,9 +53,9 @@ pub async fn read<S: Send + Sync>(
 ) -> Result<NewMap, Problem> {
     let idempotency_key = idempotency_key(request.headers())?;
     let mut map = if is_json(request.headers()) {
-        let bytes = extractors::body(request, state).await?;
+        let bytes = extract::body(request, state).await?;
         new_map(MapSource::Message(bytes.into()))
-    } else if extractors::content_type(request.headers()) == "multipart/form-data" {
+    } else if extract::content_type(request.headers()) == "multipart/form-data" {
         let form = Multipart::from_request(request, state).await;
         let form = form.map_err(|rejection| Problem::new(ProblemType::BadRequest, rejection.to_string()))?;
         read_form(form, limits).await?
@@ -111,7 +111,7 @@ async fn read_form(mut parts: Multipart, limits: &Limits) -> Result<NewMap, Prob
             }
             unknown => {
                 let detail = "is not a part of the form: those are image, metadata, name, options and georeference";
-                return Err(Problem::invalid(format!("/{}", extractors::pointer_step(unknown)), detail));
+                return Err(Problem::invalid(format!("/{}", extract::pointer_step(unknown)), detail));
             }
         }
     }

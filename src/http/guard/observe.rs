@@ -13,8 +13,8 @@ use metrics_exporter_prometheus::{Matcher, PrometheusBuilder, PrometheusHandle, 
 use tracing::Instrument;
 use uuid::Uuid;
 
-use super::problem::Problem;
 use crate::app::App;
+use crate::http::problem::Problem;
 
 /// The header that carries the id of a request, in both directions.
 const REQUEST_ID: HeaderName = HeaderName::from_static("x-request-id");

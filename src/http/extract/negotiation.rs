@@ -8,7 +8,7 @@ use axum::http::{HeaderMap, HeaderValue, Method, header};
 use axum::middleware::Next;
 use axum::response::{IntoResponse, Response};
 
-use super::problem::{Problem, ProblemType};
+use crate::http::problem::{Problem, ProblemType};
 
 /// One media range of an `Accept` header.
 #[derive(Debug, Clone, PartialEq)]

@@ -11,11 +11,11 @@ use serde::{Deserialize, Serialize};
 use stillage_core::semantics::{Cogency, CogencyRule, Functionality, Label, RuleSetDraft};
 use utoipa::{IntoParams, ToSchema};
 
-use super::conditional::{EntityTag, IfMatch, IfNoneMatch};
-use super::extractors::{JsonBody, Path};
-use super::links::{Base, JSON, Link};
-use super::problem::{Problem, ProblemType};
 use crate::app::{App, RuleSetRecord};
+use crate::http::extract::conditional::{EntityTag, IfMatch, IfNoneMatch};
+use crate::http::extract::{JsonBody, Path};
+use crate::http::links::{Base, JSON, Link};
+use crate::http::problem::{Problem, ProblemType};
 
 /// A label that a person may give to places.
 #[derive(Debug, Serialize, Deserialize, ToSchema)]
@@ -204,7 +204,7 @@ pub async fn list(State(app): State<Arc<App>>, base: Base) -> Result<Json<RuleSe
     responses(
         (status = 201, description = "Created", body = RuleSetView,
             headers(("Location" = String, description = "The rule set"), ("ETag" = String, description = "Changes with the rule set"))),
-        (status = 409, description = "The id is in use", body = super::problem::ProblemDocument,
+        (status = 409, description = "The id is in use", body = crate::http::problem::ProblemDocument,
             content_type = "application/problem+json")))]
 pub async fn create(
     State(app): State<Arc<App>>,
@@ -257,7 +257,7 @@ async fn writable(app: &App, id: &str) -> Result<RuleSetRecord, Problem> {
     request_body = RuleSetBody,
     responses((status = 200, description = "The rule set as it is now", body = RuleSetView,
             headers(("ETag" = String, description = "Changes with the rule set"))),
-        (status = 428, description = "If-Match is missing", body = super::problem::ProblemDocument,
+        (status = 428, description = "If-Match is missing", body = crate::http::problem::ProblemDocument,
             content_type = "application/problem+json")))]
 pub async fn replace(
     State(app): State<Arc<App>>,
@@ -281,7 +281,7 @@ pub async fn replace(
 #[utoipa::path(delete, path = "/v1/rule-sets/{ruleSetId}", tag = "semantics", operation_id = "deleteRuleSet",
     params(RuleSetPath, ("If-Match" = Option<String>, Header, description = "The ETag that was read; 428 without it")),
     responses((status = 204, description = "Deleted"),
-        (status = 428, description = "If-Match is missing", body = super::problem::ProblemDocument,
+        (status = 428, description = "If-Match is missing", body = crate::http::problem::ProblemDocument,
             content_type = "application/problem+json")))]
 pub async fn delete(
     State(app): State<Arc<App>>,

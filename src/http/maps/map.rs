@@ -10,14 +10,14 @@ use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 use utoipa::{IntoParams, ToSchema};
 
-use super::conditional::{EntityTag, IfMatch, IfNoneMatch};
-use super::extractors::{Id, JsonBody, MapPath, Name, Paging, Path, Query, present};
-use super::jobs::JobView;
-use super::links::{Base, JSON, Link, PNG};
-use super::problem::Problem;
-use super::views::{DiagnosticView, GeoreferenceView, cut};
 use super::{pictures, upload};
 use crate::app::{App, MapPatch, MapRecord};
+use crate::http::extract::conditional::{EntityTag, IfMatch, IfNoneMatch};
+use crate::http::extract::{Id, JsonBody, MapPath, Name, Paging, Path, Query, present};
+use crate::http::links::{Base, JSON, Link, PNG};
+use crate::http::ogc::jobs::JobView;
+use crate::http::problem::Problem;
+use crate::http::views::{DiagnosticView, GeoreferenceView, cut};
 
 /// A map: its landing page.
 #[derive(Debug, Serialize, ToSchema)]
@@ -79,7 +79,7 @@ fn map_links(base: &Base, map: &MapRecord) -> Vec<Link> {
         to("related", "/categories", JSON).titled("Categories with suggested labels"),
         to("related", "/semantics", JSON).titled("Labels of the categories"),
         to("version-history", "/semantics/versions", JSON).titled("Versions of the labels"),
-        to("related", "/routes", super::links::GEO_JSON).titled("Routes between two places"),
+        to("related", "/routes", crate::http::links::GEO_JSON).titled("Routes between two places"),
     ];
     links.extend(pictures::NAMES.map(|(name, title)| to("preview", &format!("/{name}"), PNG).titled(title)));
     links.push(base.link("up", "/v1/maps", JSON));
@@ -119,9 +119,9 @@ pub struct UploadQuery {
         (status = 202, description = "Stored; the job will analyse it", body = JobView,
             headers(("Location" = String, description = "The job"),
                 ("Idempotent-Replayed" = Option<String>, description = "`true` when the key had been seen before"))),
-        (status = 409, description = "The key was used with other content", body = super::problem::ProblemDocument,
+        (status = 409, description = "The key was used with other content", body = crate::http::problem::ProblemDocument,
             content_type = "application/problem+json"),
-        (status = 507, description = "Short of disk space", body = super::problem::ProblemDocument,
+        (status = 507, description = "Short of disk space", body = crate::http::problem::ProblemDocument,
             content_type = "application/problem+json")))]
 pub async fn create(
     State(app): State<Arc<App>>,

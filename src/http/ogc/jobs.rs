@@ -14,11 +14,11 @@ use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 use utoipa::{IntoParams, ToSchema};
 
-use super::extractors::{Id, ListLimit, Path, Query};
-use super::links::{Base, JSON, Link};
-use super::problem::Problem;
-use super::views::{StageView, cut};
 use crate::app::{App, JobFilter, JobRecord, JobState};
+use crate::http::extract::{Id, ListLimit, Path, Query};
+use crate::http::links::{Base, JSON, Link};
+use crate::http::problem::Problem;
+use crate::http::views::{StageView, cut};
 
 /// The one process of this service.
 const PROCESS: &str = "semantic-map";
@@ -239,7 +239,7 @@ pub async fn get(State(app): State<Arc<App>>, base: Base, Path(path): Path<JobPa
 /// A queued job is dismissed at once, a running one within a second. A job that is over stays as it is: 409.
 #[utoipa::path(delete, path = "/v1/jobs/{jobId}", tag = "jobs", operation_id = "dismissJob", params(JobPath),
     responses((status = 200, description = "The job, dismissed or about to be", body = JobView),
-        (status = 409, description = "The job is over", body = super::problem::ProblemDocument,
+        (status = 409, description = "The job is over", body = crate::http::problem::ProblemDocument,
             content_type = "application/problem+json")))]
 pub async fn dismiss(
     State(app): State<Arc<App>>,

@@ -1,5 +1,7 @@
 //! The front door, the OpenAPI document and the reference page made of it. Nothing loads from elsewhere.
 
+pub mod openapi;
+
 use axum::Json;
 use axum::response::{IntoResponse, Response};
 use bytes::Bytes;
@@ -7,8 +9,8 @@ use serde::Serialize;
 use utoipa::ToSchema;
 use utoipa_swagger_ui::{Config, SwaggerUi};
 
-use super::conditional::{EntityTag, IfNoneMatch};
-use super::links::{Base, JSON, Link, OPENAPI};
+use crate::http::extract::conditional::{EntityTag, IfNoneMatch};
+use crate::http::links::{Base, JSON, Link, OPENAPI};
 
 /// The front door.
 #[derive(Debug, Serialize, ToSchema)]

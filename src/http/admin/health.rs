@@ -7,8 +7,8 @@ use axum::extract::State;
 use serde::Serialize;
 use utoipa::ToSchema;
 
-use super::problem::Problem;
 use crate::app::App;
+use crate::http::problem::Problem;
 
 /// State of the service.
 #[derive(Debug, Serialize, ToSchema)]
@@ -32,7 +32,7 @@ pub async fn live() -> Json<Health> {
 /// 503 or 507 while the store does not answer, is not migrated, is short of space, or the service is stopping.
 #[utoipa::path(get, path = "/health/ready", tag = "service", operation_id = "getReadiness",
     responses((status = 200, description = "The service takes work", body = Health),
-        (status = 507, description = "Short of disk space", body = super::problem::ProblemDocument,
+        (status = 507, description = "Short of disk space", body = crate::http::problem::ProblemDocument,
             content_type = "application/problem+json")))]
 pub async fn ready(State(app): State<Arc<App>>) -> Result<Json<Health>, Problem> {
     app.ready().await?;

@@ -1,0 +1,3 @@
+//! What operators ask for: health.
+
+pub mod health;

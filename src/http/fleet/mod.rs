@@ -1,0 +1,3 @@
+//! What fleet managers ask for: routes.
+
+pub mod route;

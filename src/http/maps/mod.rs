@@ -1,0 +1,10 @@
+//! What hangs on a map: its record and upload, analyses, pictures, semantics and evaluation; and the rule sets.
+
+pub mod analyses;
+pub mod evaluations;
+pub mod map;
+pub mod options;
+pub mod pictures;
+pub mod rule_sets;
+pub mod semantics;
+pub mod upload;
