@@ -62,6 +62,7 @@ pub mod evaluation;
 mod components;
 mod disjoint_sets;
 mod morphology;
+mod runs;
 mod site_ground;
 mod smallest_box;
 pub mod spec;

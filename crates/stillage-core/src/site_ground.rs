@@ -16,7 +16,7 @@ const BLOCK_M: f64 = 0.25;
 const SQUARE: usize = 5;
 
 /// The ground of a grid that lies in its site, by region.
-pub(crate) struct Site {
+pub(crate) struct SiteGround {
     width: usize,
     height: usize,
     /// Region of each cell, row-major; [`RegionMap::NONE`] outside the site and the regions.
@@ -24,16 +24,16 @@ pub(crate) struct Site {
 }
 
 /// A grid in square blocks, and which of them lie outside the site.
-pub(crate) struct Blocks {
+pub(crate) struct CoarseGrid {
     /// Cells along the side of a block.
     pub side: usize,
-    /// Blocks of a row.
+    /// CoarseGrid of a row.
     pub columns: usize,
     /// Row-major.
     pub is_outside: Vec<bool>,
 }
 
-impl Blocks {
+impl CoarseGrid {
     pub(crate) fn of(grid: &OccupancyGrid, watch: &Watch<'_>) -> Result<Self, Stopped> {
         let side = ((BLOCK_M / grid.resolution()).round() as usize).max(1);
         let columns = grid.width().div_ceil(side);
@@ -42,9 +42,9 @@ impl Blocks {
     }
 }
 
-impl Site {
+impl SiteGround {
     pub(crate) fn of(grid: &OccupancyGrid, regions: &RegionMap, watch: &Watch<'_>) -> Result<Self, Stopped> {
-        let Blocks { side, columns, is_outside } = Blocks::of(grid, watch)?;
+        let CoarseGrid { side, columns, is_outside } = CoarseGrid::of(grid, watch)?;
         let mut site =
             Self { width: grid.width(), height: grid.height(), regions: vec![RegionMap::NONE; grid.cells().len()] };
         for (row, line) in site.regions.chunks_exact_mut(site.width.max(1)).enumerate() {

@@ -7,13 +7,13 @@
 use std::collections::BTreeMap;
 use std::f64::consts::FRAC_PI_2;
 
-use super::ground::{Axis, Frame};
+use super::ground::{Axis, RegionFrame};
 use super::plot::Parcel;
 use crate::geometry::fold_half_turn;
 use crate::radiography::Line;
 
 /// The borders of the parcels of a region.
-pub(super) fn of_parcels(frame: &Frame, region: u8, parcels: &[Parcel]) -> Vec<Line> {
+pub(super) fn of_parcels(frame: &RegionFrame, region: u8, parcels: &[Parcel]) -> Vec<Line> {
     let mut lines = Vec::new();
     for axis in Axis::BOTH {
         let mut sides: BTreeMap<usize, Vec<[usize; 2]>> = BTreeMap::new();
@@ -44,7 +44,7 @@ fn united(mut stretches: Vec<[usize; 2]>) -> Vec<[usize; 2]> {
     united
 }
 
-fn line(frame: &Frame, region: u8, axis: Axis, offset: usize, stretches: &[[usize; 2]]) -> Line {
+fn line(frame: &RegionFrame, region: u8, axis: Axis, offset: usize, stretches: &[[usize; 2]]) -> Line {
     let at = |side: usize, cells: usize| frame.start[side] + cells as f64 * frame.cell;
     let occupied = stretches.iter().map(|&stretch| occupied_beside(frame, axis, offset, stretch)).sum::<usize>();
     // Along u the normal points along v; along v it points against u.
@@ -70,7 +70,7 @@ fn line(frame: &Frame, region: u8, axis: Axis, offset: usize, stretches: &[[usiz
 }
 
 /// Cells along a stretch with an occupied one on either side of it.
-fn occupied_beside(frame: &Frame, axis: Axis, offset: usize, [start, end]: [usize; 2]) -> usize {
+fn occupied_beside(frame: &RegionFrame, axis: Axis, offset: usize, [start, end]: [usize; 2]) -> usize {
     let is_occupied = |along: usize, across: usize| {
         let (u, v) = if axis == Axis::U { (along, across) } else { (across, along) };
         u < frame.columns && v < frame.rows && frame.row(v)[u].is_occupied()

@@ -18,6 +18,7 @@
 mod aisles;
 mod bodies;
 mod ground;
+mod likelihood;
 mod lines;
 mod plot;
 mod rows;
@@ -31,12 +32,12 @@ use rayon::prelude::*;
 use crate::grid::OccupancyGrid;
 use crate::radiography::Line;
 use crate::segmentation::RegionMap;
-use crate::site_ground::Site;
+use crate::site_ground::SiteGround;
 use crate::spec::DecompositionOptions;
 use crate::watch::{Stopped, Watch};
 
-use ground::{Frame, drivable};
-use rows::Hints;
+use ground::{RegionFrame, drivable};
+use rows::SizeHints;
 
 pub use plot::{Plot, PlotKind};
 
@@ -59,7 +60,7 @@ pub fn decompose(
     options: &DecompositionOptions,
     watch: &Watch<'_>,
 ) -> Result<Decomposition, Stopped> {
-    let site = Site::of(grid, regions, watch)?;
+    let site = SiteGround::of(grid, regions, watch)?;
     let of_region: Vec<Decomposition> = (0..regions.regions.len() as u8)
         .into_par_iter()
         .map(|region| decompose_region(grid, regions, region, &site, options, watch))
@@ -76,20 +77,19 @@ fn decompose_region(
     grid: &OccupancyGrid,
     regions: &RegionMap,
     region: u8,
-    site: &Site,
+    site: &SiteGround,
     options: &DecompositionOptions,
     watch: &Watch<'_>,
 ) -> Result<Decomposition, Stopped> {
     let Some(&angle) = regions.regions[usize::from(region)].orientations.first() else {
         return Ok(Decomposition::default());
     };
-    let mut frame = Frame::new(grid, regions, region, angle, site, watch)?;
+    let mut frame = RegionFrame::new(grid, regions, region, angle, site, watch)?;
     let vehicle = frame.cells_of(options.vehicle_width_m);
     drivable::mark(&mut frame, vehicle, watch)?;
-    let blocks = aisles::cut(&frame, watch)?;
-    let hints =
-        Hints { pitch: options.pitch_m.unwrap_or(rows::PITCHES_M), depth: options.depth_m.unwrap_or(rows::DEPTHS_M) };
-    let parcels = trim::end(&frame, rows::lay_out(&frame, &blocks, &hints, watch)?);
+    let cut = aisles::cut(&frame, watch)?;
+    let parcels = rows::lay_out(&frame, cut, &SizeHints::of(options), watch)?;
+    let parcels = trim::end(&frame, parcels);
     let lines = lines::of_parcels(&frame, region, &parcels);
     let plots = parcels.iter().map(|parcel| plot::plot(&frame, region, parcel)).collect();
     Ok(Decomposition { lines, plots })

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use serde::{Deserialize, Serialize};
 
-use super::ground::{Axis, Frame, Rect};
+use super::ground::{Axis, Rect, RegionFrame};
 use crate::geometry::{OrientedBox, Point, direction, normal};
 
 /// What a parcel was cut out for.
@@ -65,7 +65,7 @@ pub struct Plot {
 }
 
 /// A parcel in metres of the grid.
-pub(super) fn plot(frame: &Frame, region: u8, parcel: &Parcel) -> Plot {
+pub(super) fn plot(frame: &RegionFrame, region: u8, parcel: &Parcel) -> Plot {
     let axis = parcel.axis.unwrap_or(Axis::U);
     let middle = |range: &Range<usize>| (range.start + range.end) as f64 / 2.0 * frame.cell;
     let (u, v) = (frame.start[0] + middle(&parcel.rect.u), frame.start[1] + middle(&parcel.rect.v));

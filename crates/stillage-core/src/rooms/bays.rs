@@ -14,7 +14,7 @@ use super::nearest::Nearest;
 use crate::components::{Component, Components, Neighbours};
 use crate::geometry::{Point, Vector, direction};
 use crate::grid::{Occupancy, OccupancyGrid};
-use crate::site_ground::Blocks;
+use crate::site_ground::CoarseGrid;
 use crate::smallest_box::SmallestBox;
 use crate::watch::{Stopped, Watch};
 
@@ -32,7 +32,7 @@ const OPENING: f64 = 1.25;
 
 /// The gates of all bays.
 pub(super) fn gates(grid: &OccupancyGrid, ground: &Ground, watch: &Watch<'_>) -> Result<Vec<Passage>, Stopped> {
-    let blocks = Blocks::of(grid, watch)?;
+    let blocks = CoarseGrid::of(grid, watch)?;
     let reach = DISC_M / 2.0 / (blocks.side as f64 * grid.resolution());
     let count = blocks.is_outside.len();
     let is_far = |nearest: &Nearest, block: usize| f64::from(nearest.squared[block]) > reach * reach;
@@ -49,7 +49,7 @@ pub(super) fn gates(grid: &OccupancyGrid, ground: &Ground, watch: &Watch<'_>) ->
 fn gate(
     grid: &OccupancyGrid,
     ground: &Ground,
-    blocks: &Blocks,
+    blocks: &CoarseGrid,
     component: Component<'_>,
     juts_out: impl Fn(usize) -> bool,
 ) -> Option<Passage> {
@@ -114,14 +114,18 @@ fn wall(ground: &Ground, from: Point, way: Vector, most: f64) -> Option<Point> {
 }
 
 /// Columns and rows of the cells of a block.
-fn cells_of(blocks: &Blocks, block: usize) -> impl Iterator<Item = (i64, i64)> + use<> {
+fn cells_of(blocks: &CoarseGrid, block: usize) -> impl Iterator<Item = (i64, i64)> + use<> {
     let (side, columns) = (blocks.side, blocks.columns);
     let (column, row) = (block % columns * side, block / columns * side);
     (row..row + side).flat_map(move |row| (column..column + side).map(move |column| (column as i64, row as i64)))
 }
 
 /// Where the blocks of the site lie that touch what juts out, cells.
-fn middle_of_neighbours(blocks: &Blocks, component: Component<'_>, juts_out: impl Fn(usize) -> bool) -> Option<Point> {
+fn middle_of_neighbours(
+    blocks: &CoarseGrid,
+    component: Component<'_>,
+    juts_out: impl Fn(usize) -> bool,
+) -> Option<Point> {
     let (columns, count) = (blocks.columns, blocks.is_outside.len());
     let beside = |block: usize| {
         let left = (!block.is_multiple_of(columns)).then(|| block - 1);

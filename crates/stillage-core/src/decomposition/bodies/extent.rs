@@ -8,8 +8,9 @@
 
 use std::ops::Range;
 
-use super::depth::{Body, THIN_SHARE, thickest_pair};
-use crate::decomposition::ground::{Cell, Frame, Patch};
+use super::body::Body;
+use super::depth::{THIN_SHARE, thickest_pair};
+use crate::decomposition::ground::{Cell, Patch, RegionFrame};
 
 /// A body with room for more than this many rows is more than one row.
 pub(crate) const DEEP_ROOM: f64 = 1.5;
@@ -37,10 +38,10 @@ const SEEN_BETWEEN_GOODS: [f64; 2] = [0.04, 0.7];
 
 /// The lines that the layers of a body may fill, where places are about `depth` deep within a range, metres: first, and
 /// always, those between aisles and walls.
-pub(crate) fn extents(frame: &Frame, body: &Body, depth: f64, range: [f64; 2]) -> Vec<Range<usize>> {
+pub(crate) fn extents(frame: &RegionFrame, body: &Body, depth: f64, range: [f64; 2]) -> Vec<Range<usize>> {
     let room = room(frame, body, depth);
     let far = if is_deep(frame, body, &room, depth, range) { frame.cells_of(MOST_REACH * depth) } else { 0 };
-    let signs = Signs::around(frame, body, room.start.saturating_sub(far)..room.end + far);
+    let signs = OccupiedLines::around(frame, body, room.start.saturating_sub(far)..room.end + far);
     let (gap, overhang) = (frame.cells_of(THIN_SHARE * depth), frame.cells_of(OVERHANG_M));
     let (mut starts, mut ends) = (vec![room.start], vec![room.end]);
     if body.fronts[0] {
@@ -58,21 +59,21 @@ pub(crate) fn extents(frame: &Frame, body: &Body, depth: f64, range: [f64; 2]) -
 }
 
 /// Whether a body has room for more than two rows back to back, or than one before a wall.
-pub(crate) fn is_deep(frame: &Frame, body: &Body, room: &Range<usize>, depth: f64, range: [f64; 2]) -> bool {
+pub(crate) fn is_deep(frame: &RegionFrame, body: &Body, room: &Range<usize>, depth: f64, range: [f64; 2]) -> bool {
     let thickness = room.len() as f64 * frame.cell;
     let is_single_front = body.fronts[0] != body.fronts[1];
     thickness >= if is_single_front { DEEP_ROOM * depth } else { thickest_pair(range[1].min(DEEPER * depth)) }
 }
 
 /// The lines of a body and around it that show goods.
-struct Signs {
+struct OccupiedLines {
     lines: Range<usize>,
     occupied: Vec<u32>,
     least: f64,
 }
 
-impl Signs {
-    fn around(frame: &Frame, body: &Body, lines: Range<usize>) -> Self {
+impl OccupiedLines {
+    fn around(frame: &RegionFrame, body: &Body, lines: Range<usize>) -> Self {
         let across = body.axis.other();
         let lines = lines.start..lines.end.min(frame.whole().range(across).end);
         let occupied = frame.counts(&body.rect.with(across, lines.clone()), body.axis, Cell::is_occupied);
@@ -103,7 +104,7 @@ impl Signs {
 }
 
 /// The part of a body that may hold goods: all of it, or what lies before the wall on the side without an aisle.
-fn room(frame: &Frame, body: &Body, depth: f64) -> Range<usize> {
+fn room(frame: &RegionFrame, body: &Body, depth: f64) -> Range<usize> {
     let across = body.across();
     if body.fronts[0] == body.fronts[1] {
         return across;
@@ -137,7 +138,7 @@ fn room(frame: &Frame, body: &Body, depth: f64) -> Range<usize> {
 }
 
 /// Whether the robot sees some of what is behind a line that may be the fronts of goods.
-fn sees_between_goods(frame: &Frame, patch: &Patch, line: usize, low_front: bool) -> bool {
+fn sees_between_goods(frame: &RegionFrame, patch: &Patch, line: usize, low_front: bool) -> bool {
     let [near, far] = BEHIND_M.map(|metres| frame.cells_of(metres));
     let behind = if low_front { line + near..line + far } else { line.saturating_sub(far)..line.saturating_sub(near) };
     let seen = patch.known_share(behind.start.min(patch.height)..behind.end.min(patch.height));
@@ -151,7 +152,7 @@ mod tests {
 
     /// How many lines of a body that has an aisle above it may hold goods, in cells of 0.05 m.
     fn check(picture: &str, lines: &[usize]) {
-        let (frame, rect) = Frame::of_picture(picture, 0.05);
+        let (frame, rect) = RegionFrame::of_picture(picture, 0.05);
         let body = Body { rect, axis: Axis::U, fronts: [false, true] };
         let extents = extents(&frame, &body, 0.5, [0.4, 0.6]);
         assert_eq!(extents.iter().map(ExactSizeIterator::len).collect::<Vec<_>>(), lines);

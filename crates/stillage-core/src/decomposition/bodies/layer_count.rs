@@ -15,10 +15,10 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-use super::depth::{Body, WHOLE_SHARE};
-use crate::decomposition::ground::{Cell, Frame, Patch};
-use crate::decomposition::rows::evidence::{LEAST_KNOWN, UNKNOWN_CONTENT};
-use crate::decomposition::rows::row_model::{self, GOODS_PRICE, LEAST_NOISE, PLACE_PRICE};
+use super::body::Body;
+use super::depth::WHOLE_SHARE;
+use crate::decomposition::ground::{self, Cell, Patch, RegionFrame};
+use crate::decomposition::likelihood::{self, LEAST_NOISE, LOAD_COST, PLACE_COST};
 use crate::watch::{Stopped, Watch};
 
 /// Width of a strip, metres: goods show in every one, and few lanes lie in it.
@@ -50,7 +50,7 @@ pub(crate) struct Strips {
 
 /// Layers of one depth, cells.
 #[derive(Debug, Clone, PartialEq)]
-struct Lattice {
+struct LayerLattice {
     /// The lines that the layers fill.
     extent: Range<usize>,
     depth: f64,
@@ -60,7 +60,7 @@ struct Lattice {
     from_high: bool,
 }
 
-impl Lattice {
+impl LayerLattice {
     /// Range of a layer from the side that the lattice begins at.
     fn layer(&self, index: usize) -> [f64; 2] {
         let flue = if index >= self.count.div_ceil(2) { self.flue } else { 0.0 };
@@ -117,7 +117,7 @@ impl Lattice {
 
 impl Strips {
     /// Cuts a body into strips across its rows; its layers fill one of some extents, which may reach out of it.
-    pub(crate) fn of(frame: &Frame, body: &Body, extents: &[Range<usize>]) -> Self {
+    pub(crate) fn of(frame: &RegionFrame, body: &Body, extents: &[Range<usize>]) -> Self {
         let low = extents.iter().map(|extent| extent.start).min().unwrap_or(0);
         let high = extents.iter().map(|extent| extent.end).max().unwrap_or(low);
         let patch = frame.patch(&body.rect.with(body.axis.other(), low..high), body.axis);
@@ -136,19 +136,24 @@ impl Strips {
     }
 
     /// All ways to fill the extents with layers of a depth within a range, metres.
-    fn lattices(&self, range: [f64; 2]) -> Vec<Lattice> {
+    fn lattices(&self, range: [f64; 2]) -> Vec<LayerLattice> {
         self.extents.iter().flat_map(|extent| self.lattices_in(extent, range)).collect()
     }
 
-    fn lattices_in(&self, extent: &Range<usize>, range: [f64; 2]) -> Vec<Lattice> {
+    fn lattices_in(&self, extent: &Range<usize>, range: [f64; 2]) -> Vec<LayerLattice> {
         let lines = extent.len() as f64;
         let mut lattices = Vec::new();
         if lines * self.cell > MOST_LAYERS as f64 * range[1] {
             return lattices;
         }
         let from_high = self.fronts == [false, true];
-        let lattice =
-            |depth: f64, count: usize, flue: f64| Lattice { extent: extent.clone(), depth, count, flue, from_high };
+        let lattice = |depth: f64, count: usize, flue: f64| LayerLattice {
+            extent: extent.clone(),
+            depth,
+            count,
+            flue,
+            from_high,
+        };
         if self.fronts[0] == self.fronts[1] {
             let flues = (0..=(FLUE_M / FLUE_STEP_M).round() as usize).map(|step| step as f64 * FLUE_STEP_M / self.cell);
             for flue in flues {
@@ -172,7 +177,7 @@ impl Strips {
     }
 
     /// Energy that alike places on a lattice explain in each layer.
-    fn explained(&self, lattice: &Lattice) -> Vec<f64> {
+    fn explained(&self, lattice: &LayerLattice) -> Vec<f64> {
         let layers = lattice.lines();
         let (mut shape, mut sizes) = (vec![0.0; lattice.bins()], vec![0.0_f64; lattice.bins()]);
         for &(line, bin) in layers.iter().flatten() {
@@ -192,7 +197,7 @@ impl Strips {
     }
 
     /// Every lattice with its score, a logarithm of a likelihood.
-    fn scored(&self, range: [f64; 2]) -> Vec<(f64, Lattice)> {
+    fn scored(&self, range: [f64; 2]) -> Vec<(f64, LayerLattice)> {
         let energy: f64 = self.content.iter().flatten().map(|content| content * content).sum();
         let lattices = self.lattices(range);
         let explained: Vec<Vec<f64>> = lattices.iter().map(|lattice| self.explained(lattice)).collect();
@@ -202,9 +207,9 @@ impl Strips {
         }
         let cells = self.content.iter().map(Vec::len).sum::<usize>().max(1) as f64;
         let noise = (energy - most).max(LEAST_NOISE * energy).max(f64::MIN_POSITIVE) / cells;
-        let weight = row_model::weight(noise, self.cell);
-        let price = PLACE_PRICE * self.content.len() as f64;
-        let score = |(lattice, layers): (Lattice, Vec<f64>)| {
+        let weight = likelihood::weight(noise, self.cell);
+        let price = PLACE_COST * self.content.len() as f64;
+        let score = |(lattice, layers): (LayerLattice, Vec<f64>)| {
             let score = layers.iter().map(|explained| explained * weight - price).sum();
             (score, lattice)
         };
@@ -218,34 +223,34 @@ fn content(patch: &Patch, line: usize, columns: &Range<usize>) -> f64 {
     let share =
         |is: fn(Cell) -> bool| cells.iter().filter(|&&cell| is(cell)).count() as f64 / cells.len().max(1) as f64;
     let unknown = share(Cell::is_unknown);
-    if 1.0 - unknown < LEAST_KNOWN { 0.0 } else { share(Cell::is_occupied) + UNKNOWN_CONTENT * unknown }
+    ground::content(share(Cell::is_occupied), unknown, 1.0 - unknown)
 }
 
 /// The layers of bodies, as ranges of lines of the frame, ascending; depths in metres. None where nothing fits.
 pub(crate) fn layers(bodies: &[Strips], range: [f64; 2], watch: &Watch<'_>) -> Result<Vec<Vec<Range<usize>>>, Stopped> {
-    let score = |body: &Strips| watch.check().map(|()| Choice { scored: body.scored(range), cell: body.cell });
-    let choices: Vec<Choice> = bodies.par_iter().map(score).collect::<Result<_, _>>()?;
+    let score = |body: &Strips| watch.check().map(|()| ScoredLattices { scored: body.scored(range), cell: body.cell });
+    let choices: Vec<ScoredLattices> = bodies.par_iter().map(score).collect::<Result<_, _>>()?;
     let steps = ((range[1] - range[0]) / DEPTH_STEP_M).round() as usize;
     let depths = (0..=steps).map(|step| range[0] + step as f64 * DEPTH_STEP_M);
     let total = |depth: f64| choices.iter().filter_map(|choice| choice.at(depth)).map(|(score, _)| score).sum::<f64>();
     let better = |best: (f64, f64), other: (f64, f64)| if other.0 > best.0 { other } else { best };
     let usual = depths.map(|depth| (total(depth), depth)).reduce(better).map_or(range[0], |(_, depth)| depth);
-    let ranges = |choice: &Choice| choice.at(usual).map_or_else(Vec::new, |(_, lattice)| lattice.ranges());
+    let ranges = |choice: &ScoredLattices| choice.at(usual).map_or_else(Vec::new, |(_, lattice)| lattice.ranges());
     Ok(choices.iter().map(ranges).collect())
 }
 
 /// All lattices of a body with their scores.
-struct Choice {
-    scored: Vec<(f64, Lattice)>,
+struct ScoredLattices {
+    scored: Vec<(f64, LayerLattice)>,
     cell: f64,
 }
 
-impl Choice {
+impl ScoredLattices {
     /// The best lattice where others have places of a depth, metres; none if goods do not pay for their places.
-    fn at(&self, depth: f64) -> Option<(f64, &Lattice)> {
-        let price = |lattice: &Lattice| {
+    fn at(&self, depth: f64) -> Option<(f64, &LayerLattice)> {
+        let price = |lattice: &LayerLattice| {
             let is_alike = (lattice.depth * self.cell - depth).abs() <= ALIKE_M;
-            if is_alike { 0.0 } else { GOODS_PRICE }
+            if is_alike { 0.0 } else { LOAD_COST }
         };
         let priced = self.scored.iter().map(|(score, lattice)| (score - price(lattice), lattice));
         priced.filter(|(score, _)| *score > 0.0).reduce(|best, other| if other.0 > best.0 { other } else { best })

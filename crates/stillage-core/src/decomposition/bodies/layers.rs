@@ -3,7 +3,7 @@
 //! Every place of a rack must be reached, so what is thin enough between two aisles is one row, or two back to back. What
 //! is deeper - double-deep racks, block storage, marked floors - and what stands before a wall may have any number of
 //! layers. How many there are and how deep, [`super::layer_count`] finds; where goods show too little to tell, the thickness of
-//! the body decides. Layers that are reached from one side form a stack: their lanes run through all
+//! the body decides. BodyLayers that are reached from one side form a stack: their lanes run through all
 //! of them, so they are cut together, and end together.
 //!
 //! Cost: O(cells of the bodies), and that of the layers. Limits: where goods hide what is behind them, the usual depth of
@@ -11,55 +11,56 @@
 
 use std::ops::Range;
 
-use super::depth::{Body, THIN_SHARE, WHOLE_SHARE};
+use super::body::Body;
+use super::depth::{THIN_SHARE, WHOLE_SHARE};
 use super::extent::{DEEP_ROOM, extents, is_deep};
 use super::layer_count::{self, Strips};
-use crate::decomposition::ground::Frame;
+use crate::decomposition::ground::RegionFrame;
 use crate::watch::{Stopped, Watch};
 
 /// The layers of a body that are reached from one side, as ranges across its rows.
-pub(crate) type Stack = Vec<Range<usize>>;
+pub(crate) type LayerGroup = Vec<Range<usize>>;
 
 /// The rows of a body, and what is left beside them, as ranges across.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub(crate) struct Layers {
-    pub stacks: Vec<Stack>,
+pub(crate) struct BodyLayers {
+    pub groups: Vec<LayerGroup>,
     /// On the side of an aisle: floor.
     pub floors: Vec<Range<usize>>,
     /// On the other side: anything.
-    pub rests: Vec<Range<usize>>,
+    pub others: Vec<Range<usize>>,
 }
 
-impl Layers {
+impl BodyLayers {
     fn none(body: &Body) -> Self {
-        Self { rests: vec![body.across()], ..Self::default() }
+        Self { others: vec![body.across()], ..Self::default() }
     }
 
-    /// Layers from the low side on, one at least; those between two aisles are reached from the nearer one.
-    fn of(body: &Body, mut layers: Stack) -> Self {
+    /// BodyLayers from the low side on, one at least; those between two aisles are reached from the nearer one.
+    fn of(body: &Body, mut layers: LayerGroup) -> Self {
         let (across, count) = (body.across(), layers.len());
         let (start, end) = (layers[0].start, layers[count - 1].end);
         let mut found = Self::default();
         for (is_front, side) in body.fronts.into_iter().zip([across.start..start, end..across.end]) {
             if !side.is_empty() {
-                if is_front { &mut found.floors } else { &mut found.rests }.push(side);
+                if is_front { &mut found.floors } else { &mut found.others }.push(side);
             }
         }
         let is_divided = body.fronts[0] == body.fronts[1] && count % 2 == 0;
         let far = if is_divided { layers.split_off(count / 2) } else { Vec::new() };
-        found.stacks = [layers, far].into_iter().filter(|stack| !stack.is_empty()).collect();
+        found.groups = [layers, far].into_iter().filter(|group| !group.is_empty()).collect();
         found
     }
 }
 
 /// Cuts the bodies of one direction into rows of about a depth, metres, within a range.
 pub(crate) fn cut(
-    frame: &Frame,
+    frame: &RegionFrame,
     bodies: &[&Body],
     depth: f64,
     range: [f64; 2],
     watch: &Watch<'_>,
-) -> Result<Vec<Layers>, Stopped> {
+) -> Result<Vec<BodyLayers>, Stopped> {
     let extents: Vec<Vec<Range<usize>>> = bodies.iter().map(|body| extents(frame, body, depth, range)).collect();
     let strips = bodies.iter().zip(&extents).map(|(body, extents)| Strips::of(frame, body, extents));
     let found = layer_count::layers(&strips.collect::<Vec<_>>(), range, watch)?;
@@ -67,9 +68,9 @@ pub(crate) fn cut(
     for ((body, extents), found) in bodies.iter().zip(extents).zip(found) {
         let room = &extents[0];
         layers.push(if !found.is_empty() {
-            Layers::of(body, found)
+            BodyLayers::of(body, found)
         } else if is_deep(frame, body, room, depth, range) && body.fronts[0] == body.fronts[1] {
-            Layers::none(body)
+            BodyLayers::none(body)
         } else {
             by_thickness(frame, body, room, depth)
         });
@@ -78,14 +79,14 @@ pub(crate) fn cut(
 }
 
 /// One row or two back to back; before a wall, the row along the aisle.
-fn by_thickness(frame: &Frame, body: &Body, room: &Range<usize>, depth: f64) -> Layers {
+fn by_thickness(frame: &RegionFrame, body: &Body, room: &Range<usize>, depth: f64) -> BodyLayers {
     let rows = room.len() as f64 * frame.cell / depth;
     let least = if body.fronts[0] == body.fronts[1] { THIN_SHARE } else { WHOLE_SHARE };
     if rows < least {
-        return Layers::none(body);
+        return BodyLayers::none(body);
     }
     if rows < DEEP_ROOM {
-        return Layers::of(body, vec![room.clone()]);
+        return BodyLayers::of(body, vec![room.clone()]);
     }
     let row = frame.cells_of(depth).max(1);
     let middle = room.start + room.len().div_ceil(2);
@@ -94,5 +95,5 @@ fn by_thickness(frame: &Frame, body: &Body, room: &Range<usize>, depth: f64) -> 
         [false, true] => [room.end - row..room.end, 0..0],
         _ => [room.start..middle, middle..room.end],
     };
-    Layers::of(body, [near, far].into_iter().filter(|row| !row.is_empty()).collect())
+    BodyLayers::of(body, [near, far].into_iter().filter(|row| !row.is_empty()).collect())
 }

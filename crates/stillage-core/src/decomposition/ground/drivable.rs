@@ -1,11 +1,11 @@
 //! Where a vehicle finds room: the opening of the free cells by a square as wide as the vehicle.
 
-use super::Frame;
+use super::RegionFrame;
 use crate::morphology;
 use crate::watch::{Stopped, Watch};
 
 /// Marks the drivable cells of a frame for a vehicle of `width` cells.
-pub(crate) fn mark(frame: &mut Frame, width: usize, watch: &Watch<'_>) -> Result<(), Stopped> {
+pub(crate) fn mark(frame: &mut RegionFrame, width: usize, watch: &Watch<'_>) -> Result<(), Stopped> {
     let size = [frame.columns, frame.rows];
     let squares = morphology::squares(size, width, |cell| frame.cells[cell].is_free(), watch)?;
     morphology::cover(&squares, frame.columns, width, |cell| frame.cells[cell].mark_drivable(), watch)

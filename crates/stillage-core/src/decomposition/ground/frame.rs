@@ -6,9 +6,12 @@
 use crate::geometry::{Point, direction, normal};
 use crate::grid::{Occupancy, OccupancyGrid};
 use crate::segmentation::RegionMap;
+use crate::site_ground::SiteGround;
 use crate::watch::{Stopped, Watch};
 
-use crate::site_ground::Site;
+use super::cell::Cell;
+use super::patch::Patch;
+use super::rect::{Axis, Rect};
 
 /// Side of a cell of the frame, metres: posts of 0.09 m are two cells wide, and combs need that (accuracy study).
 pub(crate) const CELL_M: f64 = 0.05;
@@ -17,104 +20,8 @@ const FINEST_SHARE: f64 = 0.5;
 /// Room around the region, metres: wider than a vehicle, so that its border does not close a passage.
 const MARGIN_M: f64 = 2.0;
 
-const OCCUPANCY: u8 = 0b11;
-const INSIDE: u8 = 0b100;
-const DRIVABLE: u8 = 0b1000;
-
-/// A cell of the frame: what is there, whether it belongs to the region, whether a vehicle finds room.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Cell(u8);
-
-impl Cell {
-    pub const fn is_free(self) -> bool {
-        self.0 & OCCUPANCY == Occupancy::Free as u8
-    }
-
-    pub const fn is_occupied(self) -> bool {
-        self.0 & OCCUPANCY == Occupancy::Occupied as u8
-    }
-
-    pub const fn is_unknown(self) -> bool {
-        self.0 & OCCUPANCY == Occupancy::Unknown as u8
-    }
-
-    /// Whether it belongs to the region and to the site.
-    pub const fn is_inside(self) -> bool {
-        self.0 & INSIDE != 0
-    }
-
-    pub const fn is_drivable(self) -> bool {
-        self.0 & DRIVABLE != 0
-    }
-
-    pub(crate) fn mark_drivable(&mut self) {
-        self.0 |= DRIVABLE;
-    }
-}
-
-/// A rectangle of cells of a frame: columns along u, rows along v.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Rect {
-    pub u: std::ops::Range<usize>,
-    pub v: std::ops::Range<usize>,
-}
-
-impl Rect {
-    pub fn range(&self, axis: Axis) -> &std::ops::Range<usize> {
-        match axis {
-            Axis::U => &self.u,
-            Axis::V => &self.v,
-        }
-    }
-
-    pub fn with(&self, axis: Axis, range: std::ops::Range<usize>) -> Self {
-        match axis {
-            Axis::U => Self { u: range, v: self.v.clone() },
-            Axis::V => Self { u: self.u.clone(), v: range },
-        }
-    }
-
-    /// What a hole leaves of it: its full width beside the hole along `axis`, and what is before and behind the hole.
-    pub fn without(&self, hole: &Self, axis: Axis) -> Vec<Self> {
-        let common = |axis: Axis| {
-            let (own, other) = (self.range(axis), hole.range(axis));
-            own.start.max(other.start)..own.end.min(other.end)
-        };
-        let (along, across) = (common(axis), common(axis.other()));
-        if along.is_empty() || across.is_empty() {
-            return vec![self.clone()];
-        }
-        let beside = |axis: Axis, range: &std::ops::Range<usize>| {
-            let own = self.range(axis);
-            [own.start..range.start, range.end..own.end]
-        };
-        let within = self.with(axis, along.clone());
-        let full = beside(axis, &along).map(|part| self.with(axis, part));
-        let parts = beside(axis.other(), &across).map(|part| within.with(axis.other(), part));
-        full.into_iter().chain(parts).filter(|rect| !rect.u.is_empty() && !rect.v.is_empty()).collect()
-    }
-}
-
-/// One of the two directions of a frame.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Axis {
-    U,
-    V,
-}
-
-impl Axis {
-    pub const BOTH: [Self; 2] = [Self::U, Self::V];
-
-    pub const fn other(self) -> Self {
-        match self {
-            Self::U => Self::V,
-            Self::V => Self::U,
-        }
-    }
-}
-
 /// A region in its own frame.
-pub(crate) struct Frame {
+pub(crate) struct RegionFrame {
     /// Direction of u, radians.
     pub angle: f64,
     /// Side of a cell, metres.
@@ -126,13 +33,13 @@ pub(crate) struct Frame {
     pub cells: Vec<Cell>,
 }
 
-impl Frame {
+impl RegionFrame {
     pub(crate) fn new(
         grid: &OccupancyGrid,
         regions: &RegionMap,
         region: u8,
         angle: f64,
-        site: &Site,
+        site: &SiteGround,
         watch: &Watch<'_>,
     ) -> Result<Self, Stopped> {
         let mut frame = Self::empty(grid, regions, region, angle);
@@ -146,8 +53,7 @@ impl Frame {
             let mut place = [fixed(first.x), fixed(first.y)];
             for cell in cells {
                 let [x, y] = place.map(|place| place >> FRACTION_BITS);
-                let inside = if site.holds(x, y, region) { INSIDE } else { 0 };
-                *cell = Cell(grid.at(x, y) as u8 | inside);
+                *cell = Cell::new(grid.at(x, y), site.holds(x, y, region));
                 place = [place[0] + step[0], place[1] + step[1]];
             }
         }
@@ -165,7 +71,7 @@ impl Frame {
         let tile_cells = grid.width().max(grid.height());
         let regions = RegionMap { tile_cells, columns: 1, rows: 1, tiles: vec![0], regions: vec![region] };
         let watch = Watch::unwatched();
-        let site = Site::of(&grid, &regions, &watch).expect("nobody stops it");
+        let site = SiteGround::of(&grid, &regions, &watch).expect("nobody stops it");
         let frame = Self::new(&grid, &regions, 0, 0.0, &site, &watch).expect("nobody stops it");
         let side = |axis: usize, cells: usize| {
             let margin = frame.cells_of(-frame.start[axis]);
@@ -195,7 +101,7 @@ impl Frame {
             let extent = high[axis] - low[axis] + 2.0 * MARGIN_M;
             if extent.is_finite() { (extent / cell).ceil().max(0.0) as usize } else { 0 }
         });
-        let cells = vec![Cell(Occupancy::Unknown as u8); size[0] * size[1]];
+        let cells = vec![Cell::new(Occupancy::Unknown, false); size[0] * size[1]];
         Self { angle, cell, start: low.map(|low| low - MARGIN_M), columns: size[0], rows: size[1], cells }
     }
 
@@ -209,8 +115,7 @@ impl Frame {
                 let u = (along.dot(&center) - self.start[0]) / self.cell;
                 let v = (across.dot(&center) - self.start[1]) / self.cell;
                 if u >= 0.0 && v >= 0.0 && u < self.columns as f64 && v < self.rows as f64 {
-                    let cell = &mut self.cells[v as usize * self.columns + u as usize];
-                    cell.0 = cell.0 & !OCCUPANCY | Occupancy::Occupied as u8;
+                    self.cells[v as usize * self.columns + u as usize].mark_occupied();
                 }
             }
         }
@@ -281,53 +186,4 @@ const FRACTION_BITS: u32 = 32;
 /// A place with [`FRACTION_BITS`] bits behind the point, which can be stepped and floored as a whole number.
 fn fixed(place: f64) -> i64 {
     (place * (1_u64 << FRACTION_BITS) as f64).round() as i64
-}
-
-/// A copy of a rectangle of a frame, rows along the direction of its shelves.
-pub(crate) struct Patch {
-    pub width: usize,
-    pub height: usize,
-    pub cells: Vec<Cell>,
-}
-
-impl Patch {
-    pub fn row(&self, row: usize) -> &[Cell] {
-        &self.cells[row * self.width..(row + 1) * self.width]
-    }
-
-    /// The same columns in another order.
-    pub fn in_order(&self, columns: &[usize]) -> Self {
-        let cells = (0..self.height).flat_map(|line| columns.iter().map(move |&column| self.row(line)[column]));
-        Self { width: columns.len(), height: self.height, cells: cells.collect() }
-    }
-
-    /// Share of the columns of which somebody saw a cell in any of some rows.
-    pub fn known_share(&self, rows: std::ops::Range<usize>) -> f64 {
-        let is_known = |column: &usize| rows.clone().any(|row| !self.row(row)[*column].is_unknown());
-        (0..self.width).filter(is_known).count() as f64 / self.width.max(1) as f64
-    }
-
-    /// Share of the columns that are occupied in any of some rows.
-    pub fn occupied_share(&self, rows: std::ops::Range<usize>) -> f64 {
-        let is_occupied = |column: &usize| rows.clone().any(|row| self.row(row)[*column].is_occupied());
-        (0..self.width).filter(is_occupied).count() as f64 / self.width.max(1) as f64
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_hole_leaves_what_is_beside_it() {
-        let rect = Rect { u: 0..10, v: 0..4 };
-        let left = |hole: Rect| {
-            let parts = rect.without(&hole, Axis::U).into_iter();
-            parts.map(|part| format!("{:?}x{:?}", part.u, part.v)).collect::<Vec<_>>().join(" ")
-        };
-        assert_eq!(left(Rect { u: 3..5, v: 2..9 }), "0..3x0..4 5..10x0..4 3..5x0..2");
-        assert_eq!(left(Rect { u: 3..5, v: 1..2 }), "0..3x0..4 5..10x0..4 3..5x0..1 3..5x2..4");
-        assert_eq!(left(Rect { u: 0..99, v: 0..99 }), "");
-        assert_eq!(left(Rect { u: 3..5, v: 4..5 }), "0..10x0..4");
-    }
 }

@@ -6,14 +6,12 @@
 //!
 //! Source: the accuracy study behind this project (its largest single gain). Cost: O(cells of the row).
 
-use crate::decomposition::ground::{Cell, Patch};
+use crate::decomposition::ground::{self, Cell, Patch, UNKNOWN_CONTENT};
 
 /// How deep the front and the back of a row reach, metres: posts are 0.09 deep, pallets stand 0.05 off.
 const FACE_M: f64 = 0.15;
 /// Share of the depth at either side that is not the middle.
 const RIM_SHARE: f64 = 0.25;
-/// What an unknown cell counts as content beside an occupied one (accuracy study: goods hide what is in them).
-pub(crate) const UNKNOWN_CONTENT: f64 = 0.6;
 /// Smoothing of content and posts, metres (accuracy study).
 const CONTENT_SIGMA_M: f64 = 0.04;
 const POST_SIGMA_M: f64 = 0.03;
@@ -43,14 +41,12 @@ const LEVEL_FLOOR: f64 = 0.05;
 const USUAL_PLACE_M: f64 = 1.2;
 /// Content below which a place holds nothing, cells.
 const LEAST_CONTENT: f64 = 0.5;
-/// Known share of a column of cells below which nobody looked at it: sensors see the fronts at least.
-pub(crate) const LEAST_KNOWN: f64 = 0.04;
 /// Free share of a column of cells that is clear.
 const CLEAR_SHARE: f64 = 0.9;
 
-/// Evidence along a row, one number per cell.
+/// RowEvidence along a row, one number per cell.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub(crate) struct Evidence {
+pub(crate) struct RowEvidence {
     /// How much the cells speak for a border here: about 1 at a gap with posts, below 0 within goods.
     pub border: Vec<f64>,
     /// Nothing stands here, in the whole depth.
@@ -66,7 +62,7 @@ pub(crate) struct Evidence {
     pub cell: f64,
 }
 
-impl Evidence {
+impl RowEvidence {
     /// Reads a row; `cell` is the side of its cells and `widths` the range of places that will be asked about, metres.
     pub(crate) fn of(row: &Patch, cell: f64, widths: [f64; 2]) -> Self {
         let height = row.height;
@@ -119,10 +115,7 @@ impl Evidence {
         let whole: Vec<f64> = free
             .iter()
             .zip(&all_occupied)
-            .map(|(free, occupied)| match free + occupied {
-                known if known < LEAST_KNOWN => 0.0,
-                known => occupied + UNKNOWN_CONTENT * (1.0 - known),
-            })
+            .map(|(free, occupied)| ground::content(*occupied, 1.0 - (free + occupied), free + occupied))
             .collect();
         let is_clear =
             free.iter().zip(&all_occupied).map(|(free, occupied)| *occupied == 0.0 && *free >= CLEAR_SHARE).collect();
@@ -192,7 +185,7 @@ fn levelled(content: &[f64], cell: f64) -> Vec<f64> {
     content.iter().zip(level).map(|(content, square)| content / (square.max(0.0).sqrt() + LEVEL_FLOOR)).collect()
 }
 
-/// See [`Evidence::unevenness`].
+/// See [`RowEvidence::unevenness`].
 fn mirror_differences(content: &[f64], least_width: usize, widths: usize, cell: f64) -> Vec<f32> {
     let smooth: Vec<f32> = gaussian(content, MIRROR_SIGMA_M / cell).into_iter().map(|value| value as f32).collect();
     let mean = content.iter().sum::<f64>() / content.len().max(1) as f64;

@@ -7,8 +7,8 @@
 
 use std::ops::Range;
 
-use super::aisle_width::{self, Stretch};
-use crate::decomposition::ground::{Axis, Cell, Frame, Rect};
+use super::aisle_width::{self, BandSection};
+use crate::decomposition::ground::{Axis, Cell, Rect, RegionFrame};
 use crate::decomposition::plot::{Parcel, PlotKind};
 
 /// Places and band meet within this, metres.
@@ -23,12 +23,12 @@ const BEYOND_M: [f64; 2] = [0.3, 0.8];
 pub(super) const GROUND_SHARE: f64 = 0.5;
 
 /// Cuts the bands where places stop to lie along them.
-pub(super) fn end(frame: &Frame, parcels: Vec<Parcel>) -> Vec<Parcel> {
+pub(super) fn end(frame: &RegionFrame, parcels: Vec<Parcel>) -> Vec<Parcel> {
     let is_band = |parcel: &Parcel| matches!(parcel.kind, PlotKind::Aisle | PlotKind::OpenFloor);
     let (bands, mut ended): (Vec<Parcel>, Vec<Parcel>) = parcels.into_iter().partition(is_band);
-    let mut bands: Vec<Band> = bands.into_iter().map(|band| Band::of(frame, band, &ended)).collect();
+    let mut bands: Vec<AisleBand> = bands.into_iter().map(|band| AisleBand::of(frame, band, &ended)).collect();
     // Bands of one length are those of one block.
-    bands.sort_by_key(Band::block);
+    bands.sort_by_key(AisleBand::block);
     for block in bands.chunk_by_mut(|one, other| one.block() == other.block()) {
         let first = block.iter().filter_map(|band| band.served().position(|here| here)).min();
         let last = block.iter().filter_map(|band| band.served().rposition(|here| here)).max();
@@ -38,13 +38,13 @@ pub(super) fn end(frame: &Frame, parcels: Vec<Parcel>) -> Vec<Parcel> {
             }
         }
     }
-    let stretches: Vec<Stretch> = bands.iter().flat_map(|band| band.stretches(frame)).collect();
+    let stretches: Vec<BandSection> = bands.iter().flat_map(|band| band.stretches(frame)).collect();
     aisle_width::cut(frame, stretches, &mut ended);
     ended
 }
 
 /// A band, and where places lie along it.
-struct Band {
+struct AisleBand {
     rect: Rect,
     axis: Axis,
     /// By line across the band: whether there is a place at its low and at its high side.
@@ -53,8 +53,8 @@ struct Band {
     reach: Range<usize>,
 }
 
-impl Band {
-    fn of(frame: &Frame, band: Parcel, others: &[Parcel]) -> Self {
+impl AisleBand {
+    fn of(frame: &RegionFrame, band: Parcel, others: &[Parcel]) -> Self {
         let axis = band.axis.unwrap_or(Axis::U);
         let (along, across) = (band.rect.range(axis), band.rect.range(axis.other()));
         let contact = frame.cells_of(CONTACT_M);
@@ -86,7 +86,7 @@ impl Band {
     }
 
     /// The stretches with and without places.
-    fn stretches(&self, frame: &Frame) -> Vec<Stretch> {
+    fn stretches(&self, frame: &RegionFrame) -> Vec<BandSection> {
         let served = closed(frame, self.served().collect(), &self.reach);
         let offset = self.rect.range(self.axis).start;
         let mut start = 0;
@@ -96,14 +96,14 @@ impl Band {
             let rect = self.rect.with(self.axis, offset + range.start..offset + range.end);
             let sides = [&self.sides[0], &self.sides[1]].map(|side| side[range.clone()].to_vec());
             let fronts = [&sides[0], &sides[1]].map(|side| run[0] && side.contains(&true));
-            Stretch { walls: walls(frame, &rect, self.axis), rect, axis: self.axis, sides, fronts }
+            BandSection { walls: walls(frame, &rect, self.axis), rect, axis: self.axis, sides, fronts }
         };
         served.chunk_by(PartialEq::eq).map(stretch).collect()
     }
 }
 
 /// Whether the site ends at the low and at the high side of a band.
-fn walls(frame: &Frame, rect: &Rect, axis: Axis) -> [bool; 2] {
+fn walls(frame: &RegionFrame, rect: &Rect, axis: Axis) -> [bool; 2] {
     let beyond = frame.beside(rect, axis, BEYOND_M.map(|metres| frame.cells_of(metres)));
     beyond.map(|strip| frame.share(&strip, Cell::is_inside) < GROUND_SHARE)
 }
@@ -132,7 +132,7 @@ fn go_on(served: &mut [bool], is_free: impl Fn(usize) -> bool, least: usize) {
 }
 
 /// Lines with places, and the empty places between and beside them.
-pub(super) fn closed(frame: &Frame, mut served: Vec<bool>, reach: &Range<usize>) -> Vec<bool> {
+pub(super) fn closed(frame: &RegionFrame, mut served: Vec<bool>, reach: &Range<usize>) -> Vec<bool> {
     if served.contains(&true) {
         close_gaps(&mut served[reach.clone()], frame.cells_of(OPEN_STRETCH_M));
         close_gaps(&mut served, frame.cells_of(OPEN_END_M));
@@ -174,7 +174,7 @@ mod tests {
             let symbols = line.replace('p', "#").chars().flat_map(|symbol| [symbol; CHARACTER]).collect::<String>();
             (symbols + "\n").repeat(CHARACTER)
         };
-        let (mut frame, whole) = Frame::of_picture(&lines.iter().map(wide).collect::<String>(), 0.05);
+        let (mut frame, whole) = RegionFrame::of_picture(&lines.iter().map(wide).collect::<String>(), 0.05);
         let vehicle = frame.cells_of(1.0);
         drivable::mark(&mut frame, vehicle, &Watch::unwatched()).expect("nobody stops it");
         let rect = |columns: Range<usize>, rows: Range<usize>| {

@@ -10,7 +10,7 @@ use std::cmp::Ordering;
 use std::ops::Range;
 
 use super::aisle_bands::{CONTACT_M, GROUND_SHARE, closed};
-use crate::decomposition::ground::{Axis, Cell, Frame, Rect};
+use crate::decomposition::ground::{Axis, Cell, Rect, RegionFrame};
 use crate::decomposition::plot::{Parcel, PlotKind};
 
 /// What is left beside an aisle is open floor from this width on, metres: the depth of a row that is missing.
@@ -21,21 +21,21 @@ const BEHIND_M: [f64; 2] = [0.3, 1.1];
 const TWO_AISLES_SHARE: f64 = 0.85;
 
 /// Cuts stretches of bands, `ended` being all other parcels, and adds their parts.
-pub(super) fn cut(frame: &Frame, stretches: Vec<Stretch>, ended: &mut Vec<Parcel>) {
+pub(super) fn cut(frame: &RegionFrame, stretches: Vec<BandSection>, ended: &mut Vec<Parcel>) {
     let mut parts = Vec::new();
     if let Some(width) = usual_width(&stretches) {
-        let aisles = Aisles { width, strip: frame.cells_of(OPEN_STRIP_M), borders: Borders::of(frame, ended) };
+        let aisles = UsualAisle { width, strip: frame.cells_of(OPEN_STRIP_M), borders: PlaceBorders::of(frame, ended) };
         for stretch in stretches {
             aisles.cut(frame, ended, stretch, &mut parts);
         }
     } else {
-        parts.extend(stretches.into_iter().map(Stretch::whole));
+        parts.extend(stretches.into_iter().map(BandSection::whole));
     }
     ended.extend(parts);
 }
 
 /// A stretch of a band: whether places lie along its low and its high side, or the site ends there.
-pub(super) struct Stretch {
+pub(super) struct BandSection {
     pub rect: Rect,
     pub axis: Axis,
     /// The same by line.
@@ -44,7 +44,7 @@ pub(super) struct Stretch {
     pub walls: [bool; 2],
 }
 
-impl Stretch {
+impl BandSection {
     fn across(&self) -> Range<usize> {
         self.rect.range(self.axis.other()).clone()
     }
@@ -65,7 +65,7 @@ impl Stretch {
     }
 
     /// The aisle of the row on one side, as long as the row.
-    fn aisle(&self, frame: &Frame, across: Range<usize>, side: usize, parcels: &mut Vec<Parcel>) {
+    fn aisle(&self, frame: &RegionFrame, across: Range<usize>, side: usize, parcels: &mut Vec<Parcel>) {
         let served = self.sides[side].clone();
         let reach = 0..served.iter().rposition(|&here| here).map_or(0, |last| last + 1);
         let reach = served.iter().position(|&here| here).unwrap_or(reach.end)..reach.end;
@@ -80,7 +80,7 @@ impl Stretch {
 
     /// How much the rows at the low and the high side need an aisle here: most with no way to their other side, less with
     /// more rows there, least with open floor.
-    fn needs(&self, frame: &Frame, rows: &[Parcel]) -> [Need; 2] {
+    fn needs(&self, frame: &RegionFrame, rows: &[Parcel]) -> [AisleNeed; 2] {
         let contact = frame.cells_of(CONTACT_M);
         let (along, across) = (self.rect.range(self.axis), self.across());
         let meets = |place: &Rect| {
@@ -94,17 +94,17 @@ impl Stretch {
         let mut lengths = [[0; 3]; 2];
         for place in &places {
             for side in (0..2).filter(|&side| meets(place)[side]) {
-                let need = Need::of(frame, place, self.axis, side, &places);
+                let need = AisleNeed::of(frame, place, self.axis, side, &places);
                 lengths[side][need as usize] += place.range(self.axis).len();
             }
         }
         lengths.map(|[none, some, all]| {
             if all >= none + some {
-                Need::All
+                AisleNeed::All
             } else if none >= some {
-                Need::None
+                AisleNeed::None
             } else {
-                Need::Some
+                AisleNeed::Some
             }
         })
     }
@@ -118,7 +118,7 @@ impl Stretch {
 
 /// How much a row needs the aisle on one of its sides.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-enum Need {
+enum AisleNeed {
     /// Its other side is open floor.
     None,
     /// Other rows stand behind it.
@@ -127,9 +127,9 @@ enum Need {
     All,
 }
 
-impl Need {
+impl AisleNeed {
     /// By what lies behind a place at the low or high side of a band, and behind the places there.
-    fn of(frame: &Frame, place: &Rect, axis: Axis, side: usize, places: &[&Rect]) -> Self {
+    fn of(frame: &RegionFrame, place: &Rect, axis: Axis, side: usize, places: &[&Rect]) -> Self {
         let beside = |rect: &Rect| {
             let [low, high] = frame.beside(rect, axis, BEHIND_M.map(|metres| frame.cells_of(metres)));
             if side == 0 { low } else { high }
@@ -148,8 +148,8 @@ impl Need {
 }
 
 /// Width of the band at the middle of the length of all bands with places on both sides.
-fn usual_width(stretches: &[Stretch]) -> Option<usize> {
-    let size = |stretch: &Stretch| (stretch.across().len(), stretch.rect.range(stretch.axis).len());
+fn usual_width(stretches: &[BandSection]) -> Option<usize> {
+    let size = |stretch: &BandSection| (stretch.across().len(), stretch.rect.range(stretch.axis).len());
     let mut sizes: Vec<(usize, usize)> = stretches.iter().filter(|of| of.fronts == [true; 2]).map(size).collect();
     sizes.sort_unstable();
     let whole: usize = sizes.iter().map(|(_, length)| length).sum();
@@ -162,13 +162,13 @@ fn usual_width(stretches: &[Stretch]) -> Option<usize> {
 }
 
 /// Lengths of places by the lines that bound them along the rows, for both directions.
-struct Borders {
+struct PlaceBorders {
     lengths: [Vec<usize>; 2],
     contact: usize,
 }
 
-impl Borders {
-    fn of(frame: &Frame, parcels: &[Parcel]) -> Self {
+impl PlaceBorders {
+    fn of(frame: &RegionFrame, parcels: &[Parcel]) -> Self {
         let lengths = Axis::BOTH.map(|axis| {
             let mut lengths = vec![0; frame.whole().range(axis.other()).end + 1];
             for place in parcels.iter().filter(|one| one.kind == PlotKind::Place && one.axis == Some(axis)) {
@@ -190,16 +190,16 @@ impl Borders {
 }
 
 /// What is known of the aisles of a region.
-struct Aisles {
+struct UsualAisle {
     width: usize,
     /// What is left beside an aisle is open floor from this width on.
     strip: usize,
-    borders: Borders,
+    borders: PlaceBorders,
 }
 
-impl Aisles {
+impl UsualAisle {
     /// Cuts what lies beyond the reach of the aisles off a stretch.
-    fn cut(&self, frame: &Frame, rows: &[Parcel], stretch: Stretch, parcels: &mut Vec<Parcel>) {
+    fn cut(&self, frame: &RegionFrame, rows: &[Parcel], stretch: BandSection, parcels: &mut Vec<Parcel>) {
         let across = stretch.across();
         let (start, end, width) = (across.start, across.end, self.width);
         let has_room = |aisles: usize, more: usize| across.len() >= aisles * width + more;
@@ -232,7 +232,7 @@ impl Aisles {
     }
 
     /// On which side the only aisle of a stretch with places on both sides lies, if anything tells.
-    fn only_side(&self, frame: &Frame, rows: &[Parcel], stretch: &Stretch) -> Option<usize> {
+    fn only_side(&self, frame: &RegionFrame, rows: &[Parcel], stretch: &BandSection) -> Option<usize> {
         let across = stretch.across();
         let far_sides = [across.start + self.width, across.end - self.width];
         let [beside_low, beside_high] = far_sides.map(|line| self.borders.at(stretch.axis, line));

@@ -12,11 +12,11 @@ mod open_floor;
 mod passages;
 mod row_ends;
 
-use crate::decomposition::ground::Frame;
+use crate::decomposition::ground::RegionFrame;
 use crate::decomposition::plot::Parcel;
 
 /// Ends rows and bands where their signs end. Layers that are reached from one side end together.
-pub(crate) fn end(frame: &Frame, parcels: Vec<Parcel>) -> Vec<Parcel> {
+pub(crate) fn end(frame: &RegionFrame, parcels: Vec<Parcel>) -> Vec<Parcel> {
     let parcels = row_ends::end(frame, parcels).into_iter().flat_map(Parcel::into_layers).collect();
     open_floor::cut(frame, aisle_bands::end(frame, parcels))
 }

@@ -9,7 +9,7 @@
 
 use std::ops::Range;
 
-use crate::decomposition::ground::{Axis, Cell, Frame, Rect};
+use crate::decomposition::ground::{Axis, Cell, Rect, RegionFrame};
 use crate::decomposition::plot::{Parcel, PlotKind};
 
 /// Share of a line, or of a part, that is free where it was seen.
@@ -21,7 +21,7 @@ const SIDE_M: f64 = 0.3;
 const MOST_CUTS: usize = 4;
 
 /// Cuts the lanes; what nobody saw of them is no floor.
-pub(super) fn cut(frame: &Frame, parcels: Vec<Parcel>) -> Vec<Parcel> {
+pub(super) fn cut(frame: &RegionFrame, parcels: Vec<Parcel>) -> Vec<Parcel> {
     let mut parts = Vec::new();
     for parcel in parcels {
         if parcel.kind == PlotKind::OpenFloor {
@@ -33,7 +33,7 @@ pub(super) fn cut(frame: &Frame, parcels: Vec<Parcel>) -> Vec<Parcel> {
     parts
 }
 
-fn cut_lane(frame: &Frame, lane: Parcel, depth: usize, parts: &mut Vec<Parcel>) {
+fn cut_lane(frame: &RegionFrame, lane: Parcel, depth: usize, parts: &mut Vec<Parcel>) {
     let profiles = Axis::BOTH.map(|axis| (axis, free_shares(frame, &lane.rect, axis)));
     let cuts = profiles.into_iter().map(|(axis, shares)| (axis, contrast(&shares), runs(frame, &shares)));
     let best = cuts.filter(|(_, _, runs)| runs.len() > 1).max_by(|one, other| one.1.total_cmp(&other.1));
@@ -53,7 +53,7 @@ fn cut_lane(frame: &Frame, lane: Parcel, depth: usize, parts: &mut Vec<Parcel>) 
 }
 
 /// Free share of every line across `axis`.
-fn free_shares(frame: &Frame, rect: &Rect, axis: Axis) -> Vec<f64> {
+fn free_shares(frame: &RegionFrame, rect: &Rect, axis: Axis) -> Vec<f64> {
     let length = rect.range(axis.other()).len().max(1) as f64;
     let free = frame.counts(rect, axis.other(), Cell::is_free);
     free.into_iter().map(|free| f64::from(free) / length).collect()
@@ -65,7 +65,7 @@ fn contrast(shares: &[f64]) -> f64 {
 }
 
 /// Runs of lines that are mostly free, or mostly not; short ones belong to their neighbours.
-fn runs(frame: &Frame, shares: &[f64]) -> Vec<Range<usize>> {
+fn runs(frame: &RegionFrame, shares: &[f64]) -> Vec<Range<usize>> {
     let mut is_free: Vec<bool> = shares.iter().map(|&share| share >= MAJORITY).collect();
     let (part, side) = (frame.cells_of(PART_M), frame.cells_of(SIDE_M));
     let short = ranges(&is_free).into_iter().filter(|run| {

@@ -8,8 +8,8 @@
 
 use std::ops::Range;
 
-use super::row_ends::Row;
-use crate::decomposition::ground::{Cell, Frame};
+use super::row_ends::PieceRow;
+use crate::decomposition::ground::{Cell, RegionFrame};
 use crate::decomposition::plot::PlotKind;
 
 /// Narrowest passage, metres: two empty places are none.
@@ -24,24 +24,24 @@ const LEAST_ROWS: usize = 3;
 const SHARE: f64 = 0.75;
 
 /// A stretch of a row on which vehicles find room.
-struct Stretch {
+struct OpenRun {
     row: usize,
     along: Range<usize>,
     has_gap: bool,
 }
 
 /// The rows that a passage goes through, and from where to where.
-pub(super) type Passage = (Vec<usize>, Range<usize>);
+pub(super) type RowPassage = (Vec<usize>, Range<usize>);
 
 /// Finds the passages through some rows.
-pub(super) fn find(frame: &Frame, rows: &[Row]) -> Vec<Passage> {
+pub(super) fn find(frame: &RegionFrame, rows: &[PieceRow]) -> Vec<RowPassage> {
     let least = frame.cells_of(PASSAGE_M);
-    let stretches: Vec<Stretch> = (0..rows.len()).flat_map(|row| stretches(frame, rows, row, least)).collect();
+    let stretches: Vec<OpenRun> = (0..rows.len()).flat_map(|row| stretches(frame, rows, row, least)).collect();
     (0..stretches.len()).filter_map(|seed| passage(frame, rows, &stretches, seed)).collect()
 }
 
 /// Makes gaps of the pieces that passages go through.
-pub(super) fn open(frame: &Frame, rows: &mut [Row], passages: Vec<Passage>) {
+pub(super) fn open(frame: &RegionFrame, rows: &mut [PieceRow], passages: Vec<RowPassage>) {
     for (members, passage) in passages {
         for row in members {
             let row = &mut rows[row];
@@ -61,7 +61,7 @@ fn common(one: &Range<usize>, other: &Range<usize>) -> usize {
     one.end.min(other.end).saturating_sub(one.start.max(other.start))
 }
 
-fn stretches(frame: &Frame, rows: &[Row], number: usize, least: usize) -> Vec<Stretch> {
+fn stretches(frame: &RegionFrame, rows: &[PieceRow], number: usize, least: usize) -> Vec<OpenRun> {
     let row = &rows[number];
     if row.pieces.iter().all(|piece| piece.kind != PlotKind::Place) {
         return Vec::new();
@@ -76,17 +76,17 @@ fn stretches(frame: &Frame, rows: &[Row], number: usize, least: usize) -> Vec<St
         let along = row.along(&pieces[0]).start..row.along(&pieces[pieces.len() - 1]).end;
         if run[0] && along.len() >= least {
             let has_gap = pieces.iter().any(|piece| piece.kind == PlotKind::Passage && row.along(piece).len() >= least);
-            found.push(Stretch { row: number, along, has_gap });
+            found.push(OpenRun { row: number, along, has_gap });
         }
     }
     found
 }
 
 /// The passage through a stretch.
-fn passage(frame: &Frame, rows: &[Row], stretches: &[Stretch], seed: usize) -> Option<Passage> {
+fn passage(frame: &RegionFrame, rows: &[PieceRow], stretches: &[OpenRun], seed: usize) -> Option<RowPassage> {
     let next = frame.cells_of(NEXT_ROW_M);
     let width = &stretches[seed].along;
-    let goes_on = |other: &Stretch| common(width, &other.along) as f64 >= SHARE * width.len() as f64;
+    let goes_on = |other: &OpenRun| common(width, &other.along) as f64 >= SHARE * width.len() as f64;
     let mut is_member: Vec<bool> = vec![false; stretches.len()];
     is_member[seed] = true;
     let mut waiting = vec![seed];

@@ -12,7 +12,7 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 use super::passages;
-use crate::decomposition::ground::{Axis, Cell, Frame};
+use crate::decomposition::ground::{Axis, Cell, RegionFrame};
 use crate::decomposition::plot::{Parcel, PlotKind};
 
 /// Share of a piece that must lie in the site: goods hide as much of their place where they are seen from one side
@@ -40,11 +40,11 @@ const WALL_SHARE: f64 = 0.75;
 const WALL_WIDTH_M: f64 = 0.1;
 
 /// Ends the rows; other parcels stay as they are.
-pub(super) fn end(frame: &Frame, parcels: Vec<Parcel>) -> Vec<Parcel> {
+pub(super) fn end(frame: &RegionFrame, parcels: Vec<Parcel>) -> Vec<Parcel> {
     let is_of_row = |one: &Parcel| one.axis.is_some() && !matches!(one.kind, PlotKind::Aisle | PlotKind::OpenFloor);
     let (pieces, mut ended): (Vec<Parcel>, Vec<Parcel>) = parcels.into_iter().partition(is_of_row);
     for axis in Axis::BOTH {
-        let mut rows = Row::all(pieces.iter().filter(|piece| piece.axis == Some(axis)), axis);
+        let mut rows = PieceRow::all(pieces.iter().filter(|piece| piece.axis == Some(axis)), axis);
         for row in &mut rows {
             row.leave_out(frame);
         }
@@ -61,13 +61,13 @@ pub(super) fn end(frame: &Frame, parcels: Vec<Parcel>) -> Vec<Parcel> {
 }
 
 /// Pieces that follow one another.
-pub(super) struct Row {
+pub(super) struct PieceRow {
     pub axis: Axis,
     pub across: Range<usize>,
     pub pieces: Vec<Parcel>,
 }
 
-impl Row {
+impl PieceRow {
     fn all<'a>(pieces: impl Iterator<Item = &'a Parcel>, axis: Axis) -> Vec<Self> {
         let mut bands: BTreeMap<(usize, usize), Vec<Parcel>> = BTreeMap::new();
         for piece in pieces {
@@ -89,7 +89,7 @@ impl Row {
     }
 
     /// Takes the pieces outside the site for what they are.
-    fn leave_out(&mut self, frame: &Frame) {
+    fn leave_out(&mut self, frame: &RegionFrame) {
         let mut places: Vec<&mut Parcel> = self.pieces.iter_mut().filter(|one| one.kind == PlotKind::Place).collect();
         let shares: Vec<f64> = places.iter().map(|place| frame.share(&place.rect, Cell::is_inside)).collect();
         let is_end = shares.iter().sum::<f64>() > MAJORITY * shares.len() as f64;
@@ -102,7 +102,7 @@ impl Row {
     }
 
     /// Makes empty places of the gaps between places, and of bare pieces that are as wide as places.
-    fn fill(&mut self, frame: &Frame) {
+    fn fill(&mut self, frame: &RegionFrame) {
         let mut widths: Vec<usize> =
             self.pieces.iter().filter(|one| one.kind == PlotKind::Place).map(|one| self.along(one).len()).collect();
         widths.sort_unstable();
@@ -136,7 +136,7 @@ impl Row {
     }
 
     /// Makes open floor of the bare pieces at both ends, and before and behind every wall.
-    fn end(self, frame: &Frame, ended: &mut Vec<Parcel>) {
+    fn end(self, frame: &RegionFrame, ended: &mut Vec<Parcel>) {
         if self.pieces.iter().all(|piece| piece.kind != PlotKind::Place) {
             ended.extend(self.pieces);
             return;
@@ -169,7 +169,7 @@ impl Row {
     }
 
     /// Whether nothing shows a piece that the row ends with, on its low or high side.
-    fn is_bare(&self, frame: &Frame, piece: &Parcel, is_low: bool, is_wall: &[bool]) -> bool {
+    fn is_bare(&self, frame: &RegionFrame, piece: &Parcel, is_low: bool, is_wall: &[bool]) -> bool {
         let along = self.along(piece);
         let (reach, overhang) = (frame.cells_of(POST_REACH_M), frame.cells_of(OVERHANG_M).min(along.len() / 2));
         let most = frame.whole().range(self.axis).end;
@@ -187,7 +187,7 @@ impl Row {
     }
 
     /// For every line across the row whether it is a wall, which is seen before the row as well.
-    fn walls(&self, frame: &Frame) -> Vec<bool> {
+    fn walls(&self, frame: &RegionFrame) -> Vec<bool> {
         let along = self.along(&self.pieces[0]).start..self.along(&self.pieces[self.pieces.len() - 1]).end;
         let before = frame.cells_of(BEFORE_ROW_M);
         let end = frame.whole().range(self.axis.other()).end;
