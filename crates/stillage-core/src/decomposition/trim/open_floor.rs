@@ -11,6 +11,7 @@ use std::ops::Range;
 
 use crate::decomposition::ground::{Axis, Cell, Rect, RegionFrame};
 use crate::decomposition::plot::{Parcel, PlotKind};
+use crate::runs::runs_of_equal;
 
 /// Share of a line, or of a part, that is free where it was seen.
 const MAJORITY: f64 = 0.5;
@@ -68,7 +69,7 @@ fn contrast(shares: &[f64]) -> f64 {
 fn runs(frame: &RegionFrame, shares: &[f64]) -> Vec<Range<usize>> {
     let mut is_free: Vec<bool> = shares.iter().map(|&share| share >= MAJORITY).collect();
     let (part, side) = (frame.cells_of(PART_M), frame.cells_of(SIDE_M));
-    let short = ranges(&is_free).into_iter().filter(|run| {
+    let short = runs_of_equal(&is_free).filter(|run| {
         let is_side = run.start == 0 || run.end == shares.len();
         run.len() < if is_side { side } else { part }
     });
@@ -77,14 +78,5 @@ fn runs(frame: &RegionFrame, shares: &[f64]) -> Vec<Range<usize>> {
         let value = like.map_or(is_free[run.start], |like| is_free[like]);
         is_free[run].fill(value);
     }
-    ranges(&is_free)
-}
-
-fn ranges(values: &[bool]) -> Vec<Range<usize>> {
-    let mut start = 0;
-    let range = |run: &[bool]| {
-        start += run.len();
-        start - run.len()..start
-    };
-    values.chunk_by(PartialEq::eq).map(range).collect()
+    runs_of_equal(&is_free).collect()
 }
