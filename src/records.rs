@@ -1,7 +1,10 @@
-//! What the service stores, as plain data: the words in which `store`, `jobs`, `app` and the edges speak.
+//! What the service stores, as plain data. `store`, `jobs`, `app` and the edges pass these types to each other.
+
+use std::fmt;
 
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
+use serde_json::Value;
 use stillage_core::AnalysisOptions;
 use stillage_core::analysis::Diagnostic;
 use stillage_core::semantics::{Assignment, RuleSetDraft};
@@ -9,6 +12,36 @@ use uuid::Uuid;
 
 use crate::geojson::Georeference;
 use crate::ingest::MapSource;
+
+/// Whose a map, job or rule set is. What belongs to one tenant does not exist for another.
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+pub struct Tenant(String);
+
+impl Tenant {
+    /// The only tenant of a service without keys.
+    #[must_use]
+    pub fn local() -> Self {
+        Self::new("local")
+    }
+
+    /// The tenant with this id.
+    #[must_use]
+    pub fn new(id: impl Into<String>) -> Self {
+        Self(id.into())
+    }
+
+    /// Its id.
+    #[must_use]
+    pub fn as_str(&self) -> &str {
+        &self.0
+    }
+}
+
+impl fmt::Display for Tenant {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(&self.0)
+    }
+}
 
 /// A map to be analysed.
 #[derive(Debug, Clone)]
@@ -98,11 +131,11 @@ pub enum JobState {
     Accepted,
     /// A worker has it.
     Running,
-    /// Its analysis is there.
+    /// Its outputs are there.
     Successful,
-    /// It came to nothing; the message says why.
+    /// It has no outputs; the message says why.
     Failed,
-    /// Somebody did not want it any more.
+    /// It was cancelled.
     Dismissed,
 }
 
@@ -140,8 +173,14 @@ impl JobState {
 pub struct JobRecord {
     /// Its id.
     pub id: Uuid,
-    /// The map that is analysed.
+    /// The map it works on; it is deleted with it.
     pub map: Uuid,
+    /// Id of the process that computes it.
+    pub process: String,
+    /// What the process is given beside the map, as a JSON object.
+    pub inputs: Value,
+    /// What the process made, as a JSON object; absent until then.
+    pub outputs: Option<Value>,
     /// Where it is in its life.
     pub state: JobState,
     /// 0 to 100.
@@ -162,8 +201,14 @@ pub struct JobRecord {
     pub finished: Option<Timestamp>,
     /// When it last changed.
     pub updated: Timestamp,
+}
+
+impl JobRecord {
     /// The analysis it made.
-    pub analysis: Option<Uuid>,
+    #[must_use]
+    pub fn analysis(&self) -> Option<Uuid> {
+        self.outputs.as_ref()?.get("analysis")?.as_str()?.parse().ok()
+    }
 }
 
 /// Which jobs to list: newest first, after a job when paging.

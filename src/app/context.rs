@@ -1,4 +1,7 @@
 //! The analysed map in memory: built once, shared by all who ask, replaced when something about the map changes.
+//!
+//! A context is kept with the [`MapState`] it answers for: version of the record, analysis, version of the semantics. Each
+//! question reads the state from the store first, so that it sees every change, another process's too.
 
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -11,9 +14,9 @@ use uuid::Uuid;
 
 use super::features::FeatureCache;
 use super::rule_sets::DEFAULT_RULE_SET;
-use super::{AnalysisRecord, App, AppError, MapRecord, SemanticsOrigin, SemanticsRecord};
+use super::{AnalysisRecord, App, AppError, Caller, MapRecord, SemanticsOrigin, SemanticsRecord};
 use crate::ingest::{self, Limits, MapSource};
-use crate::store::{Blob, Snapshot, off_the_runtime};
+use crate::store::{Blob, MapState, Snapshot, off_the_runtime};
 
 /// An analysed map in memory, ready to answer. Shared, immutable; replaced when the semantics change.
 #[derive(Debug)]
@@ -42,15 +45,21 @@ pub struct MapContext {
 
 impl App {
     /// The analysed map, from memory or the store. However many ask at once, it is built once.
-    pub async fn context(&self, map: Uuid) -> Result<Arc<MapContext>, AppError> {
-        let entry = self.contexts.entry(map);
-        let built = entry.context.get_or_try_init(|| self.build_context(map, entry.previous.clone())).await;
+    pub async fn context(&self, caller: &Caller, map: Uuid) -> Result<Arc<MapContext>, AppError> {
+        let state = self.store.map_state(caller.tenant(), map).await?.ok_or_else(|| AppError::not_found("map", map))?;
+        let entry = self.contexts.entry(map, state);
+        let built = entry.context.get_or_try_init(|| self.build_context(caller, map, entry.previous.clone())).await;
         self.contexts.settle(&entry, built.is_ok());
         built.cloned()
     }
 
-    async fn build_context(&self, map: Uuid, previous: Option<Arc<MapContext>>) -> Result<Arc<MapContext>, AppError> {
-        let snapshot = self.store.snapshot(map).await?.ok_or_else(|| AppError::not_found("map", map))?;
+    async fn build_context(
+        &self,
+        caller: &Caller,
+        map: Uuid,
+        previous: Option<Arc<MapContext>>,
+    ) -> Result<Arc<MapContext>, AppError> {
+        let snapshot = self.store.snapshot(caller.tenant(), map).await?.ok_or_else(|| AppError::not_found("map", map))?;
         let Snapshot { record, source, analysis, semantics, job } = snapshot;
         let (analysis, blob) = analysis.ok_or(AppError::NotAnalysed { map, job })?;
         let _permit = self.decoders.acquire().await.map_err(|_| AppError::Unavailable)?;
@@ -136,6 +145,7 @@ pub(super) struct ContextCache {
 #[derive(Debug)]
 pub(super) struct Entry {
     map: Uuid,
+    state: MapState,
     context: OnceCell<Arc<MapContext>>,
     /// What was known before the last change: its geometry need not be read again.
     previous: Option<Arc<MapContext>>,
@@ -146,29 +156,25 @@ impl ContextCache {
         Self { capacity, entries: Mutex::new(Vec::new()) }
     }
 
-    /// Forgets what a change made stale. Whoever is building it hands the old state to those who asked before the
-    /// change, and to nobody else.
-    pub(super) fn invalidate(&self, map: Uuid) {
-        let mut entries = self.entries();
-        let Some(index) = entries.iter().position(|entry| entry.map == map) else { return };
-        let stale = &entries[index];
-        let previous = stale.context.get().or(stale.previous.as_ref()).cloned();
-        entries[index] = Arc::new(Entry { map, context: OnceCell::new(), previous });
-    }
-
     /// Forgets a map.
     pub(super) fn remove(&self, map: Uuid) {
         self.entries().retain(|entry| entry.map != map);
     }
 
-    /// The entry of a map, moved to the front.
-    fn entry(&self, map: Uuid) -> Arc<Entry> {
+    /// The entry of a map in this state, moved to the front. One of an earlier state gives way to a new one, which keeps
+    /// what was built before: whoever is still building it answers those who asked before the change, and nobody else.
+    fn entry(&self, map: Uuid, state: MapState) -> Arc<Entry> {
         let mut entries = self.entries();
-        match entries.iter().position(|entry| entry.map == map) {
-            Some(index) => entries[..=index].rotate_right(1),
-            None => entries.insert(0, Arc::new(Entry { map, context: OnceCell::new(), previous: None })),
-        }
-        Arc::clone(&entries[0])
+        let found = entries.iter().position(|entry| entry.map == map).map(|index| entries.remove(index));
+        let entry = match found {
+            Some(entry) if entry.state == state => entry,
+            earlier => {
+                let previous = earlier.and_then(|stale| stale.context.get().or(stale.previous.as_ref()).cloned());
+                Arc::new(Entry { map, state, context: OnceCell::new(), previous })
+            }
+        };
+        entries.insert(0, Arc::clone(&entry));
+        entry
     }
 
     /// Keeps an entry that holds something, and as many others as fit; drops one that came to nothing, so that questions

@@ -4,14 +4,14 @@ use stillage_core::Watch;
 use stillage_core::evaluation::{self, Evaluation, EvaluationError, GroundTruth};
 use uuid::Uuid;
 
-use super::{App, AppError, SemanticsOrigin};
+use super::{App, AppError, Caller, SemanticsOrigin};
 use crate::store::off_the_runtime;
 
 impl App {
     /// Compares the analysis in force with the truth: under the suggested labels, under one decision per category, and
     /// under the labels in force where a person assigned them. Nothing is stored.
-    pub async fn evaluate(&self, map: Uuid, truth: GroundTruth) -> Result<Evaluation, AppError> {
-        let context = self.context(map).await?;
+    pub async fn evaluate(&self, caller: &Caller, map: Uuid, truth: GroundTruth) -> Result<Evaluation, AppError> {
+        let context = self.context(caller, map).await?;
         let _permit = self.decoders.acquire().await.map_err(|_| AppError::Unavailable)?;
         off_the_runtime(move || {
             let assigned = (context.semantics.origin == SemanticsOrigin::Assigned).then_some(&context.semantic);

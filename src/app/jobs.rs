@@ -6,7 +6,8 @@ use std::time::Duration;
 use stillage_core::AnalysisOptions;
 use uuid::Uuid;
 
-use super::{AnalysisRecord, AnalysisTicket, App, AppError, JobFilter, JobRecord, JobState, RETRY_AFTER_S};
+use super::{AnalysisRecord, AnalysisTicket, App, AppError, Caller, JobFilter, JobRecord, JobState, RETRY_AFTER_S};
+use crate::jobs::processes::AnalysisProcess;
 use crate::store::{Request, now};
 
 /// How long the dismissal of a running job is waited for.
@@ -21,11 +22,14 @@ impl App {
     ///
     /// Human decisions belong to the analysis whose categories they name: a new analysis begins with its suggestion, and
     /// going back to an earlier one brings its decisions back.
-    pub async fn create_analysis(&self, map: Uuid, options: AnalysisOptions) -> Result<AnalysisTicket, AppError> {
+    pub async fn create_analysis(&self, caller: &Caller, map: Uuid, options: AnalysisOptions) -> Result<AnalysisTicket, AppError> {
         options.clone().check()?;
-        let record = self.map(map).await?;
+        let record = self.map(caller, map).await?;
         self.check_memory(u64::from(record.width), u64::from(record.height), &options)?;
-        let request = self.store.request_analysis(map, &options, self.config.max_queued_jobs, now()).await?;
+        let source = self.store.map_source(caller.tenant(), map).await?.ok_or_else(|| AppError::not_found("map", map))?;
+        let job = AnalysisProcess::job(map, &source, &options);
+        let max_queued = self.config.max_queued_jobs;
+        let request = self.store.request_analysis(caller.tenant(), &options, &job, max_queued, now()).await?;
         match request {
             None => Err(AppError::not_found("map", map)),
             Some(Request::QueueFull) => Err(AppError::Busy { retry_after_s: RETRY_AFTER_S }),
@@ -34,42 +38,39 @@ impl App {
                 self.signals.queued();
                 Ok(AnalysisTicket::Job(job))
             }
-            Some(Request::Existing(analysis)) => {
-                self.contexts.invalidate(map);
-                Ok(AnalysisTicket::Existing(analysis))
-            }
+            Some(Request::Existing(analysis)) => Ok(AnalysisTicket::Existing(analysis)),
         }
     }
 
     /// The analyses of a map, newest first.
-    pub async fn analyses(&self, map: Uuid) -> Result<Vec<AnalysisRecord>, AppError> {
-        self.map(map).await?;
-        Ok(self.store.analyses(map).await?)
+    pub async fn analyses(&self, caller: &Caller, map: Uuid) -> Result<Vec<AnalysisRecord>, AppError> {
+        self.map(caller, map).await?;
+        Ok(self.store.analyses(caller.tenant(), map).await?)
     }
 
     /// Jobs, newest first.
-    pub async fn jobs(&self, mut filter: JobFilter) -> Result<Vec<JobRecord>, AppError> {
+    pub async fn jobs(&self, caller: &Caller, mut filter: JobFilter) -> Result<Vec<JobRecord>, AppError> {
         filter.limit = filter.limit.min(MAX_PAGE);
-        Ok(self.store.jobs(&filter).await?)
+        Ok(self.store.jobs(caller.tenant(), &filter).await?)
     }
 
     /// A job.
-    pub async fn job(&self, id: Uuid) -> Result<JobRecord, AppError> {
-        self.store.job(id).await?.ok_or_else(|| AppError::not_found("job", id))
+    pub async fn job(&self, caller: &Caller, id: Uuid) -> Result<JobRecord, AppError> {
+        self.store.job(caller.tenant(), id).await?.ok_or_else(|| AppError::not_found("job", id))
     }
 
     /// Dismisses: queued at once, running within a second (which is waited for). A finished job is a conflict.
-    pub async fn dismiss_job(&self, id: Uuid) -> Result<JobRecord, AppError> {
-        let before = self.job(id).await?;
+    pub async fn dismiss_job(&self, caller: &Caller, id: Uuid) -> Result<JobRecord, AppError> {
+        let before = self.job(caller, id).await?;
         if before.state.is_final() {
             return Err(AppError::Conflict(format!("the job is {} already", before.state.name())));
         }
         let mut changes = self.signals.changes();
-        let asked = self.store.dismiss(id, now()).await?.ok_or_else(|| AppError::not_found("job", id))?;
+        let asked = self.store.dismiss(caller.tenant(), id, now()).await?.ok_or_else(|| AppError::not_found("job", id))?;
         self.signals.changed();
         let ended = async {
             loop {
-                let job = self.job(id).await?;
+                let job = self.job(caller, id).await?;
                 if job.state.is_final() || changes.changed().await.is_err() {
                     return Ok(job);
                 }
@@ -78,7 +79,7 @@ impl App {
         tokio::time::timeout(DISMISSAL, ended).await.unwrap_or(Ok(asked))
     }
 
-    /// Counts by job state, for the metrics.
+    /// Counts of the jobs of all tenants by state, for the metrics.
     pub async fn job_counts(&self) -> Result<BTreeMap<&'static str, u64>, AppError> {
         let mut counts: BTreeMap<_, _> = JobState::ALL.iter().map(|state| (state.name(), 0)).collect();
         for (state, jobs) in self.store.job_counts().await? {

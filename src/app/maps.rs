@@ -2,9 +2,10 @@
 
 use uuid::Uuid;
 
-use super::{App, AppError, JobRecord, MapPatch, MapRecord, NewMap, RETRY_AFTER_S};
+use super::{App, AppError, Caller, JobRecord, MapPatch, MapRecord, NewMap, RETRY_AFTER_S};
 use crate::geojson::Georeference;
 use crate::ingest::{self, DecodedMap, MapSource};
+use crate::jobs::processes::AnalysisProcess;
 use crate::store::{Blob, IdempotencyKey, NewMapRow, Upload, now, off_the_runtime};
 use stillage_core::AnalysisOptions;
 use stillage_core::memory::analysis_bytes;
@@ -22,13 +23,13 @@ impl App {
     /// Decodes and stores a map and its first job, in one transaction. `true` when the job is new (202), `false` when
     /// the idempotency key had been seen with the same content. The same key with other content is
     /// [`AppError::Invalid`].
-    pub async fn create_map(&self, map: NewMap) -> Result<(JobRecord, bool), AppError> {
+    pub async fn create_map(&self, caller: &Caller, map: NewMap) -> Result<(JobRecord, bool), AppError> {
         check_name(&map.name)?;
         check_georeference(map.georeference.as_ref())?;
         map.options.clone().check()?;
         let key = idempotency_key(&map)?;
         if let Some(key) = &key
-            && let Some(seen) = self.store.seen_upload(key, now()).await?
+            && let Some(seen) = self.store.seen_upload(caller.tenant(), key, now()).await?
         {
             return answer(seen);
         }
@@ -45,9 +46,10 @@ impl App {
             resolution: decoded.grid.resolution(),
             georeference,
             warnings: decoded.warnings,
-            options,
         };
-        let upload = self.store.create_map(&row, &blob, key.as_ref(), self.config.max_queued_jobs, now()).await?;
+        let job = AnalysisProcess::job(row.id, blob.id(), &options);
+        let (max_queued, key) = (self.config.max_queued_jobs, key.as_ref());
+        let upload = self.store.create_map(caller.tenant(), &row, &blob, &job, key, max_queued, now()).await?;
         if let Upload::New(_) = upload {
             self.signals.queued();
         }
@@ -55,18 +57,19 @@ impl App {
     }
 
     /// Maps, newest first.
-    pub async fn maps(&self, limit: u32, after: Option<Uuid>) -> Result<Vec<MapRecord>, AppError> {
-        Ok(self.store.maps(limit.min(MAX_PAGE), after).await?)
+    pub async fn maps(&self, caller: &Caller, limit: u32, after: Option<Uuid>) -> Result<Vec<MapRecord>, AppError> {
+        Ok(self.store.maps(caller.tenant(), limit.min(MAX_PAGE), after).await?)
     }
 
     /// A map.
-    pub async fn map(&self, id: Uuid) -> Result<MapRecord, AppError> {
-        self.store.map(id).await?.ok_or_else(|| AppError::not_found("map", id))
+    pub async fn map(&self, caller: &Caller, id: Uuid) -> Result<MapRecord, AppError> {
+        self.store.map(caller.tenant(), id).await?.ok_or_else(|| AppError::not_found("map", id))
     }
 
     /// Renames or georeferences. `if_match` is optional here.
     pub async fn update_map(
         &self,
+        caller: &Caller,
         id: Uuid,
         mut patch: MapPatch,
         if_match: Option<u64>,
@@ -76,19 +79,16 @@ impl App {
             *name = name.trim().to_owned();
         }
         check_georeference(patch.georeference.flatten().as_ref())?;
-        match self.store.update_map(id, &patch, if_match, now()).await? {
+        match self.store.update_map(caller.tenant(), id, &patch, if_match, now()).await? {
             None => Err(AppError::not_found("map", id)),
             Some(Err(current)) => Err(AppError::PreconditionFailed { current: current.version }),
-            Some(Ok(record)) => {
-                self.contexts.invalidate(id);
-                Ok(record)
-            }
+            Some(Ok(record)) => Ok(record),
         }
     }
 
     /// Deletes everything of the map. Its jobs go with it: one that runs stops within a second.
-    pub async fn delete_map(&self, id: Uuid) -> Result<(), AppError> {
-        if !self.store.delete_map(id).await? {
+    pub async fn delete_map(&self, caller: &Caller, id: Uuid) -> Result<(), AppError> {
+        if !self.store.delete_map(caller.tenant(), id).await? {
             return Err(AppError::not_found("map", id));
         }
         self.contexts.remove(id);

@@ -10,8 +10,10 @@
 //! | `features` | its collections |
 //! | `evaluations` | how well it fits the truth of its site |
 //!
-//! Nothing here knows HTTP; nothing here holds SQL.
+//! Every use case takes its [`Caller`] first. What concerns the service itself (readiness, metrics, the orderly stop)
+//! takes none. Nothing here knows HTTP; nothing here holds SQL.
 
+mod caller;
 mod context;
 mod error;
 mod evaluations;
@@ -30,13 +32,15 @@ use std::time::Duration;
 use tokio::sync::{Semaphore, watch};
 
 use crate::config::Config;
-use crate::jobs::{Analyzer, Compute, Signals, Worker};
-use crate::store::{Store, now};
+use crate::jobs::processes::{AnalysisProcess, Processes};
+use crate::jobs::{Signals, Worker};
+use crate::store::{self, Outdated, Store, now};
 
 pub use crate::records::{
     AnalysisRecord, AnalysisTicket, JobFilter, JobRecord, JobState, MapPatch, MapRecord, NewMap, NewSemantics,
     RuleSetRecord, SemanticsOrigin, SemanticsRecord, StageReport,
 };
+pub use caller::Caller;
 pub use context::MapContext;
 pub use error::{AppError, FieldProblem};
 
@@ -52,41 +56,31 @@ const RETRY_AFTER_S: u32 = 10;
 #[derive(Debug)]
 pub struct App {
     config: Config,
-    store: Arc<Store>,
+    store: Arc<dyn Store>,
     worker: Arc<Worker>,
     signals: Arc<Signals>,
-    contexts: Arc<ContextCache>,
+    contexts: ContextCache,
     /// Bounds how many uploads and contexts are decoded at the same time, and with that their memory.
     decoders: Semaphore,
     is_stopping: AtomicBool,
 }
 
 impl App {
-    /// Opens the data folder (exclusively), migrates the database, takes up the jobs that an earlier process left, and
-    /// starts the worker.
+    /// Opens the store, migrates its database, takes up the jobs that an earlier process left, and starts the worker.
     pub async fn open(config: Config) -> Result<Arc<Self>, AppError> {
-        let analyzer = Analyzer { limits: config.limits };
-        Self::open_with(config, Arc::new(analyzer)).await
+        let store = store::open(&config).await?;
+        take_up(&*store, config.max_attempts).await?;
+        let processes = Processes::standard(config.limits);
+        Ok(Self::start(config, store, processes))
     }
 
-    /// [`Self::open`] with another computation.
-    pub(crate) async fn open_with(config: Config, compute: Arc<dyn Compute>) -> Result<Arc<Self>, AppError> {
-        let store = Arc::new(Store::open(&config).await?);
-        let swept = store.sweep_blobs(ORPHAN_AGE).await?;
-        let requeued = store.requeue_orphans(config.max_attempts, now()).await?;
-        if swept + usize::try_from(requeued).unwrap_or(usize::MAX) > 0 {
-            tracing::info!(swept, requeued, "took up what an earlier process left");
-        }
-        for (map, options) in store.outdated().await? {
-            tracing::info!(%map, "will be analysed again by this version of the algorithms");
-            store.request_analysis(map, &options, u64::MAX, now()).await?;
-        }
-        let contexts = Arc::new(ContextCache::new(config.cached_maps));
-        let finished = Arc::clone(&contexts);
-        let signals = Arc::new(Signals::new(move |map| finished.invalidate(map)));
-        let worker = Worker::start(&config, Arc::clone(&store), compute, Arc::clone(&signals));
+    /// Starts the worker of a service on an open store.
+    fn start(config: Config, store: Arc<dyn Store>, processes: Processes) -> Arc<Self> {
+        let signals = Arc::new(Signals::default());
+        let worker = Worker::start(&config, Arc::clone(&store), processes, Arc::clone(&signals));
+        let contexts = ContextCache::new(config.cached_maps);
         let decoders = Semaphore::new(config.compute_threads.max(1));
-        Ok(Arc::new(Self { config, store, worker, signals, contexts, decoders, is_stopping: AtomicBool::new(false) }))
+        Arc::new(Self { config, store, worker, signals, contexts, decoders, is_stopping: AtomicBool::new(false) })
     }
 
     /// The configuration it runs with.
@@ -138,4 +132,21 @@ impl App {
     pub fn job_changes(&self) -> watch::Receiver<u64> {
         self.signals.changes()
     }
+}
+
+/// Takes up what earlier processes left: blobs without a row, jobs in the hands of the dead, analyses of another version
+/// of the algorithms.
+async fn take_up(store: &dyn Store, max_attempts: u32) -> Result<(), AppError> {
+    let swept = store.sweep_blobs(ORPHAN_AGE).await?;
+    let requeued = store.end_claims_of_the_dead(max_attempts, now()).await?;
+    if swept + usize::try_from(requeued).unwrap_or(usize::MAX) > 0 {
+        tracing::info!(swept, requeued, "took up what an earlier process left");
+    }
+    for Outdated { tenant, map, options } in store.outdated().await? {
+        tracing::info!(%map, "will be analysed again by this version of the algorithms");
+        let Some(source) = store.map_source(&tenant, map).await? else { continue };
+        let job = AnalysisProcess::job(map, &source, &options);
+        store.request_analysis(&tenant, &options, &job, u64::MAX, now()).await?;
+    }
+    Ok(())
 }

@@ -2,7 +2,7 @@
 
 use stillage_core::semantics::{RuleSet, RuleSetDraft};
 
-use super::{App, AppError, RuleSetRecord};
+use super::{App, AppError, Caller, RuleSetRecord};
 
 /// The rule set of a map on which nobody has decided.
 pub(super) const DEFAULT_RULE_SET: &str = "warehouse";
@@ -12,41 +12,42 @@ const MAX_ID: usize = 64;
 
 impl App {
     /// All rule sets, the built-in ones first.
-    pub async fn rule_sets(&self) -> Result<Vec<RuleSetRecord>, AppError> {
+    pub async fn rule_sets(&self, caller: &Caller) -> Result<Vec<RuleSetRecord>, AppError> {
         let mut all = Vec::from(built_in());
-        all.extend(self.store.rule_sets().await?);
+        all.extend(self.store.rule_sets(caller.tenant()).await?);
         Ok(all)
     }
 
     /// A rule set.
-    pub async fn rule_set(&self, id: &str) -> Result<RuleSetRecord, AppError> {
+    pub async fn rule_set(&self, caller: &Caller, id: &str) -> Result<RuleSetRecord, AppError> {
         if let Some(record) = find_built_in(id) {
             return Ok(record);
         }
-        self.store.rule_set(id).await?.ok_or_else(|| AppError::not_found("rule set", id))
+        self.store.rule_set(caller.tenant(), id).await?.ok_or_else(|| AppError::not_found("rule set", id))
     }
 
     /// Creates; an id in use is a conflict.
-    pub async fn create_rule_set(&self, id: &str, draft: RuleSetDraft) -> Result<RuleSetRecord, AppError> {
+    pub async fn create_rule_set(&self, caller: &Caller, id: &str, draft: RuleSetDraft) -> Result<RuleSetRecord, AppError> {
         check_id(id)?;
         let checked = draft.check()?;
         let in_use = || AppError::Conflict(format!("there is a rule set {id} already"));
         if find_built_in(id).is_some() {
             return Err(in_use());
         }
-        self.store.create_rule_set(id, checked.draft()).await?.ok_or_else(in_use)
+        self.store.create_rule_set(caller.tenant(), id, checked.draft()).await?.ok_or_else(in_use)
     }
 
     /// Replaces; needs `if_match`. Maps keep the rule set they were assigned with.
     pub async fn put_rule_set(
         &self,
+        caller: &Caller,
         id: &str,
         draft: RuleSetDraft,
         if_match: Option<u64>,
     ) -> Result<RuleSetRecord, AppError> {
-        let version = self.writable(id, if_match).await?;
+        let version = self.writable(caller, id, if_match).await?;
         let checked = draft.check()?;
-        match self.store.put_rule_set(id, checked.draft(), version).await? {
+        match self.store.put_rule_set(caller.tenant(), id, checked.draft(), version).await? {
             None => Err(AppError::not_found("rule set", id)),
             Some(Err(current)) => Err(AppError::PreconditionFailed { current }),
             Some(Ok(record)) => Ok(record),
@@ -54,9 +55,9 @@ impl App {
     }
 
     /// Deletes; needs `if_match`. Maps keep the rule set they were assigned with.
-    pub async fn delete_rule_set(&self, id: &str, if_match: Option<u64>) -> Result<(), AppError> {
-        let version = self.writable(id, if_match).await?;
-        match self.store.delete_rule_set(id, version).await? {
+    pub async fn delete_rule_set(&self, caller: &Caller, id: &str, if_match: Option<u64>) -> Result<(), AppError> {
+        let version = self.writable(caller, id, if_match).await?;
+        match self.store.delete_rule_set(caller.tenant(), id, version).await? {
             None => Err(AppError::not_found("rule set", id)),
             Some(Err(current)) => Err(AppError::PreconditionFailed { current }),
             Some(Ok(())) => Ok(()),
@@ -64,8 +65,8 @@ impl App {
     }
 
     /// The version that a write expects, when the rule set is there and not built in.
-    async fn writable(&self, id: &str, if_match: Option<u64>) -> Result<u64, AppError> {
-        if self.rule_set(id).await?.built_in {
+    async fn writable(&self, caller: &Caller, id: &str, if_match: Option<u64>) -> Result<u64, AppError> {
+        if self.rule_set(caller, id).await?.built_in {
             return Err(AppError::Conflict(format!("the rule set {id} is built in: create one under another id")));
         }
         if_match.ok_or(AppError::PreconditionRequired)

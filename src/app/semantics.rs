@@ -11,53 +11,52 @@ use stillage_core::semantics;
 use uuid::Uuid;
 
 use super::context::read_rule_set;
-use super::{App, AppError, MapContext, NewSemantics, SemanticsRecord};
+use super::{App, AppError, Caller, MapContext, NewSemantics, SemanticsRecord};
 use crate::store::{NewSemanticsRow, now, off_the_runtime};
 
 impl App {
     /// The semantics in force: the newest assigned version, or the suggestion (version 0).
-    pub async fn semantics(&self, map: Uuid) -> Result<SemanticsRecord, AppError> {
-        Ok(self.context(map).await?.semantics.clone())
+    pub async fn semantics(&self, caller: &Caller, map: Uuid) -> Result<SemanticsRecord, AppError> {
+        Ok(self.context(caller, map).await?.semantics.clone())
     }
 
     /// Makes a new version; needs `if_match`, the version in force.
     pub async fn put_semantics(
         &self,
+        caller: &Caller,
         map: Uuid,
         new: NewSemantics,
         if_match: Option<u64>,
     ) -> Result<SemanticsRecord, AppError> {
-        let context = self.context(map).await?;
+        let context = self.context(caller, map).await?;
         let replaces = if_match.ok_or(AppError::PreconditionRequired)?;
         if replaces != context.semantics.version {
             return Err(AppError::PreconditionFailed { current: context.semantics.version });
         }
-        let row = self.checked_semantics(&context, new).await?;
-        match self.store.insert_semantics(&row, now()).await? {
+        let row = self.checked_semantics(caller, &context, new).await?;
+        match self.store.insert_semantics(caller.tenant(), &row, now()).await? {
             None => Err(AppError::not_found("map", map)),
             Some(Err(current)) => Err(AppError::PreconditionFailed { current }),
-            Some(Ok(record)) => {
-                self.contexts.invalidate(map);
-                Ok(record)
-            }
+            Some(Ok(record)) => Ok(record),
         }
     }
 
     /// All assigned versions, newest first.
-    pub async fn semantics_versions(&self, map: Uuid) -> Result<Vec<SemanticsRecord>, AppError> {
-        self.map(map).await?;
-        Ok(self.store.semantics_versions(map).await?)
+    pub async fn semantics_versions(&self, caller: &Caller, map: Uuid) -> Result<Vec<SemanticsRecord>, AppError> {
+        self.map(caller, map).await?;
+        Ok(self.store.semantics_versions(caller.tenant(), map).await?)
     }
 
     /// A decision that can be applied to the analysis in force.
     async fn checked_semantics(
         &self,
+        caller: &Caller,
         context: &Arc<MapContext>,
         new: NewSemantics,
     ) -> Result<NewSemanticsRow, AppError> {
         let (rule_set, draft) = match new.rule_set {
             None => (context.semantics.rule_set.clone(), context.semantics.draft.clone()),
-            Some(id) => match self.rule_set(&id).await {
+            Some(id) => match self.rule_set(caller, &id).await {
                 Ok(record) => (record.id, record.draft),
                 Err(AppError::NotFound { .. }) => {
                     return Err(AppError::invalid("/ruleSet", format!("there is no rule set {id}")));

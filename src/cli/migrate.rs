@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use crate::config::Config;
-use crate::store::{Store, StoreError};
+use crate::store::{self, StoreError};
 
 /// Brings the database of a data folder up to date (`serve` does so by itself) and checks that it opens.
 #[derive(Debug, Clone, Args)]
@@ -30,7 +30,7 @@ pub(super) enum MigrateError {
 /// Migrates and prints the schema version.
 pub(super) fn run(args: &MigrateArgs) -> Result<(), MigrateError> {
     let version = tokio::runtime::Builder::new_current_thread().enable_all().build()?.block_on(async {
-        let store = Store::open(&Config::new(&args.data)).await?;
+        let store = store::open(&Config::new(&args.data)).await?;
         let version = store.schema_version().await?;
         store.close().await;
         Ok::<_, StoreError>(version)

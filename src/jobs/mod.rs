@@ -1,7 +1,8 @@
 //! The worker behind the durable queue of [`crate::store::queue`].
 //!
-//! Each slot takes one job at a time: claim, read the upload, compute on a rayon pool of its own, store the result. While
-//! it computes, a heartbeat renews the lease, writes how far it is, and learns whether somebody wants it cancelled.
+//! Each slot takes one job at a time: claim, read the upload, let the process of the job compute on a rayon pool of its
+//! own, store the result. While it computes, a heartbeat renews the lease, writes how far it is, and reads whether the
+//! job is to be cancelled.
 //!
 //! - Nothing computes on the threads of the async runtime or on rayon's global pool.
 //! - A panic in a job is that job's failure. So is a map that cannot be read. Neither is tried again: the same code on
@@ -10,12 +11,12 @@
 //! - A request to stop lets running jobs go on for the grace period, then puts them back without counting the attempt.
 
 mod compute;
+pub mod processes;
 mod retry;
 mod running;
 #[cfg(test)]
 mod tests;
 mod worker;
 
-pub use compute::{Analyzer, Compute, ComputeError, Computed};
 pub use retry::backoff;
 pub use worker::{Signals, Worker};

@@ -6,15 +6,15 @@ use std::time::{Duration, Instant};
 use stillage_core::StopFlag;
 use tokio::sync::oneshot;
 use tokio::time::MissedTickBehavior;
-use uuid::Uuid;
 
-use super::compute::{ComputeError, ComputePool, Computed, Task};
+use super::compute::{ComputePool, Task};
+use super::processes::{ComputeError, Process};
 use super::worker::Worker;
 use crate::fail_point;
 use crate::records::JobState;
 use crate::stage_clock::StageClock;
-use crate::store::queue::{Claim, Progress};
-use crate::store::{Blob, NewAnalysis, StoreError, now};
+use crate::store::queue::{Claim, JobResult, Progress};
+use crate::store::{Blob, StoreError, now};
 
 /// How long a computation may take to notice its stop flag when the service ends.
 const LAST_MOMENTS: Duration = Duration::from_secs(1);
@@ -40,14 +40,18 @@ impl<'a> Running<'a> {
     /// Sees the job to its end. An error means that its end could not be written; the lease will bring it back.
     pub(super) async fn run(mut self, pool: &ComputePool) -> Result<(), StoreError> {
         fail_point::pass("before-compute");
+        let process = match self.worker.processes().find(&self.claim.process) {
+            Ok(process) => Arc::clone(process),
+            Err(message) => return self.end(JobState::Failed, &message).await,
+        };
         let source = match self.worker.store().blobs().get(&self.claim.source).await {
             Ok(source) => source,
             Err(error) => return self.end_with_fault(error).await,
         };
-        let Some(result) = self.compute(pool, source).await? else { return Ok(()) };
+        let Some(result) = self.compute(pool, process, source).await? else { return Ok(()) };
         match result {
-            Ok(computed) => match self.store_result(computed).await {
-                // Cancelled in the last moment, or not ours any more: then this changes nothing.
+            Ok(made) => match self.store_result(&made).await {
+                // Cancelled in the last moment, or lost to another claim: then this changes nothing.
                 Err(StoreError::ClaimLost) => self.dismiss().await,
                 Err(error) => self.end_with_fault(error).await,
                 Ok(()) => Ok(()),
@@ -60,24 +64,17 @@ impl<'a> Running<'a> {
     async fn compute(
         &mut self,
         pool: &ComputePool,
+        process: Arc<dyn Process>,
         source: Blob,
-    ) -> Result<Option<Result<Computed, ComputeError>>, StoreError> {
-        let spec = match self.claim.options.clone().check() {
-            Ok(spec) => spec,
-            Err(problems) => {
-                let all: Vec<String> = problems.iter().map(ToString::to_string).collect();
-                self.end(JobState::Failed, &format!("the options are out of range: {}", all.join("; "))).await?;
-                return Ok(None);
-            }
-        };
-        let compute = Arc::clone(self.worker.compute());
+    ) -> Result<Option<Result<JobResult, ComputeError>>, StoreError> {
+        let inputs = self.claim.inputs.clone();
         let mut result =
-            pool.start(Task { compute, source, spec, stop: self.stop.clone(), clock: Arc::clone(&self.clock) });
+            pool.start(Task { process, inputs, source, stop: self.stop.clone(), clock: Arc::clone(&self.clock) });
         let mut ticks = tokio::time::interval(self.worker.settings().heartbeat);
         ticks.set_missed_tick_behavior(MissedTickBehavior::Delay);
         loop {
             tokio::select! {
-                result = &mut result => return Ok(Some(received(result))),
+                result = &mut result => return Ok(Some(received(&self.claim.process, result))),
                 _ = ticks.tick() => match self.heartbeat().await {
                     Ok(false) => {}
                     Ok(true) => {
@@ -137,7 +134,7 @@ impl<'a> Running<'a> {
     }
 
     /// Waits until the computation has let go of the pool, but not beyond the end of the service.
-    async fn drain(&self, result: oneshot::Receiver<Result<Computed, ComputeError>>) {
+    async fn drain(&self, result: oneshot::Receiver<Result<JobResult, ComputeError>>) {
         self.stop.raise();
         tokio::select! {
             _ = result => {}
@@ -149,13 +146,10 @@ impl<'a> Running<'a> {
     }
 
     /// Stores the blob, then commits the result with the end of the job.
-    async fn store_result(&self, computed: Computed) -> Result<(), StoreError> {
-        let store = self.worker.store();
-        let analysis =
-            NewAnalysis { id: Uuid::now_v7(), stages: self.clock.reports(), diagnostics: computed.diagnostics };
-        store.finish(&self.claim, &analysis, &computed.analysis, now()).await?;
-        tracing::info!(job = %self.claim.job, map = %self.claim.map, analysis = %analysis.id, "job finished");
-        self.worker.signals().finished(self.claim.map);
+    async fn store_result(&self, made: &JobResult) -> Result<(), StoreError> {
+        self.worker.store().finish(&self.claim, made, &self.clock.reports(), now()).await?;
+        tracing::info!(job = %self.claim.job, map = %self.claim.map, process = self.claim.process, "job finished");
+        self.worker.signals().changed();
         Ok(())
     }
 
@@ -209,7 +203,10 @@ impl<'a> Running<'a> {
 }
 
 fn received(
-    result: Result<Result<Computed, ComputeError>, oneshot::error::RecvError>,
-) -> Result<Computed, ComputeError> {
-    result.unwrap_or_else(|_| Err(ComputeError::Panicked("the computation vanished".to_owned())))
+    process: &str,
+    result: Result<Result<JobResult, ComputeError>, oneshot::error::RecvError>,
+) -> Result<JobResult, ComputeError> {
+    result.unwrap_or_else(|_| {
+        Err(ComputeError::Panicked { process: process.to_owned(), panic: "the computation vanished".to_owned() })
+    })
 }

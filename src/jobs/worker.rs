@@ -1,15 +1,14 @@
 //! The job slots: they wait for work, take it, and stop when told.
 
-use std::fmt;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
 use tokio::sync::{Notify, watch};
 use tokio::task::JoinHandle;
 use tokio::time::Instant;
-use uuid::Uuid;
 
-use super::compute::{Compute, ComputePool};
+use super::compute::ComputePool;
+use super::processes::Processes;
 use super::retry::backoff;
 use super::running::Running;
 use crate::config::Config;
@@ -26,19 +25,20 @@ pub(super) struct Settings {
     pub heartbeat: Duration,
 }
 
-/// Who wants to know what: the slots of new jobs, readers of changes, the cache of finished analyses.
+/// What happens to jobs of this process, for those who wait for it. A hint only: jobs of other processes change, too.
+#[derive(Debug)]
 pub struct Signals {
     changes: watch::Sender<u64>,
     queued: Notify,
-    on_finish: Box<dyn Fn(Uuid) + Send + Sync>,
+}
+
+impl Default for Signals {
+    fn default() -> Self {
+        Self { changes: watch::Sender::new(0), queued: Notify::new() }
+    }
 }
 
 impl Signals {
-    /// Signals; `on_finish` hears the id of each map that has a new analysis.
-    pub fn new(on_finish: impl Fn(Uuid) + Send + Sync + 'static) -> Self {
-        Self { changes: watch::Sender::new(0), queued: Notify::new(), on_finish: Box::new(on_finish) }
-    }
-
     /// A job was queued.
     pub fn queued(&self) {
         self.queued.notify_one();
@@ -55,25 +55,13 @@ impl Signals {
     pub fn changes(&self) -> watch::Receiver<u64> {
         self.changes.subscribe()
     }
-
-    /// A map has a new analysis.
-    pub(super) fn finished(&self, map: Uuid) {
-        (self.on_finish)(map);
-        self.changed();
-    }
-}
-
-impl fmt::Debug for Signals {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        formatter.debug_struct("Signals").field("changes", &self.changes).finish_non_exhaustive()
-    }
 }
 
 /// Works on the queue of a store.
 #[derive(Debug)]
 pub struct Worker {
-    store: Arc<Store>,
-    compute: Arc<dyn Compute>,
+    store: Arc<dyn Store>,
+    processes: Processes,
     signals: Arc<Signals>,
     settings: Settings,
     threads_per_slot: usize,
@@ -85,10 +73,10 @@ pub struct Worker {
 impl Worker {
     /// A worker with its job slots running.
     #[must_use]
-    pub fn start(config: &Config, store: Arc<Store>, compute: Arc<dyn Compute>, signals: Arc<Signals>) -> Arc<Self> {
+    pub fn start(config: &Config, store: Arc<dyn Store>, processes: Processes, signals: Arc<Signals>) -> Arc<Self> {
         let worker = Arc::new(Self {
             store,
-            compute,
+            processes,
             signals,
             settings: Settings {
                 terms: Terms { lease: config.lease, max_attempts: config.max_attempts, backoff },
@@ -127,12 +115,12 @@ impl Worker {
         self.stop_at.borrow().is_some()
     }
 
-    pub(super) fn store(&self) -> &Store {
-        &self.store
+    pub(super) fn store(&self) -> &dyn Store {
+        &*self.store
     }
 
-    pub(super) const fn compute(&self) -> &Arc<dyn Compute> {
-        &self.compute
+    pub(super) const fn processes(&self) -> &Processes {
+        &self.processes
     }
 
     pub(super) fn signals(&self) -> &Signals {
@@ -175,7 +163,7 @@ impl Worker {
             return Ok(false);
         }
         let Some(claim) = self.store.claim(&self.settings.terms, now()).await? else { return Ok(false) };
-        tracing::info!(job = %claim.job, map = %claim.map, attempt = claim.attempt, "job begun");
+        tracing::info!(job = %claim.job, process = claim.process, map = %claim.map, attempt = claim.attempt, "job begun");
         self.signals.changed();
         Running::new(self, claim).run(pool).await?;
         Ok(true)

@@ -22,7 +22,7 @@ pub enum StoreError {
     Folder {
         /// The file or folder.
         path: PathBuf,
-        /// What the system says.
+        /// The error of the system.
         source: io::Error,
     },
     /// The database knows migrations that this program does not.
@@ -56,6 +56,14 @@ pub enum StoreError {
         /// What is wrong with it.
         reason: String,
     },
+    /// A blob is in a format that this release does not read.
+    #[error("blob {blob} cannot be read: {reason}")]
+    Format {
+        /// Its address.
+        blob: BlobId,
+        /// Why, and what to do.
+        reason: String,
+    },
     /// A column holds what the program never writes.
     #[error("column {column} of the database holds {value:?}")]
     BadValue {
@@ -64,10 +72,10 @@ pub enum StoreError {
         /// What it holds.
         value: String,
     },
-    /// The blobs' file system says no.
+    /// The storage of the blobs refused.
     #[error("blob storage: {0}")]
     Blob(#[source] object_store::Error),
-    /// The database says no.
+    /// The database refused.
     #[error("database: {0}")]
     Database(#[source] sqlx::Error),
 }
@@ -86,21 +94,6 @@ impl StoreError {
 
 fn is_full(error: &io::Error) -> bool {
     matches!(error.kind(), io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded)
-}
-
-impl From<sqlx::Error> for StoreError {
-    fn from(error: sqlx::Error) -> Self {
-        // Primary result codes are the low byte: <https://sqlite.org/rescode.html>
-        const BUSY: i64 = 5;
-        const LOCKED: i64 = 6;
-        const FULL: i64 = 13;
-        let code = error.as_database_error().and_then(|error| error.code()?.parse::<i64>().ok());
-        match (&error, code.map(|code| code & 0xff)) {
-            (_, Some(BUSY | LOCKED)) | (sqlx::Error::PoolTimedOut | sqlx::Error::PoolClosed, _) => Self::Busy,
-            (_, Some(FULL)) => Self::NoSpace,
-            _ => Self::Database(error),
-        }
-    }
 }
 
 impl From<object_store::Error> for StoreError {

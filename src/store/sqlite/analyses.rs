@@ -1,97 +1,37 @@
-//! Analyses: finished results, and the one in force for each map.
-//!
-//! A map may have many analyses; the one that was asked for last answers. Asking again for options that were analysed
-//! before puts that analysis back in force without a job.
+//! Rows of analyses, and the one in force for each map.
 
+use async_trait::async_trait;
 use jiff::Timestamp;
 use sqlx::SqliteConnection;
+use sqlx::sqlite::SqliteRow;
 use stillage_core::AnalysisOptions;
-use stillage_core::analysis::{ALGORITHM_VERSION, Diagnostic};
+use stillage_core::analysis::ALGORITHM_VERSION;
 use uuid::Uuid;
 
-use super::queue::{Claim, NewJob, insert_job, is_queue_full};
+use super::Sqlite;
+use super::jobs::{insert_job, is_queue_full};
 use super::rows::{Columns, analysis_record, job_record, json, map_record, semantics_record};
-use super::{BlobId, Store, StoreError};
-use crate::records::{AnalysisRecord, JobRecord, MapRecord, SemanticsRecord, StageReport};
+use crate::records::{AnalysisRecord, StageReport, Tenant};
+use crate::store::queue::Claim;
+use crate::store::{Analyses, BlobId, MapState, NewAnalysis, NewJob, Outdated, Request, Snapshot, StoreError};
 
-/// What identifies a result: hash of the upload, the options and the version of the algorithms.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct AnalysisAddress(String);
-
-impl AnalysisAddress {
-    /// The address of the analysis of an upload with some options.
-    #[must_use]
-    pub fn of(source: &BlobId, options: &AnalysisOptions) -> Self {
-        let identity = format!("{source}\n{ALGORITHM_VERSION}\n{}", json(options));
-        Self(blake3::hash(identity.as_bytes()).to_hex().to_string())
-    }
-
-    pub(super) const fn from_column(digits: String) -> Self {
-        Self(digits)
-    }
-
-    /// The digits.
-    #[must_use]
-    pub fn as_str(&self) -> &str {
-        &self.0
-    }
-}
-
-/// A finished analysis to be stored.
-#[derive(Debug, Clone)]
-pub struct NewAnalysis {
-    /// Its id.
-    pub id: Uuid,
-    /// What each stage cost.
-    pub stages: Vec<StageReport>,
-    /// What the user should know about the result.
-    pub diagnostics: Vec<Diagnostic>,
-}
-
-/// What became of the wish for an analysis.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Request {
-    /// It was there, and is in force now.
-    Existing(Box<AnalysisRecord>),
-    /// A new job will make it.
-    New(JobRecord),
-    /// A job that waits or runs already will make it.
-    Pending(JobRecord),
-    /// Too many jobs wait.
-    QueueFull,
-}
-
-/// All that is needed to answer questions about a map, as of one moment.
-#[derive(Debug, Clone)]
-pub struct Snapshot {
-    /// The map.
-    pub record: MapRecord,
-    /// Blob of the upload.
-    pub source: BlobId,
-    /// The analysis in force and its blob; `None` before the first one, and when another version of the algorithms
-    /// wrote it.
-    pub analysis: Option<(AnalysisRecord, BlobId)>,
-    /// The newest human decision on that analysis.
-    pub semantics: Option<SemanticsRecord>,
-    /// The newest job of the map.
-    pub job: Option<Uuid>,
-}
-
-impl Store {
-    /// Asks for an analysis of a map; `None` when there is no such map.
-    pub async fn request_analysis(
+#[async_trait]
+impl Analyses for Sqlite {
+    async fn request_analysis(
         &self,
-        map: Uuid,
+        tenant: &Tenant,
         options: &AnalysisOptions,
+        job: &NewJob,
         max_queued: u64,
         now: Timestamp,
     ) -> Result<Option<Request>, StoreError> {
         let mut transaction = self.write().await?;
-        let row = sqlx::query("SELECT source FROM maps WHERE id = $1").bind(map.to_string());
-        let Some(row) = row.fetch_optional(&mut *transaction).await? else { return Ok(None) };
-        let address = AnalysisAddress::of(&row.blob("source")?, options);
-        if let Some(existing) = find_analysis(&mut transaction, map, &address).await? {
-            put_in_force(&mut transaction, map, existing.id, Uuid::now_v7(), now).await?;
+        let row = sqlx::query("SELECT id FROM maps WHERE tenant = $1 AND id = $2").bind(tenant.as_str()).bind(job.map.to_string());
+        if row.fetch_optional(&mut *transaction).await?.is_none() {
+            return Ok(None);
+        }
+        if let Some(existing) = find_analysis(&mut transaction, job.map, options).await? {
+            put_in_force(&mut transaction, job.map, existing.id, job.id, now).await?;
             transaction.commit().await?;
             return Ok(Some(Request::Existing(Box::new(existing))));
         }
@@ -99,8 +39,8 @@ impl Store {
             "SELECT * FROM jobs WHERE map = $1 AND address = $2 AND state IN ('accepted', 'running') \
              AND cancel_requested = 0 ORDER BY id DESC LIMIT 1",
         )
-        .bind(map.to_string())
-        .bind(address.as_str())
+        .bind(job.map.to_string())
+        .bind(job.address.as_str())
         .fetch_optional(&mut *transaction)
         .await?;
         if let Some(row) = pending {
@@ -109,37 +49,55 @@ impl Store {
         if is_queue_full(&mut transaction, max_queued).await? {
             return Ok(Some(Request::QueueFull));
         }
-        let job = NewJob { id: Uuid::now_v7(), map, options, address };
-        let job = insert_job(&mut transaction, &job, now).await?;
+        let job = insert_job(&mut transaction, tenant, job, now).await?;
         transaction.commit().await?;
         Ok(Some(Request::New(job)))
     }
 
-    /// The analyses of a map, newest first.
-    pub async fn analyses(&self, map: Uuid) -> Result<Vec<AnalysisRecord>, StoreError> {
-        let rows = sqlx::query("SELECT * FROM analyses WHERE map = $1 ORDER BY id DESC")
+    async fn analyses(&self, tenant: &Tenant, map: Uuid) -> Result<Vec<AnalysisRecord>, StoreError> {
+        let rows = sqlx::query(
+            "SELECT analyses.* FROM analyses JOIN maps ON maps.id = analyses.map \
+             WHERE maps.tenant = $1 AND maps.id = $2 ORDER BY analyses.id DESC",
+        )
+            .bind(tenant.as_str())
             .bind(map.to_string())
             .fetch_all(&self.readers)
             .await?;
         rows.iter().map(analysis_record).collect()
     }
 
-    /// Maps whose analysis in force was made by another version of the algorithms, with the options it was made with.
-    pub async fn outdated(&self) -> Result<Vec<(Uuid, AnalysisOptions)>, StoreError> {
+    async fn outdated(&self) -> Result<Vec<Outdated>, StoreError> {
         let rows = sqlx::query(
-            "SELECT maps.id, analyses.options FROM maps JOIN analyses ON analyses.id = maps.analysis \
+            "SELECT maps.tenant, maps.id, analyses.options FROM maps JOIN analyses ON analyses.id = maps.analysis \
              WHERE analyses.algorithm <> $1 ORDER BY maps.id",
         )
         .bind(ALGORITHM_VERSION)
         .fetch_all(&self.readers)
         .await?;
-        rows.iter().map(|row| Ok((row.uuid("id")?, row.json("options")?))).collect()
+        let outdated = |row| Ok(Outdated { tenant: Columns::tenant(row)?, map: row.uuid("id")?, options: row.json("options")? });
+        rows.iter().map(outdated).collect()
     }
 
-    /// A map with its analysis in force and the newest human decision; `None` when there is no such map.
-    pub async fn snapshot(&self, map: Uuid) -> Result<Option<Snapshot>, StoreError> {
+    async fn map_state(&self, tenant: &Tenant, map: Uuid) -> Result<Option<MapState>, StoreError> {
+        let row = sqlx::query(
+            "SELECT version, analysis, \
+                 (SELECT coalesce(max(version), 0) FROM semantics_versions WHERE analysis = maps.analysis) AS semantics \
+             FROM maps WHERE tenant = $1 AND id = $2",
+        )
+        .bind(tenant.as_str())
+        .bind(map.to_string())
+        .fetch_optional(&self.readers)
+        .await?;
+        let state = |row: SqliteRow| {
+            let (version, semantics) = (row.whole("version")?, row.whole("semantics")?);
+            Ok(MapState { version, analysis: row.uuid_if("analysis")?, semantics })
+        };
+        row.map(state).transpose()
+    }
+
+    async fn snapshot(&self, tenant: &Tenant, map: Uuid) -> Result<Option<Snapshot>, StoreError> {
         let mut transaction = self.read().await?;
-        let row = sqlx::query("SELECT * FROM maps WHERE id = $1").bind(map.to_string());
+        let row = sqlx::query("SELECT * FROM maps WHERE tenant = $1 AND id = $2").bind(tenant.as_str()).bind(map.to_string());
         let Some(row) = row.fetch_optional(&mut *transaction).await? else { return Ok(None) };
         let record = map_record(&row)?;
         let analysis = sqlx::query("SELECT * FROM analyses WHERE id = $1 AND algorithm = $2")
@@ -174,6 +132,7 @@ pub(super) async fn insert_analysis(
     connection: &mut SqliteConnection,
     claim: &Claim,
     analysis: &NewAnalysis,
+    stages: &[StageReport],
     blob: &BlobId,
     now: Timestamp,
 ) -> Result<(), StoreError> {
@@ -185,11 +144,11 @@ pub(super) async fn insert_analysis(
     .bind(claim.map.to_string())
     .bind(claim.job.to_string())
     .bind(now.as_microsecond())
-    .bind(json(&claim.options))
+    .bind(json(&analysis.options))
     .bind(ALGORITHM_VERSION)
     .bind(claim.address.as_str())
     .bind(blob.as_str())
-    .bind(json(&analysis.stages))
+    .bind(json(&stages))
     .bind(json(&analysis.diagnostics))
     .execute(&mut *connection)
     .await?;
@@ -206,7 +165,8 @@ async fn put_in_force(
     now: Timestamp,
 ) -> Result<(), StoreError> {
     sqlx::query(
-        "UPDATE maps SET version = version + (analysis IS NOT $2), updated = $4, analysis = $2, analysis_asked = $3 \
+        "UPDATE maps SET version = version + (analysis IS NOT $2), \
+             updated = CASE WHEN analysis IS NOT $2 THEN $4 ELSE updated END, analysis = $2, analysis_asked = $3 \
          WHERE id = $1 AND (analysis_asked IS NULL OR analysis_asked < $3)",
     )
     .bind(map.to_string())
@@ -218,15 +178,23 @@ async fn put_in_force(
     Ok(())
 }
 
+/// The analysis of a map with some options. The options are compared, not a hash of them, so that an analysis of an
+/// earlier release is found by options that had fewer members then.
 async fn find_analysis(
     connection: &mut SqliteConnection,
     map: Uuid,
-    address: &AnalysisAddress,
+    options: &AnalysisOptions,
 ) -> Result<Option<AnalysisRecord>, StoreError> {
-    let row = sqlx::query("SELECT * FROM analyses WHERE map = $1 AND address = $2")
+    let rows = sqlx::query("SELECT * FROM analyses WHERE map = $1 AND algorithm = $2 ORDER BY id DESC")
         .bind(map.to_string())
-        .bind(address.as_str())
-        .fetch_optional(connection)
+        .bind(ALGORITHM_VERSION)
+        .fetch_all(connection)
         .await?;
-    row.as_ref().map(analysis_record).transpose()
+    for row in &rows {
+        let record = analysis_record(row)?;
+        if record.options == *options {
+            return Ok(Some(record));
+        }
+    }
+    Ok(None)
 }

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use rustix::fs::{FlockOperation, flock, statvfs};
 
-use super::StoreError;
+use crate::store::StoreError;
 
 /// Space set aside. Deleting rows from a full disk needs some for the write-ahead log: 1 MiB was measured to be enough
 /// for a small delete, the rest is margin.

@@ -1,71 +1,29 @@
-//! Maps: the upload with its first job, and the record.
+//! Rows of maps and idempotency keys.
 
+use async_trait::async_trait;
 use jiff::Timestamp;
 use sqlx::{Row, SqliteConnection};
-use stillage_core::AnalysisOptions;
-use stillage_core::analysis::Diagnostic;
 use uuid::Uuid;
 
-use super::queue::{NewJob, insert_job, is_queue_full};
+use super::Sqlite;
+use super::jobs::{insert_job, is_queue_full};
 use super::rows::{Columns, job_record, json, map_record};
-use super::{AnalysisAddress, Blob, BlobId, Store, StoreError};
 use crate::fail_point;
-use crate::geojson::Georeference;
-use crate::records::{JobRecord, MapPatch, MapRecord};
+use crate::records::{MapPatch, MapRecord, Tenant};
+use crate::store::{Blob, BlobId, Blobs, IdempotencyKey, Maps, NewJob, NewMapRow, StoreError, Upload};
 
 /// How long an idempotency key is remembered, microseconds: a day, as Stripe keeps them at least
 /// (<https://docs.stripe.com/api/idempotent_requests>).
 const KEY_LIFE_US: i64 = 24 * 3600 * 1_000_000;
 
-/// A map to be stored.
-#[derive(Debug, Clone)]
-pub struct NewMapRow {
-    /// Its id.
-    pub id: Uuid,
-    /// Name for people.
-    pub name: String,
-    /// Columns of the grid.
-    pub width: u32,
-    /// Rows of the grid.
-    pub height: u32,
-    /// Side of a cell, metres.
-    pub resolution: f64,
-    /// Where it lies on Earth.
-    pub georeference: Option<Georeference>,
-    /// Remarks of the ingest.
-    pub warnings: Vec<Diagnostic>,
-    /// Options of the first analysis.
-    pub options: AnalysisOptions,
-}
-
-/// The key of a request and the hash of what it asked.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct IdempotencyKey {
-    /// What the client chose.
-    pub key: String,
-    /// Hash of the request.
-    pub content: String,
-}
-
-/// What became of an upload.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Upload {
-    /// Stored, with this job.
-    New(JobRecord),
-    /// The key was seen with the same content: this is its job.
-    Seen(JobRecord),
-    /// The key was seen with other content.
-    KeyReused,
-    /// Too many jobs wait.
-    QueueFull,
-}
-
-impl Store {
-    /// Stores an upload, its map, its first job and its idempotency key: all or nothing.
-    pub async fn create_map(
+#[async_trait]
+impl Maps for Sqlite {
+    async fn create_map(
         &self,
+        tenant: &Tenant,
         map: &NewMapRow,
         source: &Blob,
+        job: &NewJob,
         key: Option<&IdempotencyKey>,
         max_queued: u64,
         now: Timestamp,
@@ -76,19 +34,20 @@ impl Store {
         let mut transaction = self.write().await?;
         if let Some(key) = key {
             forget_old_keys(&mut transaction, now).await?;
-            if let Some(seen) = find_key(&mut transaction, key).await? {
+            if let Some(seen) = find_key(&mut transaction, tenant, key).await? {
                 return Ok(seen);
             }
         }
         if is_queue_full(&mut transaction, max_queued).await? {
             return Ok(Upload::QueueFull);
         }
-        insert_map(&mut transaction, map, source.id(), now).await?;
-        let address = AnalysisAddress::of(source.id(), &map.options);
-        let job = NewJob { id: Uuid::now_v7(), map: map.id, options: &map.options, address };
-        let job = insert_job(&mut transaction, &job, now).await?;
+        insert_map(&mut transaction, tenant, map, source.id(), now).await?;
+        let job = insert_job(&mut transaction, tenant, job, now).await?;
         if let Some(key) = key {
-            sqlx::query("INSERT INTO idempotency_keys (key, content, job, created) VALUES ($1, $2, $3, $4)")
+            sqlx::query(
+                "INSERT INTO idempotency_keys (tenant, key, content, job, created) VALUES ($1, $2, $3, $4, $5)",
+            )
+                .bind(tenant.as_str())
                 .bind(&key.key)
                 .bind(&key.content)
                 .bind(job.id.to_string())
@@ -102,21 +61,25 @@ impl Store {
         Ok(Upload::New(job))
     }
 
-    /// The outcome of an earlier upload with this key, so that a repetition is answered even when the service is full.
-    pub async fn seen_upload(&self, key: &IdempotencyKey, now: Timestamp) -> Result<Option<Upload>, StoreError> {
+    async fn seen_upload(&self, tenant: &Tenant, key: &IdempotencyKey, now: Timestamp) -> Result<Option<Upload>, StoreError> {
         let mut transaction = self.read().await?;
         let young: bool =
-            sqlx::query_scalar("SELECT EXISTS (SELECT 1 FROM idempotency_keys WHERE key = $1 AND created > $2)")
+            sqlx::query_scalar(
+                "SELECT EXISTS (SELECT 1 FROM idempotency_keys WHERE tenant = $1 AND key = $2 AND created > $3)",
+            )
+                .bind(tenant.as_str())
                 .bind(&key.key)
                 .bind(now.as_microsecond() - KEY_LIFE_US)
                 .fetch_one(&mut *transaction)
                 .await?;
-        if young { find_key(&mut transaction, key).await } else { Ok(None) }
+        if young { find_key(&mut transaction, tenant, key).await } else { Ok(None) }
     }
 
-    /// Maps, newest first, after one when paging.
-    pub async fn maps(&self, limit: u32, after: Option<Uuid>) -> Result<Vec<MapRecord>, StoreError> {
-        let rows = sqlx::query("SELECT * FROM maps WHERE $1 IS NULL OR id < $1 ORDER BY id DESC LIMIT $2")
+    async fn maps(&self, tenant: &Tenant, limit: u32, after: Option<Uuid>) -> Result<Vec<MapRecord>, StoreError> {
+        let rows = sqlx::query(
+            "SELECT * FROM maps WHERE tenant = $1 AND ($2 IS NULL OR id < $2) ORDER BY id DESC LIMIT $3",
+        )
+            .bind(tenant.as_str())
             .bind(after.map(|id| id.to_string()))
             .bind(limit)
             .fetch_all(&self.readers)
@@ -124,29 +87,29 @@ impl Store {
         rows.iter().map(map_record).collect()
     }
 
-    /// A map.
-    pub async fn map(&self, id: Uuid) -> Result<Option<MapRecord>, StoreError> {
-        let row = sqlx::query("SELECT * FROM maps WHERE id = $1").bind(id.to_string());
+    async fn map(&self, tenant: &Tenant, id: Uuid) -> Result<Option<MapRecord>, StoreError> {
+        let row = sqlx::query("SELECT * FROM maps WHERE tenant = $1 AND id = $2")
+            .bind(tenant.as_str()).bind(id.to_string());
         row.fetch_optional(&self.readers).await?.as_ref().map(map_record).transpose()
     }
 
-    /// The blob of a map's upload.
-    pub async fn map_source(&self, id: Uuid) -> Result<Option<BlobId>, StoreError> {
-        let row = sqlx::query("SELECT source FROM maps WHERE id = $1").bind(id.to_string());
+    async fn map_source(&self, tenant: &Tenant, id: Uuid) -> Result<Option<BlobId>, StoreError> {
+        let row = sqlx::query("SELECT source FROM maps WHERE tenant = $1 AND id = $2")
+            .bind(tenant.as_str()).bind(id.to_string());
         row.fetch_optional(&self.readers).await?.map(|row| row.blob("source")).transpose()
     }
 
-    /// Changes a map, when it is at the version in `if_match`: the record after the change, or the one that stands in
-    /// the way; `None` when there is no such map.
-    pub async fn update_map(
+    async fn update_map(
         &self,
+        tenant: &Tenant,
         id: Uuid,
         patch: &MapPatch,
         if_match: Option<u64>,
         now: Timestamp,
     ) -> Result<Option<Result<MapRecord, MapRecord>>, StoreError> {
         let mut transaction = self.write().await?;
-        let row = sqlx::query("SELECT * FROM maps WHERE id = $1").bind(id.to_string());
+        let row = sqlx::query("SELECT * FROM maps WHERE tenant = $1 AND id = $2")
+            .bind(tenant.as_str()).bind(id.to_string());
         let Some(row) = row.fetch_optional(&mut *transaction).await? else { return Ok(None) };
         let current = map_record(&row)?;
         if if_match.is_some_and(|version| version != current.version) {
@@ -167,14 +130,11 @@ impl Store {
         Ok(Some(Ok(map_record(&row)?)))
     }
 
-    /// Deletes everything of a map: rows first, then the blobs that no other map shares. `false` when there is no such
-    /// map. Its running jobs find out with their next heartbeat.
-    ///
     /// On a full disk the space set aside is given up, so that deleting can make room.
-    pub async fn delete_map(&self, id: Uuid) -> Result<bool, StoreError> {
+    async fn delete_map(&self, tenant: &Tenant, id: Uuid) -> Result<bool, StoreError> {
         let _gate = self.blob_gate.write().await;
-        let blobs = match self.delete_map_rows(id).await {
-            Err(StoreError::NoSpace) if self.folder.release_reserve() => self.delete_map_rows(id).await?,
+        let blobs = match self.delete_map_rows(tenant, id).await {
+            Err(StoreError::NoSpace) if self.folder.release_reserve() => self.delete_map_rows(tenant, id).await?,
             other => other?,
         };
         let Some(blobs) = blobs else { return Ok(false) };
@@ -188,17 +148,24 @@ impl Store {
         let _ = self.folder.restore_reserve();
         Ok(true)
     }
+}
 
-    async fn delete_map_rows(&self, id: Uuid) -> Result<Option<Vec<BlobId>>, StoreError> {
+impl Sqlite {
+    async fn delete_map_rows(&self, tenant: &Tenant, id: Uuid) -> Result<Option<Vec<BlobId>>, StoreError> {
         let mut transaction = self.write().await?;
         let rows =
-            sqlx::query("SELECT source AS blob FROM maps WHERE id = $1 UNION SELECT blob FROM analyses WHERE map = $1")
+            sqlx::query(
+                "SELECT source AS blob FROM maps WHERE tenant = $1 AND id = $2 \
+                 UNION SELECT blob FROM analyses WHERE map = $2",
+            )
+                .bind(tenant.as_str())
                 .bind(id.to_string())
                 .fetch_all(&mut *transaction)
                 .await?;
         let blobs = rows.iter().map(|row| row.blob("blob")).collect::<Result<Vec<_>, _>>()?;
         let deleted =
-            sqlx::query("DELETE FROM maps WHERE id = $1").bind(id.to_string()).execute(&mut *transaction).await?;
+            sqlx::query("DELETE FROM maps WHERE tenant = $1 AND id = $2")
+            .bind(tenant.as_str()).bind(id.to_string()).execute(&mut *transaction).await?;
         if deleted.rows_affected() == 0 {
             return Ok(None);
         }
@@ -209,13 +176,15 @@ impl Store {
 
 async fn insert_map(
     connection: &mut SqliteConnection,
+    tenant: &Tenant,
     map: &NewMapRow,
     source: &BlobId,
     now: Timestamp,
 ) -> Result<(), StoreError> {
     sqlx::query(
-        "INSERT INTO maps (id, name, created, updated, width, height, resolution, georeference, warnings, source, version) \
-         VALUES ($1, $2, $3, $3, $4, $5, $6, $7, $8, $9, 1)",
+        "INSERT INTO maps (id, name, created, updated, width, height, resolution, georeference, warnings, source, version, \
+             tenant) \
+         VALUES ($1, $2, $3, $3, $4, $5, $6, $7, $8, $9, 1, $10)",
     )
     .bind(map.id.to_string())
     .bind(&map.name)
@@ -226,6 +195,7 @@ async fn insert_map(
     .bind(map.georeference.as_ref().map(json))
     .bind(json(&map.warnings))
     .bind(source.as_str())
+    .bind(tenant.as_str())
     .execute(connection)
     .await?;
     Ok(())
@@ -239,11 +209,13 @@ async fn forget_old_keys(connection: &mut SqliteConnection, now: Timestamp) -> R
     Ok(())
 }
 
-async fn find_key(connection: &mut SqliteConnection, key: &IdempotencyKey) -> Result<Option<Upload>, StoreError> {
+async fn find_key(connection: &mut SqliteConnection, tenant: &Tenant, key: &IdempotencyKey) -> Result<Option<Upload>, StoreError> {
     let row = sqlx::query(
         "SELECT jobs.*, idempotency_keys.content AS content \
-         FROM idempotency_keys JOIN jobs ON jobs.id = idempotency_keys.job WHERE idempotency_keys.key = $1",
+         FROM idempotency_keys JOIN jobs ON jobs.id = idempotency_keys.job \
+         WHERE idempotency_keys.tenant = $1 AND idempotency_keys.key = $2",
     )
+    .bind(tenant.as_str())
     .bind(&key.key)
     .fetch_optional(connection)
     .await?;

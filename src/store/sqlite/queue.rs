@@ -1,94 +1,24 @@
-//! The durable queue: every step of a job's life is one short transaction.
-//!
-//! ```text
-//! accepted ──claim──> running ──finish──> successful
-//!    ^  └─dismiss┐       │ ├────fail────> failed
-//!    │           └───────┼─┴─dismiss────> dismissed
-//!    └──requeue, retry───┘
-//! ```
-//!
-//! - A claim raises the job's token. Whatever a worker says later carries that token and counts only while the job is
-//!   still running under it; a worker that lost its claim (stalled beyond its lease, say) learns so from
-//!   [`StoreError::ClaimLost`] and cannot harm. The token never goes down; the number of attempts does, when the
-//!   service is stopped in an orderly way.
-//! - A result and the end of its job are committed together, so there is exactly one of each.
-//! - A claim not renewed in time is rescued by the next claim. An attempt counts from its beginning, so a job that
-//!   kills its process is failed after the last attempt like any other.
-//!
-//! No step reads the clock: the caller passes the time. `updated` rises with every change, whatever the clock does, so
-//! that it numbers the states of a job.
+//! The steps of the queue, each one short transaction on the row of a job.
 
 use std::time::Duration;
 
+use async_trait::async_trait;
 use jiff::{SignedDuration, Timestamp};
+use serde_json::json;
 use sqlx::sqlite::SqliteRow;
 use sqlx::{Row, SqliteConnection};
-use stillage_core::AnalysisOptions;
-use uuid::Uuid;
 
+use super::Sqlite;
 use super::analyses::insert_analysis;
-use super::rows::{Columns, job_record, json};
-use super::{AnalysisAddress, Blob, BlobId, NewAnalysis, Store, StoreError};
+use super::rows::{Columns, json};
 use crate::fail_point;
-use crate::records::{JobFilter, JobRecord, JobState, StageReport};
+use crate::records::{JobState, StageReport};
+use crate::store::queue::{Claim, JobResult, Progress, Queue, Terms};
+use crate::store::{Blobs, ResultAddress, StoreError};
 
-/// A job to be queued.
-#[derive(Debug)]
-pub struct NewJob<'a> {
-    /// Its id.
-    pub id: Uuid,
-    /// The map to analyse.
-    pub map: Uuid,
-    /// The options of the analysis.
-    pub options: &'a AnalysisOptions,
-    /// The address of the analysis.
-    pub address: AnalysisAddress,
-}
-
-/// The right to work on a job, until the lease ends.
-#[derive(Debug, Clone)]
-pub struct Claim {
-    /// The job.
-    pub job: Uuid,
-    /// Its map.
-    pub map: Uuid,
-    /// The fencing token.
-    pub token: i64,
-    /// From 1.
-    pub attempt: u32,
-    /// The options of the analysis.
-    pub options: AnalysisOptions,
-    /// The address of the analysis.
-    pub address: AnalysisAddress,
-    /// Blob of the upload.
-    pub source: BlobId,
-}
-
-/// How long a job is held, how often it is tried and what it waits in between.
-#[derive(Debug, Clone, Copy)]
-pub struct Terms {
-    /// How long a claim lasts without a heartbeat.
-    pub lease: Duration,
-    /// How often a job is tried in all.
-    pub max_attempts: u32,
-    /// The wait after the n-th attempt (from 1) of a job.
-    pub backoff: fn(Uuid, u32) -> Duration,
-}
-
-/// Where a running job is.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct Progress {
-    /// 0 to 100.
-    pub percent: u8,
-    /// The stage it is in.
-    pub stage: Option<String>,
-    /// What the stages that ended cost.
-    pub stages: Vec<StageReport>,
-}
-
-impl Store {
-    /// Rescues jobs whose lease has ended, then takes the job that waits longest, if one is due.
-    pub async fn claim(&self, terms: &Terms, now: Timestamp) -> Result<Option<Claim>, StoreError> {
+#[async_trait]
+impl Queue for Sqlite {
+    async fn claim(&self, terms: &Terms, now: Timestamp) -> Result<Option<Claim>, StoreError> {
         let mut transaction = self.write().await?;
         rescue(&mut transaction, terms, now).await?;
         let row = sqlx::query(
@@ -106,9 +36,9 @@ impl Store {
         row.as_ref().map(claim_of).transpose()
     }
 
-    /// Puts the jobs of a process that died back into the queue at once, without waiting for their leases. Their
-    /// attempts count. Answers how many there were.
-    pub async fn requeue_orphans(&self, max_attempts: u32, now: Timestamp) -> Result<u64, StoreError> {
+    /// The lock on the data folder belonged to the process that made these claims, and it is ours now: so that process
+    /// is dead, and nothing has to be waited for.
+    async fn end_claims_of_the_dead(&self, max_attempts: u32, now: Timestamp) -> Result<u64, StoreError> {
         let mut transaction = self.write().await?;
         let rows = sqlx::query("SELECT * FROM jobs WHERE state = 'running'").fetch_all(&mut *transaction).await?;
         for row in &rows {
@@ -118,11 +48,7 @@ impl Store {
         Ok(rows.len() as u64)
     }
 
-    /// Renews the lease and tells where the job is. Answers whether somebody wants it cancelled.
-    ///
-    /// # Errors
-    /// [`StoreError::ClaimLost`]: stop at once.
-    pub async fn heartbeat(
+    async fn heartbeat(
         &self,
         claim: &Claim,
         progress: &Progress,
@@ -147,11 +73,7 @@ impl Store {
         cancel_requested(row)
     }
 
-    /// Asks what [`Self::heartbeat`] answers without writing anything.
-    ///
-    /// # Errors
-    /// [`StoreError::ClaimLost`]: stop at once.
-    pub async fn is_cancel_requested(&self, claim: &Claim) -> Result<bool, StoreError> {
+    async fn is_cancel_requested(&self, claim: &Claim) -> Result<bool, StoreError> {
         let row = sqlx::query("SELECT cancel_requested FROM jobs WHERE id = $1 AND claim = $2 AND state = 'running'")
             .bind(claim.job.to_string())
             .bind(claim.token)
@@ -160,48 +82,48 @@ impl Store {
         cancel_requested(row)
     }
 
-    /// Stores the blob of a result, then commits the result, the map's pointer to it and the end of the job together.
-    ///
-    /// # Errors
-    /// [`StoreError::ClaimLost`] when the job is not this claim's any more, or is to be cancelled: no row is written.
-    pub async fn finish(
+    async fn finish(
         &self,
         claim: &Claim,
-        analysis: &NewAnalysis,
-        blob: &Blob,
+        result: &JobResult,
+        stages: &[StageReport],
         now: Timestamp,
     ) -> Result<(), StoreError> {
         let _gate = self.blob_gate.read().await;
-        self.blobs.put(blob).await?;
+        let outputs = match result {
+            JobResult::Analysis(analysis, blob) => {
+                self.blobs.put(blob).await?;
+                json!({"analysis": analysis.id})
+            }
+            JobResult::Document(outputs) => outputs.clone(),
+        };
         fail_point::pass("after-blob");
         let mut transaction = self.write().await?;
         let ended = sqlx::query(
-            "UPDATE jobs SET state = 'successful', progress = 100, stage = NULL, stages = $3, analysis = $4, \
+            "UPDATE jobs SET state = 'successful', progress = 100, stage = NULL, stages = $3, outputs = $4, \
                  lease_until = NULL, finished = $5, updated = max(updated + 1, $5) \
              WHERE id = $1 AND claim = $2 AND state = 'running' AND cancel_requested = 0",
         )
         .bind(claim.job.to_string())
         .bind(claim.token)
-        .bind(json(&analysis.stages))
-        .bind(analysis.id.to_string())
+        .bind(json(&stages))
+        .bind(json(&outputs))
         .bind(now.as_microsecond())
         .execute(&mut *transaction)
         .await?;
         if ended.rows_affected() != 1 {
             return Err(StoreError::ClaimLost);
         }
-        insert_analysis(&mut transaction, claim, analysis, blob.id(), now).await?;
+        if let JobResult::Analysis(analysis, blob) = result {
+            insert_analysis(&mut transaction, claim, analysis, stages, blob.id(), now).await?;
+        }
         fail_point::pass("before-finish-commit");
         transaction.commit().await?;
         fail_point::pass("after-finish-commit");
         Ok(())
     }
 
-    /// Ends the job as failed or dismissed.
-    ///
-    /// # Errors
-    /// [`StoreError::ClaimLost`] when the job is not this claim's any more.
-    pub async fn end(&self, claim: &Claim, state: JobState, message: &str, now: Timestamp) -> Result<(), StoreError> {
+    async fn end(&self, claim: &Claim, state: JobState, message: &str, now: Timestamp) -> Result<(), StoreError> {
         let mut transaction = self.write().await?;
         let ended = sqlx::query(
             "UPDATE jobs SET state = $3, message = $4, stage = NULL, lease_until = NULL, finished = $5, updated = max(updated + 1, $5) \
@@ -218,11 +140,7 @@ impl Store {
         if ended.rows_affected() == 1 { Ok(()) } else { Err(StoreError::ClaimLost) }
     }
 
-    /// Puts the job back into the queue, to run after a wait. `attempt` is the number of attempts that count so far.
-    ///
-    /// # Errors
-    /// [`StoreError::ClaimLost`] when the job is not this claim's any more.
-    pub async fn requeue(
+    async fn requeue(
         &self,
         claim: &Claim,
         attempt: u32,
@@ -247,91 +165,6 @@ impl Store {
         transaction.commit().await?;
         if requeued.rows_affected() == 1 { Ok(()) } else { Err(StoreError::ClaimLost) }
     }
-
-    /// Dismisses a job: one that waits at once, one that runs is asked to stop. A finished one stays as it is.
-    pub async fn dismiss(&self, id: Uuid, now: Timestamp) -> Result<Option<JobRecord>, StoreError> {
-        let mut transaction = self.write().await?;
-        sqlx::query(
-            "UPDATE jobs SET state = 'dismissed', message = 'dismissed before it began', finished = $2, updated = max(updated + 1, $2) \
-             WHERE id = $1 AND state = 'accepted'",
-        )
-        .bind(id.to_string())
-        .bind(now.as_microsecond())
-        .execute(&mut *transaction)
-        .await?;
-        sqlx::query(
-            "UPDATE jobs SET cancel_requested = 1, updated = max(updated + 1, $2) WHERE id = $1 AND state = 'running'",
-        )
-        .bind(id.to_string())
-        .bind(now.as_microsecond())
-        .execute(&mut *transaction)
-        .await?;
-        let row = sqlx::query("SELECT * FROM jobs WHERE id = $1").bind(id.to_string());
-        let row = row.fetch_optional(&mut *transaction).await?;
-        transaction.commit().await?;
-        row.as_ref().map(job_record).transpose()
-    }
-
-    /// A job.
-    pub async fn job(&self, id: Uuid) -> Result<Option<JobRecord>, StoreError> {
-        let row = sqlx::query("SELECT * FROM jobs WHERE id = $1").bind(id.to_string());
-        row.fetch_optional(&self.readers).await?.as_ref().map(job_record).transpose()
-    }
-
-    /// Jobs, newest first.
-    pub async fn jobs(&self, filter: &JobFilter) -> Result<Vec<JobRecord>, StoreError> {
-        let rows = sqlx::query(
-            "SELECT * FROM jobs WHERE ($1 IS NULL OR id < $1) AND ($2 IS NULL OR map = $2) \
-                 AND ($3 = '[]' OR state IN (SELECT value FROM json_each($3))) \
-             ORDER BY id DESC LIMIT $4",
-        )
-        .bind(filter.after.map(|id| id.to_string()))
-        .bind(filter.map.map(|id| id.to_string()))
-        .bind(json(&filter.states))
-        .bind(filter.limit)
-        .fetch_all(&self.readers)
-        .await?;
-        rows.iter().map(job_record).collect()
-    }
-
-    /// How many jobs are in a state, for every state that has some.
-    pub async fn job_counts(&self) -> Result<Vec<(JobState, u64)>, StoreError> {
-        let rows =
-            sqlx::query("SELECT state, count(*) AS jobs FROM jobs GROUP BY state").fetch_all(&self.readers).await?;
-        let count = |row: &SqliteRow| {
-            let state = row.text("state")?;
-            let found = JobState::find(&state).ok_or(StoreError::BadValue { column: "state", value: state })?;
-            Ok((found, row.whole("jobs")?))
-        };
-        rows.iter().map(count).collect()
-    }
-}
-
-/// Queues a job.
-pub(super) async fn insert_job(
-    connection: &mut SqliteConnection,
-    job: &NewJob<'_>,
-    now: Timestamp,
-) -> Result<JobRecord, StoreError> {
-    let row = sqlx::query(
-        "INSERT INTO jobs (id, map, state, options, address, created, updated) \
-         VALUES ($1, $2, 'accepted', $3, $4, $5, $5) RETURNING *",
-    )
-    .bind(job.id.to_string())
-    .bind(job.map.to_string())
-    .bind(json(job.options))
-    .bind(job.address.as_str())
-    .bind(now.as_microsecond())
-    .fetch_one(connection)
-    .await?;
-    job_record(&row)
-}
-
-/// Whether as many jobs wait as may.
-pub(super) async fn is_queue_full(connection: &mut SqliteConnection, max_queued: u64) -> Result<bool, StoreError> {
-    let row =
-        sqlx::query("SELECT count(*) AS waiting FROM jobs WHERE state = 'accepted'").fetch_one(connection).await?;
-    Ok(row.whole::<u64>("waiting")? >= max_queued)
 }
 
 /// Ends the claims whose lease has run out.
@@ -347,7 +180,7 @@ async fn rescue(connection: &mut SqliteConnection, terms: &Terms, now: Timestamp
     Ok(())
 }
 
-/// Takes a running job from a worker that is gone: cancelled if somebody wanted that, failed after its last attempt,
+/// Takes a running job from a worker that is gone: dismissed where that was asked for, failed after its last attempt,
 /// queued again otherwise.
 async fn end_orphan(
     connection: &mut SqliteConnection,
@@ -385,11 +218,13 @@ async fn end_orphan(
 fn claim_of(row: &SqliteRow) -> Result<Claim, StoreError> {
     Ok(Claim {
         job: row.uuid("id")?,
+        tenant: row.tenant()?,
         map: row.uuid("map")?,
         token: row.try_get("claim")?,
         attempt: row.whole("attempt")?,
-        options: row.json("options")?,
-        address: AnalysisAddress::from_column(row.text("address")?),
+        process: row.text("process")?,
+        inputs: row.json("inputs")?,
+        address: ResultAddress::from_digits(row.text("address")?),
         source: row.blob("source")?,
     })
 }

@@ -1,4 +1,4 @@
-//! Rows <-> records.
+//! Rows as records, and values as columns.
 
 use jiff::Timestamp;
 use serde::Serialize;
@@ -7,15 +7,10 @@ use sqlx::Row;
 use sqlx::sqlite::SqliteRow;
 use uuid::Uuid;
 
-use super::{BlobId, StoreError};
-use crate::records::{AnalysisRecord, JobRecord, JobState, MapRecord, RuleSetRecord, SemanticsOrigin, SemanticsRecord};
-
-/// The time, to the microsecond that the database keeps.
-#[must_use]
-pub fn now() -> Timestamp {
-    let now = Timestamp::now();
-    Timestamp::from_microsecond(now.as_microsecond()).unwrap_or(now)
-}
+use crate::records::{
+    AnalysisRecord, JobRecord, JobState, MapRecord, RuleSetRecord, SemanticsOrigin, SemanticsRecord, Tenant,
+};
+use crate::store::{BlobId, StoreError};
 
 /// Writes a value into a JSON column.
 pub(super) fn json<T: Serialize>(value: &T) -> String {
@@ -31,7 +26,10 @@ pub(super) trait Columns {
     fn time_if(&self, column: &'static str) -> Result<Option<Timestamp>, StoreError>;
     fn whole<T: TryFrom<i64>>(&self, column: &'static str) -> Result<T, StoreError>;
     fn json<T: DeserializeOwned>(&self, column: &'static str) -> Result<T, StoreError>;
+    fn json_if<T: DeserializeOwned>(&self, column: &'static str) -> Result<Option<T>, StoreError>;
     fn blob(&self, column: &'static str) -> Result<BlobId, StoreError>;
+    fn tenant(&self) -> Result<Tenant, StoreError>;
+    fn state(&self) -> Result<JobState, StoreError>;
 }
 
 impl Columns for SqliteRow {
@@ -69,13 +67,26 @@ impl Columns for SqliteRow {
         serde_json::from_str(&value).map_err(|_| StoreError::BadValue { column, value })
     }
 
+    fn json_if<T: DeserializeOwned>(&self, column: &'static str) -> Result<Option<T>, StoreError> {
+        let value: Option<String> = self.try_get(column)?;
+        value.map(|_| self.json(column)).transpose()
+    }
+
     fn blob(&self, column: &'static str) -> Result<BlobId, StoreError> {
-        Ok(BlobId::from_column(self.text(column)?))
+        Ok(BlobId::from_digits(self.text(column)?))
+    }
+
+    fn tenant(&self) -> Result<Tenant, StoreError> {
+        Ok(Tenant::new(self.text("tenant")?))
+    }
+
+    fn state(&self) -> Result<JobState, StoreError> {
+        let value = self.text("state")?;
+        JobState::find(&value).ok_or(StoreError::BadValue { column: "state", value })
     }
 }
 
 pub(super) fn map_record(row: &SqliteRow) -> Result<MapRecord, StoreError> {
-    let georeference: Option<String> = row.try_get("georeference")?;
     Ok(MapRecord {
         id: row.uuid("id")?,
         name: row.text("name")?,
@@ -84,7 +95,7 @@ pub(super) fn map_record(row: &SqliteRow) -> Result<MapRecord, StoreError> {
         width: row.whole("width")?,
         height: row.whole("height")?,
         resolution: row.try_get("resolution")?,
-        georeference: georeference.map(|_| row.json("georeference")).transpose()?,
+        georeference: row.json_if("georeference")?,
         analysis: row.uuid_if("analysis")?,
         warnings: row.json("warnings")?,
         version: row.whole("version")?,
@@ -103,11 +114,13 @@ pub(super) fn analysis_record(row: &SqliteRow) -> Result<AnalysisRecord, StoreEr
 }
 
 pub(super) fn job_record(row: &SqliteRow) -> Result<JobRecord, StoreError> {
-    let state = row.text("state")?;
     Ok(JobRecord {
         id: row.uuid("id")?,
         map: row.uuid("map")?,
-        state: JobState::find(&state).ok_or(StoreError::BadValue { column: "state", value: state })?,
+        process: row.text("process")?,
+        inputs: row.json("inputs")?,
+        outputs: row.json_if("outputs")?,
+        state: row.state()?,
         progress: row.whole("progress")?,
         stage: row.try_get("stage")?,
         stages: row.json("stages")?,
@@ -117,7 +130,6 @@ pub(super) fn job_record(row: &SqliteRow) -> Result<JobRecord, StoreError> {
         started: row.time_if("started")?,
         finished: row.time_if("finished")?,
         updated: row.time("updated")?,
-        analysis: row.uuid_if("analysis")?,
     })
 }
 

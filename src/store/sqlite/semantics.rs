@@ -1,38 +1,20 @@
-//! Human decisions: immutable versions, each bound to the analysis whose categories it names.
+//! Rows of human decisions.
 
+use async_trait::async_trait;
 use jiff::Timestamp;
 use sqlx::Row;
-use stillage_core::semantics::{Assignment, RuleSetDraft};
 use uuid::Uuid;
 
+use super::Sqlite;
 use super::rows::{Columns, json, semantics_record};
-use super::{Store, StoreError};
-use crate::records::SemanticsRecord;
+use crate::records::{SemanticsRecord, Tenant};
+use crate::store::{NewSemanticsRow, SemanticsVersions, StoreError};
 
-/// A decision to be stored.
-#[derive(Debug, Clone)]
-pub struct NewSemanticsRow {
-    /// The map.
-    pub map: Uuid,
-    /// The analysis it was checked against.
-    pub analysis: Uuid,
-    /// The version that was in force when it was made; 0 for the suggestion.
-    pub replaces: u64,
-    /// Id of the rule set.
-    pub rule_set: String,
-    /// The rule set as it is.
-    pub draft: RuleSetDraft,
-    /// The decision.
-    pub assignment: Assignment,
-}
-
-impl Store {
-    /// Stores a decision, when the analysis and the version it was made on are still in force; otherwise `Err` with the
-    /// version in force, and `None` when the map is gone.
-    ///
-    /// Versions count on over all analyses of a map, so that a number never means two decisions.
-    pub async fn insert_semantics(
+#[async_trait]
+impl SemanticsVersions for Sqlite {
+    async fn insert_semantics(
         &self,
+        tenant: &Tenant,
         new: &NewSemanticsRow,
         now: Timestamp,
     ) -> Result<Option<Result<SemanticsRecord, u64>>, StoreError> {
@@ -41,8 +23,9 @@ impl Store {
             "SELECT analysis, \
                  (SELECT coalesce(max(version), 0) FROM semantics_versions WHERE analysis = maps.analysis) AS in_force, \
                  (SELECT coalesce(max(version), 0) FROM semantics_versions WHERE map = maps.id) AS newest \
-             FROM maps WHERE id = $1",
+             FROM maps WHERE tenant = $1 AND id = $2",
         )
+        .bind(tenant.as_str())
         .bind(new.map.to_string())
         .fetch_optional(&mut *transaction)
         .await?;
@@ -68,9 +51,12 @@ impl Store {
         Ok(Some(Ok(semantics_record(&row)?)))
     }
 
-    /// All decisions on a map, newest first.
-    pub async fn semantics_versions(&self, map: Uuid) -> Result<Vec<SemanticsRecord>, StoreError> {
-        let rows = sqlx::query("SELECT * FROM semantics_versions WHERE map = $1 ORDER BY version DESC")
+    async fn semantics_versions(&self, tenant: &Tenant, map: Uuid) -> Result<Vec<SemanticsRecord>, StoreError> {
+        let rows = sqlx::query(
+            "SELECT semantics_versions.* FROM semantics_versions JOIN maps ON maps.id = semantics_versions.map \
+             WHERE maps.tenant = $1 AND maps.id = $2 ORDER BY semantics_versions.version DESC",
+        )
+            .bind(tenant.as_str())
             .bind(map.to_string())
             .fetch_all(&self.readers)
             .await?;

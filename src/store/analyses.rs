@@ -1,0 +1,127 @@
+//! Analyses: finished results, and the one in force for each map.
+//!
+//! A map may have many analyses; the one that was asked for last answers. Asking again for options that were analysed
+//! before puts that analysis back in force without a job.
+
+use async_trait::async_trait;
+use jiff::Timestamp;
+use serde_json::Value;
+use stillage_core::AnalysisOptions;
+use stillage_core::analysis::Diagnostic;
+use uuid::Uuid;
+
+use super::{BlobId, NewJob, StoreError};
+use crate::records::{AnalysisRecord, JobRecord, MapRecord, SemanticsRecord, Tenant};
+
+/// What identifies a result: hash of the upload, the process with its version, and its inputs.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ResultAddress(String);
+
+impl ResultAddress {
+    /// The address of what a process makes of an upload with some inputs.
+    #[must_use]
+    pub fn of(source: &BlobId, process: &str, version: u32, inputs: &Value) -> Self {
+        let identity = format!("{source}\n{process}\n{version}\n{inputs}");
+        Self(blake3::hash(identity.as_bytes()).to_hex().to_string())
+    }
+
+    pub(super) const fn from_digits(digits: String) -> Self {
+        Self(digits)
+    }
+
+    /// The digits.
+    #[must_use]
+    pub fn as_str(&self) -> &str {
+        &self.0
+    }
+}
+
+/// A finished analysis to be stored.
+#[derive(Debug, Clone)]
+pub struct NewAnalysis {
+    /// Its id.
+    pub id: Uuid,
+    /// The options, whole.
+    pub options: AnalysisOptions,
+    /// What the user should know about the result.
+    pub diagnostics: Vec<Diagnostic>,
+}
+
+/// What became of the wish for an analysis.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Request {
+    /// It was there, and is in force now.
+    Existing(Box<AnalysisRecord>),
+    /// A new job will make it.
+    New(JobRecord),
+    /// A job that waits or runs already will make it.
+    Pending(JobRecord),
+    /// Too many jobs wait.
+    QueueFull,
+}
+
+/// A map whose analysis in force was made by another version of the algorithms.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Outdated {
+    /// Whose map it is.
+    pub tenant: Tenant,
+    /// The map.
+    pub map: Uuid,
+    /// The options its analysis was made with.
+    pub options: AnalysisOptions,
+}
+
+/// What decides every answer about a map. Two moments with the same state have the same answers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct MapState {
+    /// Version of the map's record: its name and georeference, too.
+    pub version: u64,
+    /// The analysis in force.
+    pub analysis: Option<Uuid>,
+    /// The version of the decision in force on that analysis; 0 for the suggestion.
+    pub semantics: u64,
+}
+
+/// All that is needed to answer questions about a map, as of one moment.
+#[derive(Debug, Clone)]
+pub struct Snapshot {
+    /// The map.
+    pub record: MapRecord,
+    /// Blob of the upload.
+    pub source: BlobId,
+    /// The analysis in force and its blob; `None` before the first one, and when another version of the algorithms
+    /// wrote it.
+    pub analysis: Option<(AnalysisRecord, BlobId)>,
+    /// The newest human decision on that analysis.
+    pub semantics: Option<SemanticsRecord>,
+    /// The newest job of the map.
+    pub job: Option<Uuid>,
+}
+
+/// What is kept of analyses.
+#[async_trait]
+pub trait Analyses {
+    /// Asks for the analysis of a map with some options, which `job` makes unless it is there or under way; `None` when
+    /// there is no such map.
+    async fn request_analysis(
+        &self,
+        tenant: &Tenant,
+        options: &AnalysisOptions,
+        job: &NewJob,
+        max_queued: u64,
+        now: Timestamp,
+    ) -> Result<Option<Request>, StoreError>;
+
+    /// The analyses of a map, newest first; none when there is no such map.
+    async fn analyses(&self, tenant: &Tenant, map: Uuid) -> Result<Vec<AnalysisRecord>, StoreError>;
+
+    /// Maps of all tenants whose analysis in force was made by another version of the algorithms.
+    async fn outdated(&self) -> Result<Vec<Outdated>, StoreError>;
+
+    /// The state of a map, by one query on indexes: it is asked for with every question about the map. `None` when there
+    /// is no such map.
+    async fn map_state(&self, tenant: &Tenant, map: Uuid) -> Result<Option<MapState>, StoreError>;
+
+    /// A map with its analysis in force and the newest human decision; `None` when there is no such map.
+    async fn snapshot(&self, tenant: &Tenant, map: Uuid) -> Result<Option<Snapshot>, StoreError>;
+}

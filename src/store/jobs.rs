@@ -1,0 +1,41 @@
+//! The client's side of a job: it is asked for, read, listed and dismissed.
+
+use async_trait::async_trait;
+use jiff::Timestamp;
+use serde_json::Value;
+use uuid::Uuid;
+
+use super::{ResultAddress, StoreError};
+use crate::records::{JobFilter, JobRecord, JobState, Tenant};
+
+/// A job to be queued.
+#[derive(Debug, Clone)]
+pub struct NewJob {
+    /// Its id, of version 7: the order of the ids is the order of the requests.
+    pub id: Uuid,
+    /// The map it works on.
+    pub map: Uuid,
+    /// Id of the process that computes it.
+    pub process: &'static str,
+    /// What the process is given beside the map, as a JSON object.
+    pub inputs: Value,
+    /// The address of its result.
+    pub address: ResultAddress,
+}
+
+/// What is kept of jobs.
+#[async_trait]
+pub trait Jobs {
+    /// A job.
+    async fn job(&self, tenant: &Tenant, id: Uuid) -> Result<Option<JobRecord>, StoreError>;
+
+    /// Jobs, newest first.
+    async fn jobs(&self, tenant: &Tenant, filter: &JobFilter) -> Result<Vec<JobRecord>, StoreError>;
+
+    /// Dismisses a job: one that waits at once, one that runs is asked to stop. A finished one stays as it is. `None`
+    /// when there is no such job.
+    async fn dismiss(&self, tenant: &Tenant, id: Uuid, now: Timestamp) -> Result<Option<JobRecord>, StoreError>;
+
+    /// How many jobs of all tenants are in a state, for every state that has some.
+    async fn job_counts(&self) -> Result<Vec<(JobState, u64)>, StoreError>;
+}

@@ -1,0 +1,98 @@
+//! Rows of jobs as clients see them.
+
+use async_trait::async_trait;
+use jiff::Timestamp;
+use sqlx::SqliteConnection;
+use sqlx::sqlite::SqliteRow;
+use uuid::Uuid;
+
+use super::Sqlite;
+use super::rows::{Columns, job_record, json};
+use crate::records::{JobFilter, JobRecord, JobState, Tenant};
+use crate::store::{Jobs, NewJob, StoreError};
+
+#[async_trait]
+impl Jobs for Sqlite {
+    async fn dismiss(&self, tenant: &Tenant, id: Uuid, now: Timestamp) -> Result<Option<JobRecord>, StoreError> {
+        let mut transaction = self.write().await?;
+        sqlx::query(
+            "UPDATE jobs SET state = 'dismissed', message = 'dismissed before it began', finished = $2, updated = max(updated + 1, $2) \
+             WHERE id = $1 AND tenant = $3 AND state = 'accepted'",
+        )
+        .bind(id.to_string())
+        .bind(now.as_microsecond())
+        .bind(tenant.as_str())
+        .execute(&mut *transaction)
+        .await?;
+        sqlx::query(
+            "UPDATE jobs SET cancel_requested = 1, updated = max(updated + 1, $2) WHERE id = $1 AND tenant = $3 AND state = 'running'",
+        )
+        .bind(id.to_string())
+        .bind(now.as_microsecond())
+        .bind(tenant.as_str())
+        .execute(&mut *transaction)
+        .await?;
+        let row = sqlx::query("SELECT * FROM jobs WHERE id = $1 AND tenant = $2").bind(id.to_string()).bind(tenant.as_str());
+        let row = row.fetch_optional(&mut *transaction).await?;
+        transaction.commit().await?;
+        row.as_ref().map(job_record).transpose()
+    }
+
+    async fn job(&self, tenant: &Tenant, id: Uuid) -> Result<Option<JobRecord>, StoreError> {
+        let row = sqlx::query("SELECT * FROM jobs WHERE id = $1 AND tenant = $2").bind(id.to_string()).bind(tenant.as_str());
+        row.fetch_optional(&self.readers).await?.as_ref().map(job_record).transpose()
+    }
+
+    async fn jobs(&self, tenant: &Tenant, filter: &JobFilter) -> Result<Vec<JobRecord>, StoreError> {
+        let rows = sqlx::query(
+            "SELECT * FROM jobs WHERE tenant = $5 AND ($1 IS NULL OR id < $1) AND ($2 IS NULL OR map = $2) \
+                 AND ($3 = '[]' OR state IN (SELECT value FROM json_each($3))) \
+             ORDER BY id DESC LIMIT $4",
+        )
+        .bind(filter.after.map(|id| id.to_string()))
+        .bind(filter.map.map(|id| id.to_string()))
+        .bind(json(&filter.states))
+        .bind(filter.limit)
+        .bind(tenant.as_str())
+        .fetch_all(&self.readers)
+        .await?;
+        rows.iter().map(job_record).collect()
+    }
+
+    async fn job_counts(&self) -> Result<Vec<(JobState, u64)>, StoreError> {
+        let rows =
+            sqlx::query("SELECT state, count(*) AS jobs FROM jobs GROUP BY state").fetch_all(&self.readers).await?;
+        let count = |row: &SqliteRow| Ok((row.state()?, row.whole("jobs")?));
+        rows.iter().map(count).collect()
+    }
+}
+
+/// Queues a job.
+pub(super) async fn insert_job(
+    connection: &mut SqliteConnection,
+    tenant: &Tenant,
+    job: &NewJob,
+    now: Timestamp,
+) -> Result<JobRecord, StoreError> {
+    let row = sqlx::query(
+        "INSERT INTO jobs (id, tenant, map, process, inputs, state, address, created, updated) \
+         VALUES ($1, $2, $3, $4, $5, 'accepted', $6, $7, $7) RETURNING *",
+    )
+    .bind(job.id.to_string())
+    .bind(tenant.as_str())
+    .bind(job.map.to_string())
+    .bind(job.process)
+    .bind(json(&job.inputs))
+    .bind(job.address.as_str())
+    .bind(now.as_microsecond())
+    .fetch_one(connection)
+    .await?;
+    job_record(&row)
+}
+
+/// Whether as many jobs wait as may.
+pub(super) async fn is_queue_full(connection: &mut SqliteConnection, max_queued: u64) -> Result<bool, StoreError> {
+    let row =
+        sqlx::query("SELECT count(*) AS waiting FROM jobs WHERE state = 'accepted'").fetch_one(connection).await?;
+    Ok(row.whole::<u64>("waiting")? >= max_queued)
+}
