@@ -1,5 +1,5 @@
 -- Every map, job, rule set and idempotency key belongs to a tenant; what is there belongs to the local one. A job names
--- its process and holds the inputs and outputs of it; every job so far is an analysis.
+-- its process and holds the inputs and outputs of it; every job so far makes a semantic map.
 --
 -- Tables whose keys change are built anew. Dropping `jobs` deletes the idempotency keys that refer to it, so the keys
 -- are carried over in a table that refers to nothing.
@@ -45,7 +45,7 @@ CREATE TABLE new_jobs (
 
 INSERT INTO new_jobs (id, tenant, map, process, inputs, outputs, state, address, progress, stage, stages, message,
     attempt, claim, run_at, lease_until, cancel_requested, created, started, finished, updated)
-SELECT id, 'local', map, 'analysis', json_object('options', json(options)),
+SELECT id, 'local', map, 'semantic-map', json_object('options', json(options)),
     CASE WHEN analysis IS NOT NULL THEN json_object('analysis', analysis) END, state, address, progress, stage, stages,
     message, attempt, claim, run_at, lease_until, cancel_requested, created, started, finished, updated
 FROM jobs;

@@ -59,7 +59,8 @@ impl App {
         map: Uuid,
         previous: Option<Arc<MapContext>>,
     ) -> Result<Arc<MapContext>, AppError> {
-        let snapshot = self.store.snapshot(caller.tenant(), map).await?.ok_or_else(|| AppError::not_found("map", map))?;
+        let snapshot =
+            self.store.snapshot(caller.tenant(), map).await?.ok_or_else(|| AppError::not_found("map", map))?;
         let Snapshot { record, source, analysis, semantics, job } = snapshot;
         let (analysis, blob) = analysis.ok_or(AppError::NotAnalysed { map, job })?;
         let _permit = self.decoders.acquire().await.map_err(|_| AppError::Unavailable)?;

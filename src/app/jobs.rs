@@ -22,11 +22,17 @@ impl App {
     ///
     /// Human decisions belong to the analysis whose categories they name: a new analysis begins with its suggestion, and
     /// going back to an earlier one brings its decisions back.
-    pub async fn create_analysis(&self, caller: &Caller, map: Uuid, options: AnalysisOptions) -> Result<AnalysisTicket, AppError> {
+    pub async fn create_analysis(
+        &self,
+        caller: &Caller,
+        map: Uuid,
+        options: AnalysisOptions,
+    ) -> Result<AnalysisTicket, AppError> {
         options.clone().check()?;
         let record = self.map(caller, map).await?;
         self.check_memory(u64::from(record.width), u64::from(record.height), &options)?;
-        let source = self.store.map_source(caller.tenant(), map).await?.ok_or_else(|| AppError::not_found("map", map))?;
+        let source =
+            self.store.map_source(caller.tenant(), map).await?.ok_or_else(|| AppError::not_found("map", map))?;
         let job = AnalysisProcess::job(map, &source, &options);
         let max_queued = self.config.max_queued_jobs;
         let request = self.store.request_analysis(caller.tenant(), &options, &job, max_queued, now()).await?;
@@ -66,7 +72,8 @@ impl App {
             return Err(AppError::Conflict(format!("the job is {} already", before.state.name())));
         }
         let mut changes = self.signals.changes();
-        let asked = self.store.dismiss(caller.tenant(), id, now()).await?.ok_or_else(|| AppError::not_found("job", id))?;
+        let asked =
+            self.store.dismiss(caller.tenant(), id, now()).await?.ok_or_else(|| AppError::not_found("job", id))?;
         self.signals.changed();
         let ended = async {
             loop {

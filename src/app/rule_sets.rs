@@ -27,7 +27,12 @@ impl App {
     }
 
     /// Creates; an id in use is a conflict.
-    pub async fn create_rule_set(&self, caller: &Caller, id: &str, draft: RuleSetDraft) -> Result<RuleSetRecord, AppError> {
+    pub async fn create_rule_set(
+        &self,
+        caller: &Caller,
+        id: &str,
+        draft: RuleSetDraft,
+    ) -> Result<RuleSetRecord, AppError> {
         check_id(id)?;
         let checked = draft.check()?;
         let in_use = || AppError::Conflict(format!("there is a rule set {id} already"));

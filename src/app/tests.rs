@@ -12,6 +12,7 @@ use uuid::Uuid;
 use super::*;
 use crate::geojson::Georeference;
 use crate::ingest::MapSource;
+use crate::records::Tenant;
 
 /// A service in its own folder, without job slots: jobs run when a test says so.
 struct Service {
@@ -38,6 +39,10 @@ async fn service_with(change: impl FnOnce(&mut Config)) -> Service {
     Service { app: App::open(config).await.expect("it opens"), _folder: folder }
 }
 
+fn me() -> Caller {
+    Caller::local()
+}
+
 /// A walled hall of this width with one rack across, half a metre a cell.
 fn hall(width: usize) -> NewMap {
     let height = 12;
@@ -61,9 +66,9 @@ fn hall(width: usize) -> NewMap {
 
 /// Uploads and analyses.
 async fn analysed(service: &Service) -> Uuid {
-    let (job, _) = service.create_map(hall(20)).await.expect("accepted");
+    let (job, _) = service.create_map(&me(), hall(20)).await.expect("accepted");
     service.run_until_empty().await.expect("the queue empties");
-    let job = service.job(job.id).await.expect("it is there");
+    let job = service.job(&me(), job.id).await.expect("it is there");
     assert_eq!(job.state, JobState::Successful, "{}", job.message);
     job.map
 }
@@ -71,19 +76,19 @@ async fn analysed(service: &Service) -> Uuid {
 #[tokio::test]
 async fn an_uploaded_map_is_analysed_and_answers() {
     let service = service().await;
-    let (job, is_new) = service.create_map(hall(20)).await.unwrap();
+    let (job, is_new) = service.create_map(&me(), hall(20)).await.unwrap();
     assert!(is_new);
-    let early = service.context(job.map).await;
+    let early = service.context(&me(), job.map).await;
     assert!(matches!(early, Err(AppError::NotAnalysed { job: Some(id), .. }) if id == job.id), "{early:?}");
 
     service.run_until_empty().await.unwrap();
-    let record = service.map(job.map).await.unwrap();
+    let record = service.map(&me(), job.map).await.unwrap();
     assert_eq!((record.width, record.height, record.name.as_str()), (20, 12, "hall 20"));
-    let context = service.context(job.map).await.unwrap();
+    let context = service.context(&me(), job.map).await.unwrap();
     assert_eq!(Some(context.analysis_id), record.analysis);
     assert_eq!((context.grid.width(), context.cells.as_slice().len()), (20, 240));
     assert_eq!(context.semantics.origin, SemanticsOrigin::Suggested);
-    let stages = &service.analyses(job.map).await.unwrap()[0].stages;
+    let stages = &service.analyses(&me(), job.map).await.unwrap()[0].stages;
     assert_eq!(stages.len(), stillage_core::Stage::ALL.len());
     assert_eq!(service.job_counts().await.unwrap()["successful"], 1);
 }
@@ -95,7 +100,7 @@ async fn a_context_is_built_once_for_all_who_ask() {
     let mut readers = tokio::task::JoinSet::new();
     for _ in 0..100 {
         let app = Arc::clone(&service.app);
-        readers.spawn(async move { app.context(map).await.expect("it answers") });
+        readers.spawn(async move { app.context(&me(), map).await.expect("it answers") });
     }
     let contexts = readers.join_all().await;
     assert!(contexts.iter().all(|context| Arc::ptr_eq(context, &contexts[0])));
@@ -105,11 +110,11 @@ async fn a_context_is_built_once_for_all_who_ask() {
 async fn a_decision_changes_the_answer_and_nothing_is_read_again() {
     let service = service().await;
     let map = analysed(&service).await;
-    let before = service.context(map).await.unwrap();
+    let before = service.context(&me(), map).await.unwrap();
     let assignment: Assignment = serde_json::from_value(json!({"assignment": {"0": "co"}})).unwrap();
     let decide = async |rule_set: Option<&str>, if_match| {
         let new = NewSemantics { rule_set: rule_set.map(Into::into), assignment: assignment.clone() };
-        service.put_semantics(map, new, if_match).await
+        service.put_semantics(&me(), map, new, if_match).await
     };
     assert!(matches!(decide(None, None).await, Err(AppError::PreconditionRequired)));
     assert!(matches!(decide(None, Some(3)).await, Err(AppError::PreconditionFailed { current: 0 })));
@@ -121,15 +126,15 @@ async fn a_decision_changes_the_answer_and_nothing_is_read_again() {
 
     let made = decide(None, Some(0)).await.unwrap();
     assert_eq!((made.version, made.rule_set.as_str(), made.origin), (1, "warehouse", SemanticsOrigin::Assigned));
-    let after = service.context(map).await.unwrap();
+    let after = service.context(&me(), map).await.unwrap();
     assert_eq!(after.semantics, made);
     assert!(Arc::ptr_eq(&before.analysis, &after.analysis) && Arc::ptr_eq(&before.grid, &after.grid));
     assert!(matches!(decide(None, Some(0)).await, Err(AppError::PreconditionFailed { current: 1 })));
-    assert_eq!(service.semantics_versions(map).await.unwrap(), [made]);
+    assert_eq!(service.semantics_versions(&me(), map).await.unwrap(), [made]);
 
     let wrong =
         NewSemantics { rule_set: None, assignment: serde_json::from_value(json!({"assignment": {"0": "?"}})).unwrap() };
-    let wrong = service.put_semantics(map, wrong, Some(1)).await;
+    let wrong = service.put_semantics(&me(), map, wrong, Some(1)).await;
     assert!(matches!(&wrong, Err(AppError::Invalid { fields, .. }) if !fields.is_empty()), "{wrong:?}");
 }
 
@@ -138,16 +143,18 @@ async fn other_options_bring_their_own_suggestion_and_the_old_ones_the_old_decis
     let service = service().await;
     let map = analysed(&service).await;
     let new = NewSemantics { rule_set: Some("office".into()), assignment: Assignment::default() };
-    service.put_semantics(map, new, Some(0)).await.unwrap();
+    service.put_semantics(&me(), map, new, Some(0)).await.unwrap();
 
     let options = AnalysisOptions { seed: 9, ..AnalysisOptions::default() };
-    let AnalysisTicket::Job(_) = service.create_analysis(map, options).await.unwrap() else { panic!("it is new") };
+    let AnalysisTicket::Job(_) = service.create_analysis(&me(), map, options).await.unwrap() else {
+        panic!("it is new")
+    };
     service.run_until_empty().await.unwrap();
-    assert_eq!(service.semantics(map).await.unwrap().version, 0);
+    assert_eq!(service.semantics(&me(), map).await.unwrap().version, 0);
 
-    let again = service.create_analysis(map, AnalysisOptions::default()).await.unwrap();
+    let again = service.create_analysis(&me(), map, AnalysisOptions::default()).await.unwrap();
     assert!(matches!(again, AnalysisTicket::Existing(_)));
-    let semantics = service.semantics(map).await.unwrap();
+    let semantics = service.semantics(&me(), map).await.unwrap();
     assert_eq!((semantics.version, semantics.rule_set.as_str()), (1, "office"));
 }
 
@@ -155,95 +162,101 @@ async fn other_options_bring_their_own_suggestion_and_the_old_ones_the_old_decis
 async fn an_idempotency_key_answers_the_same_job() {
     let service = service_with(|config| config.max_queued_jobs = 1).await;
     let with_key = |width| NewMap { idempotency_key: Some("key".into()), ..hall(width) };
-    let (job, is_new) = service.create_map(with_key(20)).await.unwrap();
+    let (job, is_new) = service.create_map(&me(), with_key(20)).await.unwrap();
     assert!(is_new);
-    assert_eq!(service.create_map(with_key(20)).await.unwrap(), (job, false), "even when the queue is full");
-    assert!(matches!(service.create_map(with_key(21)).await, Err(AppError::Invalid { .. })));
-    assert!(matches!(service.create_map(hall(20)).await, Err(AppError::Busy { retry_after_s: 10 })));
-    assert_eq!(service.maps(9, None).await.unwrap().len(), 1);
+    assert_eq!(service.create_map(&me(), with_key(20)).await.unwrap(), (job, false), "even when the queue is full");
+    assert!(matches!(service.create_map(&me(), with_key(21)).await, Err(AppError::Invalid { .. })));
+    assert!(matches!(service.create_map(&me(), hall(20)).await, Err(AppError::Busy { retry_after_s: 10 })));
+    assert_eq!(service.maps(&me(), 9, None).await.unwrap().len(), 1);
 }
 
 #[tokio::test]
 async fn a_map_that_cannot_be_analysed_is_refused_at_once() {
     let service = service_with(|config| config.max_job_bytes = 17_000_000).await;
-    let refused = service.create_map(hall(400)).await.expect_err("240 cells fit, 4,800 do not").to_string();
+    let refused = service.create_map(&me(), hall(400)).await.expect_err("240 cells fit, 4,800 do not").to_string();
     assert!(refused.starts_with("the analysis of 400 x 12 cells needs about "), "{refused}");
     let broken = NewMap { source: MapSource::Message(b"{}".to_vec()), ..hall(20) };
-    assert!(matches!(service.create_map(broken).await, Err(AppError::Ingest(_))));
+    assert!(matches!(service.create_map(&me(), broken).await, Err(AppError::Ingest(_))));
     let mut options = hall(20);
     options.options.categorization.k = CategoryCount::Fixed(0);
-    let refused = service.create_map(options).await;
+    let refused = service.create_map(&me(), options).await;
     assert!(
         matches!(&refused, Err(AppError::Invalid { fields, .. }) if fields[0].pointer == "/options/categorization/k"),
         "{refused:?}"
     );
-    assert_eq!(service.maps(9, None).await.unwrap(), []);
+    assert_eq!(service.maps(&me(), 9, None).await.unwrap(), []);
 }
 
 #[tokio::test]
 async fn without_space_uploads_are_refused_and_reads_go_on() {
     let service = service_with(|config| config.min_free_bytes = u64::MAX).await;
-    assert!(matches!(service.create_map(hall(20)).await, Err(AppError::NoSpace)));
+    assert!(matches!(service.create_map(&me(), hall(20)).await, Err(AppError::NoSpace)));
     assert!(matches!(service.ready().await, Err(AppError::NoSpace)));
-    assert_eq!(service.maps(9, None).await.unwrap(), []);
+    assert_eq!(service.maps(&me(), 9, None).await.unwrap(), []);
 }
 
 #[tokio::test]
 async fn a_map_is_renamed_georeferenced_and_deleted() {
     let service = service().await;
     let map = analysed(&service).await;
-    service.context(map).await.unwrap();
-    let version = service.map(map).await.unwrap().version;
+    service.context(&me(), map).await.unwrap();
+    let version = service.map(&me(), map).await.unwrap().version;
     let patch = |name: &str, lon| MapPatch {
         name: Some(name.into()),
         georeference: Some(Some(Georeference { lon, lat: 56.66, heading: 0.0 })),
     };
     assert!(matches!(
-        service.update_map(map, patch("x", 12.86), Some(99)).await,
+        service.update_map(&me(), map, patch("x", 12.86), Some(99)).await,
         Err(AppError::PreconditionFailed { .. })
     ));
-    assert!(matches!(service.update_map(map, patch("\n", 12.86), None).await, Err(AppError::Invalid { .. })));
-    assert!(matches!(service.update_map(map, patch("x", 181.0), None).await, Err(AppError::Invalid { .. })));
-    let record = service.update_map(map, patch("Halmstad", 12.86), Some(version)).await.unwrap();
+    assert!(matches!(service.update_map(&me(), map, patch("\n", 12.86), None).await, Err(AppError::Invalid { .. })));
+    assert!(matches!(service.update_map(&me(), map, patch("x", 181.0), None).await, Err(AppError::Invalid { .. })));
+    let record = service.update_map(&me(), map, patch("Halmstad", 12.86), Some(version)).await.unwrap();
     assert_eq!((record.name.as_str(), record.version), ("Halmstad", version + 1));
-    assert_eq!(service.context(map).await.unwrap().record, record, "memory follows");
+    assert_eq!(service.context(&me(), map).await.unwrap().record, record, "memory follows");
 
-    service.delete_map(map).await.unwrap();
-    assert!(matches!(service.context(map).await, Err(AppError::NotFound { kind: "map", .. })));
-    assert!(matches!(service.delete_map(map).await, Err(AppError::NotFound { .. })));
-    assert_eq!(service.jobs(JobFilter { limit: 9, ..JobFilter::default() }).await.unwrap(), []);
+    service.delete_map(&me(), map).await.unwrap();
+    assert!(matches!(service.context(&me(), map).await, Err(AppError::NotFound { kind: "map", .. })));
+    assert!(matches!(service.delete_map(&me(), map).await, Err(AppError::NotFound { .. })));
+    assert_eq!(service.jobs(&me(), JobFilter { limit: 9, ..JobFilter::default() }).await.unwrap(), []);
 }
 
 #[tokio::test]
 async fn a_waiting_job_is_dismissed_a_finished_one_is_not() {
     let service = service().await;
-    let (job, _) = service.create_map(hall(20)).await.unwrap();
-    assert_eq!(service.dismiss_job(job.id).await.unwrap().state, JobState::Dismissed);
-    assert!(matches!(service.dismiss_job(job.id).await, Err(AppError::Conflict(_))));
-    assert!(matches!(service.dismiss_job(Uuid::now_v7()).await, Err(AppError::NotFound { kind: "job", .. })));
+    let (job, _) = service.create_map(&me(), hall(20)).await.unwrap();
+    assert_eq!(service.dismiss_job(&me(), job.id).await.unwrap().state, JobState::Dismissed);
+    assert!(matches!(service.dismiss_job(&me(), job.id).await, Err(AppError::Conflict(_))));
+    assert!(matches!(service.dismiss_job(&me(), Uuid::now_v7()).await, Err(AppError::NotFound { kind: "job", .. })));
 }
 
 #[tokio::test]
 async fn rule_sets_are_written_with_care_and_the_built_in_ones_not_at_all() {
     let service = service().await;
     let draft = RuleSet::office().draft().clone();
-    let ids = async || service.rule_sets().await.unwrap().into_iter().map(|record| record.id).collect::<Vec<_>>();
+    let ids = async || service.rule_sets(&me()).await.unwrap().into_iter().map(|record| record.id).collect::<Vec<_>>();
     assert_eq!(ids().await, ["warehouse", "office"]);
     for taken in ["warehouse", "office"] {
-        assert!(matches!(service.create_rule_set(taken, draft.clone()).await, Err(AppError::Conflict(_))));
-        assert!(matches!(service.delete_rule_set(taken, Some(1)).await, Err(AppError::Conflict(_))));
+        assert!(matches!(service.create_rule_set(&me(), taken, draft.clone()).await, Err(AppError::Conflict(_))));
+        assert!(matches!(service.delete_rule_set(&me(), taken, Some(1)).await, Err(AppError::Conflict(_))));
     }
     for odd in ["", "-", "Upper", "a b", "../x"] {
-        assert!(matches!(service.create_rule_set(odd, draft.clone()).await, Err(AppError::Invalid { .. })), "{odd}");
+        assert!(
+            matches!(service.create_rule_set(&me(), odd, draft.clone()).await, Err(AppError::Invalid { .. })),
+            "{odd}"
+        );
     }
-    assert_eq!(service.create_rule_set("clinic", draft.clone()).await.unwrap().version, 1);
-    assert!(matches!(service.create_rule_set("clinic", draft.clone()).await, Err(AppError::Conflict(_))));
-    let put = async |if_match| service.put_rule_set("clinic", draft.clone(), if_match).await;
+    assert_eq!(service.create_rule_set(&me(), "clinic", draft.clone()).await.unwrap().version, 1);
+    assert!(matches!(service.create_rule_set(&me(), "clinic", draft.clone()).await, Err(AppError::Conflict(_))));
+    let put = async |if_match| service.put_rule_set(&me(), "clinic", draft.clone(), if_match).await;
     assert!(matches!(put(None).await, Err(AppError::PreconditionRequired)));
     assert_eq!(put(Some(1)).await.unwrap().version, 2);
     assert!(matches!(put(Some(1)).await, Err(AppError::PreconditionFailed { current: 2 })));
-    assert!(matches!(service.delete_rule_set("clinic", Some(1)).await, Err(AppError::PreconditionFailed { .. })));
-    service.delete_rule_set("clinic", Some(2)).await.unwrap();
+    assert!(matches!(
+        service.delete_rule_set(&me(), "clinic", Some(1)).await,
+        Err(AppError::PreconditionFailed { .. })
+    ));
+    service.delete_rule_set(&me(), "clinic", Some(2)).await.unwrap();
     assert!(matches!(put(Some(2)).await, Err(AppError::NotFound { .. })));
 }
 
@@ -253,19 +266,78 @@ async fn a_stopping_service_is_not_ready() {
     service.ready().await.unwrap();
     service.shutdown().await;
     assert!(matches!(service.ready().await, Err(AppError::Unavailable)));
-    assert!(matches!(service.maps(9, None).await, Err(AppError::Unavailable)), "a closed store is out of reach");
+    assert!(matches!(service.maps(&me(), 9, None).await, Err(AppError::Unavailable)), "a closed store is out of reach");
 }
 
 #[tokio::test]
 async fn questions_about_maps_that_do_not_exist_push_nothing_out() {
     let service = service_with(|config| config.cached_maps = 1).await;
     let map = analysed(&service).await;
-    let context = service.context(map).await.unwrap();
+    let context = service.context(&me(), map).await.unwrap();
     for _ in 0..20 {
-        assert!(service.context(Uuid::now_v7()).await.is_err());
+        assert!(service.context(&me(), Uuid::now_v7()).await.is_err());
     }
-    assert!(Arc::ptr_eq(&context, &service.context(map).await.unwrap()));
+    assert!(Arc::ptr_eq(&context, &service.context(&me(), map).await.unwrap()));
     let other = analysed(&service).await;
-    service.context(other).await.unwrap();
-    assert!(!Arc::ptr_eq(&context, &service.context(map).await.unwrap()), "the one used longest ago went");
+    service.context(&me(), other).await.unwrap();
+    assert!(!Arc::ptr_eq(&context, &service.context(&me(), map).await.unwrap()), "the one used longest ago went");
+}
+
+#[tokio::test]
+async fn what_another_process_changes_is_seen_at_the_next_question() {
+    // Two services on one store, as two processes on one database.
+    let service = service().await;
+    let config = service.config().clone();
+    let other = App::start(config.clone(), Arc::clone(&service.store), Processes::standard(config.limits));
+    let map = analysed(&service).await;
+    let before = other.context(&me(), map).await.unwrap();
+    assert!(Arc::ptr_eq(&before, &other.context(&me(), map).await.unwrap()), "nothing has changed");
+
+    let patch = MapPatch { name: Some("Hall".into()), georeference: None };
+    service.update_map(&me(), map, patch, None).await.unwrap();
+    assert_eq!(other.context(&me(), map).await.unwrap().record.name, "Hall");
+
+    let new = NewSemantics { rule_set: Some("office".into()), assignment: Assignment::default() };
+    service.put_semantics(&me(), map, new, Some(0)).await.unwrap();
+    let decided = other.context(&me(), map).await.unwrap();
+    assert_eq!((decided.semantics.version, decided.semantics.rule_set.as_str()), (1, "office"));
+    assert!(Arc::ptr_eq(&before.analysis, &decided.analysis), "the geometry is not read again");
+
+    let options = AnalysisOptions { seed: 9, ..AnalysisOptions::default() };
+    service.create_analysis(&me(), map, options).await.unwrap();
+    service.run_until_empty().await.unwrap();
+    assert_eq!(other.context(&me(), map).await.unwrap().analysis.options.seed, 9);
+
+    service.delete_map(&me(), map).await.unwrap();
+    assert!(matches!(other.context(&me(), map).await, Err(AppError::NotFound { kind: "map", .. })));
+}
+
+#[tokio::test]
+async fn what_belongs_to_another_caller_is_not_found() {
+    let service = service().await;
+    let (job, _) = service.create_map(&me(), hall(20)).await.unwrap();
+    service.run_until_empty().await.unwrap();
+    service.context(&me(), job.map).await.unwrap();
+    service.create_rule_set(&me(), "clinic", RuleSet::office().draft().clone()).await.unwrap();
+
+    let other = Caller::of(Tenant::new("other"));
+    let not_found = |error: AppError| assert!(matches!(error, AppError::NotFound { .. }), "{error:?}");
+    not_found(service.map(&other, job.map).await.unwrap_err());
+    not_found(service.context(&other, job.map).await.unwrap_err());
+    not_found(service.analyses(&other, job.map).await.unwrap_err());
+    not_found(service.create_analysis(&other, job.map, AnalysisOptions::default()).await.unwrap_err());
+    not_found(service.semantics(&other, job.map).await.unwrap_err());
+    not_found(service.semantics_versions(&other, job.map).await.unwrap_err());
+    let new = NewSemantics { rule_set: None, assignment: Assignment::default() };
+    not_found(service.put_semantics(&other, job.map, new, Some(0)).await.unwrap_err());
+    not_found(service.update_map(&other, job.map, MapPatch::default(), None).await.unwrap_err());
+    not_found(service.delete_map(&other, job.map).await.unwrap_err());
+    not_found(service.job(&other, job.id).await.unwrap_err());
+    not_found(service.dismiss_job(&other, job.id).await.unwrap_err());
+    not_found(service.rule_set(&other, "clinic").await.unwrap_err());
+    not_found(service.delete_rule_set(&other, "clinic", Some(1)).await.unwrap_err());
+    assert_eq!(service.maps(&other, 9, None).await.unwrap(), []);
+    assert_eq!(service.jobs(&other, JobFilter { limit: 9, ..JobFilter::default() }).await.unwrap(), []);
+    assert_eq!(service.rule_sets(&other).await.unwrap().len(), 2, "the built-in ones");
+    service.context(&me(), job.map).await.expect("for its owner it is there");
 }

@@ -9,7 +9,7 @@ use tokio::net::TcpListener;
 use uuid::Uuid;
 
 use super::Failure;
-use crate::app::{App, AppError, JobRecord, JobState, MapContext, NewMap};
+use crate::app::{App, AppError, Caller, JobRecord, JobState, MapContext, NewMap};
 use crate::config::Config;
 use crate::ingest::MapSource;
 use crate::server;
@@ -78,24 +78,25 @@ async fn show(app: &App, base: &str) -> Result<(), Failure> {
         georeference: None,
         idempotency_key: None,
     };
-    let (job, _) = app.create_map(map).await.map_err(Failure::internal)?;
-    let job = wait(app, job.id).await.map_err(Failure::internal)?;
+    let caller = Caller::local();
+    let (job, _) = app.create_map(&caller, map).await.map_err(Failure::internal)?;
+    let job = wait(app, &caller, job.id).await.map_err(Failure::internal)?;
     if job.state != JobState::Successful {
         return Err(Failure::Internal(format!("the job ended {:?}: {}", job.state, job.message)));
     }
-    let context = app.context(job.map).await.map_err(Failure::internal)?;
+    let context = app.context(&caller, job.map).await.map_err(Failure::internal)?;
     print!("{}{}", summary(&context, &job), places_to_look(base, job.map));
     Ok(())
 }
 
 /// Follows a job to its end with a progress bar on stderr.
-async fn wait(app: &App, id: Uuid) -> Result<JobRecord, AppError> {
+async fn wait(app: &App, caller: &Caller, id: Uuid) -> Result<JobRecord, AppError> {
     let style = ProgressStyle::with_template("{msg:<16} {bar:40} {percent:>3} %");
     let bar = ProgressBar::new(100).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
     let mut changes = app.job_changes();
     loop {
         changes.mark_unchanged();
-        let job = app.job(id).await?;
+        let job = app.job(caller, id).await?;
         bar.set_position(u64::from(job.progress));
         bar.set_message(job.stage.clone().unwrap_or_default());
         if job.state.is_final() {

@@ -37,7 +37,8 @@ impl ComputePool {
             // What a panic leaves behind is dropped with the task; the clock is only read.
             let process = task.process.description().id.to_owned();
             let result = catch_unwind(AssertUnwindSafe(|| task.run()));
-            let panicked = |panic: Box<dyn Any + Send>| ComputeError::Panicked { process, panic: panic_message(&*panic) };
+            let panicked =
+                |panic: Box<dyn Any + Send>| ComputeError::Panicked { process, panic: panic_message(&*panic) };
             // The receiver is gone only when the result is not wanted any more.
             let _ = sender.send(result.unwrap_or_else(|panic| Err(panicked(panic))));
         });

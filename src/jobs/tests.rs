@@ -5,15 +5,17 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
 use stillage_core::watch::Stage;
-use stillage_core::{AnalysisSpec, Watch};
+use stillage_core::{AnalysisOptions, Watch};
 use uuid::Uuid;
 
+use super::processes::{ComputeError, Process, ProcessDescription, Processes, Work};
 use super::*;
 use crate::config::Config;
 use crate::ingest::{IngestError, MapSource, Refusal};
 use crate::records::{JobRecord, JobState};
-use crate::store::tests::{Fixture, upload};
-use crate::store::{Blob, Store, now};
+use crate::store::contract::{Fixture, PROCESS, TERMS, local, upload};
+use crate::store::queue::JobResult;
+use crate::store::{Blob, NewAnalysis, Store, now};
 
 /// Obeys the text of the upload: `fine`, `bad map`, `panic`, or `endless` until it is stopped.
 #[derive(Debug, Default)]
@@ -21,9 +23,13 @@ struct Script {
     begun: AtomicUsize,
 }
 
-impl Compute for Script {
-    fn compute(&self, source: &MapSource, _: &AnalysisSpec, watch: &Watch<'_>) -> Result<Computed, ComputeError> {
-        let MapSource::Message(text) = source else { panic!("tests upload messages") };
+impl Process for Script {
+    fn description(&self) -> &ProcessDescription {
+        &ProcessDescription { id: PROCESS, title: "Test", description: "", version: 1, inputs: &[], outputs: &[] }
+    }
+
+    fn compute(&self, work: &Work<'_>, watch: &Watch<'_>) -> Result<JobResult, ComputeError> {
+        let MapSource::Message(text) = work.source else { panic!("tests upload messages") };
         self.begun.fetch_add(1, Ordering::Relaxed);
         assert!(rayon::current_thread_index().is_some(), "on a compute thread");
         watch.progress(Stage::Features, 0.5);
@@ -38,33 +44,41 @@ impl Compute for Script {
                 watch.check()?;
                 std::thread::sleep(Duration::from_millis(5));
             },
-            _ => Ok(Computed { analysis: Blob::new(text.clone()), diagnostics: Vec::new() }),
+            _ => {
+                let options = AnalysisOptions::default();
+                let analysis = NewAnalysis { id: Uuid::now_v7(), options, diagnostics: Vec::new() };
+                Ok(JobResult::Analysis(analysis, Blob::new(text.clone())))
+            }
         }
     }
 }
 
 struct Service {
-    store: Arc<Store>,
+    store: Arc<dyn Store>,
     worker: Arc<Worker>,
     signals: Arc<Signals>,
     script: Arc<Script>,
 }
 
-/// A worker with this many slots.
+/// A worker with this many slots, which knows the scripted process.
 async fn service(fixture: &Fixture, job_slots: usize) -> Service {
+    let script = Arc::new(Script::default());
+    let processes = Processes::new([Arc::clone(&script) as Arc<dyn Process>]);
+    service_of(fixture, job_slots, script, processes).await
+}
+
+async fn service_of(fixture: &Fixture, job_slots: usize, script: Arc<Script>, processes: Processes) -> Service {
     let config =
         Config { job_slots, compute_threads: 2, heartbeat: Duration::from_millis(50), ..fixture.config.clone() };
-    let store = Arc::new(fixture.open().await);
-    let signals = Arc::new(Signals::new(|_| {}));
-    let script = Arc::new(Script::default());
-    let compute = Arc::clone(&script) as Arc<dyn Compute>;
-    let worker = Worker::start(&config, Arc::clone(&store), compute, Arc::clone(&signals));
+    let store: Arc<dyn Store> = fixture.open().await;
+    let signals = Arc::new(Signals::default());
+    let worker = Worker::start(&config, Arc::clone(&store), processes, Arc::clone(&signals));
     Service { store, worker, signals, script }
 }
 
 impl Service {
     async fn job(&self, id: Uuid) -> JobRecord {
-        self.store.job(id).await.unwrap().expect("the job is there")
+        self.store.job(&local(), id).await.unwrap().expect("the job is there")
     }
 
     /// Waits for a job to be as wanted, woken by the signal that clients get.
@@ -91,7 +105,7 @@ async fn a_job_runs_to_its_end() {
     service.worker.run_until_empty().await.unwrap();
     let job = service.job(job.id).await;
     assert_eq!((job.state, job.progress, job.attempt), (JobState::Successful, 100, 1));
-    assert_eq!(service.store.map(job.map).await.unwrap().unwrap().analysis, job.analysis);
+    assert_eq!(service.store.map(&local(), job.map).await.unwrap().unwrap().analysis, job.analysis());
     assert!(job.started.is_some() && job.finished.is_some());
 }
 
@@ -105,7 +119,7 @@ async fn a_panic_is_the_failure_of_its_job_and_of_nothing_else() {
     assert_eq!((broken.state, broken.attempt), (JobState::Failed, 1), "not tried again");
     assert_eq!(
         broken.message,
-        "the analysis hit a defect of the program (index out of bounds); other jobs are not affected"
+        "the process test hit a defect of the program (index out of bounds); other jobs are not affected"
     );
     assert_eq!(service.job(fine.id).await.state, JobState::Successful);
 }
@@ -122,11 +136,23 @@ async fn a_bad_map_fails_at_once() {
 }
 
 #[tokio::test]
+async fn a_job_of_an_unknown_process_fails_at_once() {
+    let fixture = Fixture::new();
+    let processes = Processes::standard(fixture.config.limits);
+    let service = service_of(&fixture, 0, Arc::default(), processes).await;
+    let job = upload(&service.store, "fine").await;
+    service.worker.run_until_empty().await.unwrap();
+    let job = service.job(job.id).await;
+    assert_eq!((job.state, job.attempt), (JobState::Failed, 1));
+    assert_eq!(job.message, "there is no process test: this release has semantic-map");
+}
+
+#[tokio::test]
 async fn a_damaged_upload_is_never_computed_on() {
     let fixture = Fixture::new();
     let service = service(&fixture, 0).await;
     let job = upload(&service.store, "fine").await;
-    let source = service.store.map_source(job.map).await.unwrap().unwrap();
+    let source = service.store.map_source(&local(), job.map).await.unwrap().unwrap();
     let file = fixture.config.data.join("blobs").join(&source.as_str()[..2]).join(source.as_str());
     std::fs::write(file, "something else").unwrap();
     service.worker.run_until_empty().await.unwrap();
@@ -144,7 +170,7 @@ async fn a_running_job_is_cancelled_within_a_second() {
     service.signals.queued();
     service.wait_for(job.id, |job| job.progress == 40).await;
     let begun = Instant::now();
-    service.store.dismiss(job.id, now()).await.unwrap();
+    service.store.dismiss(&local(), job.id, now()).await.unwrap();
     service.wait_for(job.id, |job| job.state == JobState::Dismissed).await;
     assert!(begun.elapsed() < Duration::from_secs(1), "{:?}", begun.elapsed());
 
@@ -160,7 +186,7 @@ async fn a_job_of_a_deleted_map_stops() {
     let job = upload(&service.store, "endless").await;
     service.signals.queued();
     service.wait_for(job.id, |job| job.state == JobState::Running).await;
-    service.store.delete_map(job.map).await.unwrap();
+    service.store.delete_map(&local(), job.map).await.unwrap();
     let next = upload(&service.store, "fine").await;
     service.signals.queued();
     service.wait_for(next.id, |job| job.state == JobState::Successful).await;
@@ -208,8 +234,7 @@ async fn a_fault_of_the_disk_is_tried_again_later() {
 
     std::fs::remove_file(&folder).unwrap();
     let due = now() + jiff::SignedDuration::from_secs(7);
-    let terms = crate::store::tests::TERMS;
-    let again = service.store.claim(&terms, due).await.unwrap().expect("it is due within seven seconds");
+    let again = service.store.claim(&TERMS, due).await.unwrap().expect("it is due within seven seconds");
     assert_eq!((again.job, again.attempt), (job.id, 2));
 }
 

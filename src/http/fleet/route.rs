@@ -12,7 +12,7 @@ use stillage_core::arrangement::FaceId;
 use stillage_core::routing::{self, RoutingMap, Waypoint};
 use utoipa::{IntoParams, ToSchema};
 
-use crate::app::{App, MapContext};
+use crate::app::{App, Caller, MapContext};
 use crate::geojson::{Geometry, Transform};
 use crate::http::extract::crs::CrsName;
 use crate::http::extract::{MapPath, Path, Query};
@@ -122,10 +122,11 @@ pub struct RouteProperties {
         headers(("Content-Crs" = String, description = "System of the coordinates")))))]
 pub async fn get(
     State(app): State<Arc<App>>,
+    caller: Caller,
     Path(path): Path<MapPath>,
     Query(query): Query<RouteQuery>,
 ) -> Result<Response, Problem> {
-    let context = app.context(path.map_id.0).await?;
+    let context = app.context(&caller, path.map_id.0).await?;
     off_the_runtime(move || {
         let transform = Transform::new(query.crs.0, context.record.georeference);
         let [from, to] = [&query.from, &query.to].map(|end| end.waypoint(&context, &transform));

@@ -13,7 +13,7 @@ use stillage_core::AnalysisOptions;
 use stillage_core::declutter::Removed;
 use utoipa::ToSchema;
 
-use crate::app::{AnalysisRecord, AnalysisTicket, App, MapContext};
+use crate::app::{AnalysisRecord, AnalysisTicket, App, Caller, MapContext};
 use crate::http::extract::conditional::{EntityTag, IfNoneMatch};
 use crate::http::extract::{Id, JsonBody, MapPath, Path};
 use crate::http::links::{Base, JSON, Link};
@@ -67,10 +67,11 @@ pub struct AnalysisList {
     responses((status = 200, description = "The analyses", body = AnalysisList)))]
 pub async fn list(
     State(app): State<Arc<App>>,
+    caller: Caller,
     base: Base,
     Path(path): Path<MapPath>,
 ) -> Result<Json<AnalysisList>, Problem> {
-    let analyses = app.analyses(path.map_id.0).await?.into_iter().map(Into::into).collect();
+    let analyses = app.analyses(&caller, path.map_id.0).await?.into_iter().map(Into::into).collect();
     let links = vec![base.link("self", &format!("/v1/maps/{}/analyses", path.map_id), JSON)];
     Ok(Json(AnalysisList { analyses, links }))
 }
@@ -88,11 +89,12 @@ pub async fn list(
             content_type = "application/problem+json")))]
 pub async fn create(
     State(app): State<Arc<App>>,
+    caller: Caller,
     base: Base,
     Path(path): Path<MapPath>,
     JsonBody(options): JsonBody<AnalysisOptions>,
 ) -> Result<Response, Problem> {
-    let ticket = app.create_analysis(path.map_id.0, options).await;
+    let ticket = app.create_analysis(&caller, path.map_id.0, options).await;
     // The use case names the options as a part of an upload; here they are the whole body.
     let in_body = |pointer: &str| pointer.strip_prefix("/options").unwrap_or(pointer).to_owned();
     Ok(match ticket.map_err(|error| Problem::from(error).map_pointers(in_body))? {
@@ -204,11 +206,12 @@ pub struct RadiogramView {
         headers(("ETag" = String, description = "Changes with the analysis")))))]
 pub async fn diagnostics(
     State(app): State<Arc<App>>,
+    caller: Caller,
     Path(path): Path<MapPath>,
     if_none_match: IfNoneMatch,
 ) -> Result<Response, Problem> {
-    let context = app.context(path.map_id.0).await?;
-    let records = app.analyses(path.map_id.0).await?;
+    let context = app.context(&caller, path.map_id.0).await?;
+    let records = app.analyses(&caller, path.map_id.0).await?;
     let record = records.iter().find(|record| record.id == context.analysis_id);
     let stages = record.map(|record| record.stages.iter().map(Into::into).collect()).unwrap_or_default();
     let tag = EntityTag::of_content(&["diagnostics", &context.analysis_id.to_string()]);

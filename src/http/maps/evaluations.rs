@@ -9,7 +9,7 @@ use serde::Serialize;
 use stillage_core::evaluation::{Evaluation, GeometryScores, LabelScores, OccupancyScores, PlaceScores};
 use utoipa::ToSchema;
 
-use crate::app::{App, AppError};
+use crate::app::{App, AppError, Caller};
 use crate::http::extract::{JsonBody, MapPath, Path};
 use crate::http::problem::Problem;
 use crate::ingest;
@@ -261,10 +261,11 @@ pub struct TruthProperties {
     responses((status = 200, description = "The figures", body = EvaluationView)))]
 pub async fn create(
     State(app): State<Arc<App>>,
+    caller: Caller,
     Path(path): Path<MapPath>,
     JsonBody(document): JsonBody<serde_json::Value>,
 ) -> Result<Json<EvaluationView>, Problem> {
     let truth = ingest::ground_truth(&document).map_err(AppError::from)?;
-    let evaluation = app.evaluate(path.map_id.0, truth).await?;
+    let evaluation = app.evaluate(&caller, path.map_id.0, truth).await?;
     Ok(Json(EvaluationView::from(&evaluation)))
 }

@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 use utoipa::{IntoParams, ToSchema};
 
 use super::{pictures, upload};
-use crate::app::{App, MapPatch, MapRecord};
+use crate::app::{App, Caller, MapPatch, MapRecord};
 use crate::http::extract::conditional::{EntityTag, IfMatch, IfNoneMatch};
 use crate::http::extract::{Id, JsonBody, MapPath, Name, Paging, Path, Query, present};
 use crate::http::links::{Base, JSON, Link, PNG};
@@ -125,12 +125,13 @@ pub struct UploadQuery {
             content_type = "application/problem+json")))]
 pub async fn create(
     State(app): State<Arc<App>>,
+    caller: Caller,
     base: Base,
     Query(query): Query<UploadQuery>,
     request: Request,
 ) -> Result<Response, Problem> {
     let map = upload::read(request, &app, query.name, &app.config().limits).await?;
-    let (job, is_new) = app.create_map(map).await?;
+    let (job, is_new) = app.create_map(&caller, map).await?;
     let mut response = JobView::accepted(&base, job);
     if !is_new {
         response.headers_mut().insert("idempotent-replayed", HeaderValue::from_static("true"));
@@ -144,9 +145,14 @@ pub async fn create(
 #[utoipa::path(get, path = "/v1/maps", tag = "maps", operation_id = "listMaps", params(Paging),
     responses((status = 200, description = "A page of maps", body = MapList,
         headers(("Link" = Option<String>, description = "The next page")))))]
-pub async fn list(State(app): State<Arc<App>>, base: Base, Query(paging): Query<Paging>) -> Result<Response, Problem> {
+pub async fn list(
+    State(app): State<Arc<App>>,
+    caller: Caller,
+    base: Base,
+    Query(paging): Query<Paging>,
+) -> Result<Response, Problem> {
     let limit = paging.limit.0;
-    let (maps, more) = cut(app.maps(limit + 1, paging.after.map(|id| id.0)).await?, limit);
+    let (maps, more) = cut(app.maps(&caller, limit + 1, paging.after.map(|id| id.0)).await?, limit);
     let next = maps.last().filter(|_| more).map(|last| format!("/v1/maps?limit={limit}&after={}", last.id));
     let next = next.map(|path| base.link("next", &path, JSON));
     let headers: axum::http::HeaderMap = next.iter().map(|link| (header::LINK, link.header())).collect();
@@ -163,11 +169,12 @@ pub async fn list(State(app): State<Arc<App>>, base: Base, Query(paging): Query<
         headers(("ETag" = String, description = "Its version")))))]
 pub async fn get(
     State(app): State<Arc<App>>,
+    caller: Caller,
     base: Base,
     Path(path): Path<MapPath>,
     if_none_match: IfNoneMatch,
 ) -> Result<Response, Problem> {
-    let map = app.map(path.map_id.0).await?;
+    let map = app.map(&caller, path.map_id.0).await?;
     Ok(EntityTag::of_version(map.version).answer(&if_none_match, || Json(MapView::new(&base, map)).into_response()))
 }
 
@@ -194,6 +201,7 @@ pub struct MapPatchBody {
         headers(("ETag" = String, description = "Its version")))))]
 pub async fn update(
     State(app): State<Arc<App>>,
+    caller: Caller,
     base: Base,
     Path(path): Path<MapPath>,
     if_match: IfMatch,
@@ -205,10 +213,10 @@ pub async fn update(
         Some(None) => Some(None),
         None => None,
     };
-    let version = app.map(id).await?.version;
+    let version = app.map(&caller, id).await?.version;
     let if_match = if_match.against(&EntityTag::of_version(version), version)?;
     let patch = MapPatch { name: body.name.map(|name| name.0), georeference };
-    let map = app.update_map(id, patch, if_match).await?;
+    let map = app.update_map(&caller, id, patch, if_match).await?;
     let tag = [(header::ETAG, EntityTag::of_version(map.version).header())];
     Ok((tag, Json(MapView::new(&base, map))).into_response())
 }
@@ -218,8 +226,12 @@ pub async fn update(
 /// Dismisses its jobs and deletes everything of it.
 #[utoipa::path(delete, path = "/v1/maps/{mapId}", tag = "maps", operation_id = "deleteMap", params(MapPath),
     responses((status = 204, description = "Deleted")))]
-pub async fn delete(State(app): State<Arc<App>>, Path(path): Path<MapPath>) -> Result<StatusCode, Problem> {
-    app.delete_map(path.map_id.0).await?;
+pub async fn delete(
+    State(app): State<Arc<App>>,
+    caller: Caller,
+    Path(path): Path<MapPath>,
+) -> Result<StatusCode, Problem> {
+    app.delete_map(&caller, path.map_id.0).await?;
     Ok(StatusCode::NO_CONTENT)
 }
 

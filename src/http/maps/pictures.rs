@@ -6,7 +6,7 @@ use axum::extract::State;
 use axum::http::header;
 use axum::response::{IntoResponse, Response};
 
-use crate::app::{App, MapContext};
+use crate::app::{App, Caller, MapContext};
 use crate::http::extract::conditional::IfNoneMatch;
 use crate::http::extract::{Id, MapPath, Path};
 use crate::http::links::PNG;
@@ -25,12 +25,13 @@ pub const NAMES: [(&str, &str); 4] = [
 /// Draws a picture of an analysed map, unless the client has it.
 async fn picture(
     app: Arc<App>,
+    caller: Caller,
     map: Id,
     if_none_match: IfNoneMatch,
     name: &'static str,
     draw: fn(&MapContext) -> Vec<u8>,
 ) -> Result<Response, Problem> {
-    let context = app.context(map.0).await?;
+    let context = app.context(&caller, map.0).await?;
     off_the_runtime(move || {
         let answer = || ([(header::CONTENT_TYPE, PNG)], draw(&context)).into_response();
         Ok(tag(name, &context).answer(&if_none_match, answer))
@@ -46,10 +47,11 @@ async fn picture(
         headers(("ETag" = String, description = "Changes with the picture")))))]
 pub async fn image(
     State(app): State<Arc<App>>,
+    caller: Caller,
     Path(path): Path<MapPath>,
     if_none_match: IfNoneMatch,
 ) -> Result<Response, Problem> {
-    picture(app, path.map_id, if_none_match, "image.png", |context| render::image(&context.grid)).await
+    picture(app, caller, path.map_id, if_none_match, "image.png", |context| render::image(&context.grid)).await
 }
 
 /// The categories
@@ -61,10 +63,12 @@ pub async fn image(
         headers(("ETag" = String, description = "Changes with the picture")))))]
 pub async fn categories(
     State(app): State<Arc<App>>,
+    caller: Caller,
     Path(path): Path<MapPath>,
     if_none_match: IfNoneMatch,
 ) -> Result<Response, Problem> {
-    picture(app, path.map_id, if_none_match, "categories.png", |context| render::categories(&context.analysis)).await
+    picture(app, caller, path.map_id, if_none_match, "categories.png", |context| render::categories(&context.analysis))
+        .await
 }
 
 /// The regions
@@ -76,11 +80,12 @@ pub async fn categories(
         headers(("ETag" = String, description = "Changes with the picture")))))]
 pub async fn regions(
     State(app): State<Arc<App>>,
+    caller: Caller,
     Path(path): Path<MapPath>,
     if_none_match: IfNoneMatch,
 ) -> Result<Response, Problem> {
     let draw = |context: &MapContext| render::regions(&context.analysis, &context.grid);
-    picture(app, path.map_id, if_none_match, "regions.png", draw).await
+    picture(app, caller, path.map_id, if_none_match, "regions.png", draw).await
 }
 
 /// The semantic map
@@ -92,10 +97,11 @@ pub async fn regions(
         headers(("ETag" = String, description = "Changes with the picture")))))]
 pub async fn semantic(
     State(app): State<Arc<App>>,
+    caller: Caller,
     Path(path): Path<MapPath>,
     if_none_match: IfNoneMatch,
 ) -> Result<Response, Problem> {
     let draw =
         |context: &MapContext| render::semantic(&context.grid, &context.cells, &context.analysis, &context.semantic);
-    picture(app, path.map_id, if_none_match, "semantic.png", draw).await
+    picture(app, caller, path.map_id, if_none_match, "semantic.png", draw).await
 }

@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 use stillage_core::semantics::{Cogency, CogencyRule, Functionality, Label, RuleSetDraft};
 use utoipa::{IntoParams, ToSchema};
 
-use crate::app::{App, RuleSetRecord};
+use crate::app::{App, Caller, RuleSetRecord};
 use crate::http::extract::conditional::{EntityTag, IfMatch, IfNoneMatch};
 use crate::http::extract::{JsonBody, Path};
 use crate::http::links::{Base, JSON, Link};
@@ -193,8 +193,8 @@ pub struct RuleSetPath {
 /// Built in: `warehouse` (Table II of the paper) and `office` (Table IV).
 #[utoipa::path(get, path = "/v1/rule-sets", tag = "semantics", operation_id = "listRuleSets",
     responses((status = 200, description = "The rule sets", body = RuleSetList)))]
-pub async fn list(State(app): State<Arc<App>>, base: Base) -> Result<Json<RuleSetList>, Problem> {
-    let rule_sets = app.rule_sets().await?.into_iter().map(|record| RuleSetView::new(&base, record)).collect();
+pub async fn list(State(app): State<Arc<App>>, caller: Caller, base: Base) -> Result<Json<RuleSetList>, Problem> {
+    let rule_sets = app.rule_sets(&caller).await?.into_iter().map(|record| RuleSetView::new(&base, record)).collect();
     Ok(Json(RuleSetList { rule_sets, links: vec![base.link("self", "/v1/rule-sets", JSON)] }))
 }
 
@@ -208,13 +208,14 @@ pub async fn list(State(app): State<Arc<App>>, base: Base) -> Result<Json<RuleSe
             content_type = "application/problem+json")))]
 pub async fn create(
     State(app): State<Arc<App>>,
+    caller: Caller,
     base: Base,
     JsonBody(body): JsonBody<RuleSetBody>,
 ) -> Result<Response, Problem> {
     let id = body.id.clone().filter(|id| is_rule_set_id(id)).ok_or_else(|| {
         Problem::invalid("/id", "must have 1 to 64 lower-case letters, digits and hyphens, and not begin with a hyphen")
     })?;
-    let record = app.create_rule_set(&id, body.into_draft()).await?;
+    let record = app.create_rule_set(&caller, &id, body.into_draft()).await?;
     let location = [(header::LOCATION, format!("/v1/rule-sets/{id}"))];
     Ok((StatusCode::CREATED, location, RuleSetView::answer(&base, record)).into_response())
 }
@@ -231,17 +232,18 @@ fn is_rule_set_id(id: &str) -> bool {
         headers(("ETag" = String, description = "Changes with the rule set")))))]
 pub async fn get(
     State(app): State<Arc<App>>,
+    caller: Caller,
     base: Base,
     Path(path): Path<RuleSetPath>,
     if_none_match: IfNoneMatch,
 ) -> Result<Response, Problem> {
-    let record = app.rule_set(&path.rule_set_id).await?;
+    let record = app.rule_set(&caller, &path.rule_set_id).await?;
     Ok(tag(&record).answer(&if_none_match, || Json(RuleSetView::new(&base, record)).into_response()))
 }
 
 /// The rule set that a write is meant for, once it may be written.
-async fn writable(app: &App, id: &str) -> Result<RuleSetRecord, Problem> {
-    let record = app.rule_set(id).await?;
+async fn writable(app: &App, caller: &Caller, id: &str) -> Result<RuleSetRecord, Problem> {
+    let record = app.rule_set(caller, id).await?;
     if record.built_in {
         let detail = format!("rule set {id} is built in: create one of your own instead");
         return Err(Problem::new(ProblemType::ReadOnly, detail));
@@ -261,17 +263,18 @@ async fn writable(app: &App, id: &str) -> Result<RuleSetRecord, Problem> {
             content_type = "application/problem+json")))]
 pub async fn replace(
     State(app): State<Arc<App>>,
+    caller: Caller,
     base: Base,
     Path(path): Path<RuleSetPath>,
     if_match: IfMatch,
     JsonBody(body): JsonBody<RuleSetBody>,
 ) -> Result<Response, Problem> {
-    let current = writable(&app, &path.rule_set_id).await?;
+    let current = writable(&app, &caller, &path.rule_set_id).await?;
     if body.id.as_ref().is_some_and(|id| *id != path.rule_set_id) {
         return Err(Problem::invalid("/id", format!("differs from the id of the address, {}", path.rule_set_id)));
     }
     let if_match = if_match.against(&tag(&current), current.version)?;
-    let record = app.put_rule_set(&path.rule_set_id, body.into_draft(), if_match).await?;
+    let record = app.put_rule_set(&caller, &path.rule_set_id, body.into_draft(), if_match).await?;
     Ok(RuleSetView::answer(&base, record))
 }
 
@@ -285,12 +288,13 @@ pub async fn replace(
             content_type = "application/problem+json")))]
 pub async fn delete(
     State(app): State<Arc<App>>,
+    caller: Caller,
     Path(path): Path<RuleSetPath>,
     if_match: IfMatch,
 ) -> Result<StatusCode, Problem> {
-    let current = writable(&app, &path.rule_set_id).await?;
+    let current = writable(&app, &caller, &path.rule_set_id).await?;
     let if_match = if_match.against(&tag(&current), current.version)?;
-    app.delete_rule_set(&path.rule_set_id, if_match).await?;
+    app.delete_rule_set(&caller, &path.rule_set_id, if_match).await?;
     Ok(StatusCode::NO_CONTENT)
 }
 

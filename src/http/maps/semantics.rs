@@ -15,7 +15,7 @@ use stillage_core::spec::AnnotationMethod;
 use utoipa::ToSchema;
 use uuid::Uuid;
 
-use crate::app::{App, MapContext, NewSemantics, SemanticsOrigin, SemanticsRecord};
+use crate::app::{App, Caller, MapContext, NewSemantics, SemanticsOrigin, SemanticsRecord};
 use crate::http::extract::conditional::{EntityTag, IfMatch, IfNoneMatch};
 use crate::http::extract::{JsonBody, MapPath, Path, pointer_step};
 use crate::http::links::{Base, JSON, Link};
@@ -105,11 +105,12 @@ pub struct CategoryList {
         headers(("ETag" = String, description = "Changes with the analysis and the labels")))))]
 pub async fn categories(
     State(app): State<Arc<App>>,
+    caller: Caller,
     base: Base,
     Path(path): Path<MapPath>,
     if_none_match: IfNoneMatch,
 ) -> Result<Response, Problem> {
-    let context = app.context(path.map_id.0).await?;
+    let context = app.context(&caller, path.map_id.0).await?;
     let version = context.semantics.version.to_string();
     let tag = EntityTag::of_content(&["categories", &context.analysis_id.to_string(), &version]);
     Ok(tag.answer(&if_none_match, || {
@@ -283,10 +284,11 @@ impl SemanticsBody {
         headers(("ETag" = String, description = "Changes with them")))))]
 pub async fn get(
     State(app): State<Arc<App>>,
+    caller: Caller,
     Path(path): Path<MapPath>,
     if_none_match: IfNoneMatch,
 ) -> Result<Response, Problem> {
-    let context = app.context(path.map_id.0).await?;
+    let context = app.context(&caller, path.map_id.0).await?;
     let answer = || Json(SemanticsView::from(context.semantics.clone())).into_response();
     Ok(tag(context.analysis_id, &context.semantics).answer(&if_none_match, answer))
 }
@@ -304,6 +306,7 @@ pub async fn get(
             content_type = "application/problem+json")))]
 pub async fn assign(
     State(app): State<Arc<App>>,
+    caller: Caller,
     Path(path): Path<MapPath>,
     if_match: IfMatch,
     JsonBody(body): JsonBody<SemanticsBody>,
@@ -311,9 +314,9 @@ pub async fn assign(
     let map = path.map_id.0;
     let faces: Vec<u32> = body.overrides.iter().map(|entry| entry.face).collect();
     let new = NewSemantics { rule_set: body.rule_set.clone(), assignment: body.into_assignment()? };
-    let context = app.context(map).await?;
+    let context = app.context(&caller, map).await?;
     let if_match = if_match.against(&tag(context.analysis_id, &context.semantics), context.semantics.version)?;
-    let record = app.put_semantics(map, new, if_match).await;
+    let record = app.put_semantics(&caller, map, new, if_match).await;
     let record = record.map_err(|error| Problem::from(error).map_pointers(|pointer| list_pointer(pointer, &faces)))?;
     let headers = [(header::ETAG, tag(context.analysis_id, &record).header())];
     Ok((headers, Json(SemanticsView::from(record))).into_response())
@@ -344,10 +347,11 @@ pub struct SemanticsHistory {
     responses((status = 200, description = "The versions", body = SemanticsHistory)))]
 pub async fn versions(
     State(app): State<Arc<App>>,
+    caller: Caller,
     base: Base,
     Path(path): Path<MapPath>,
 ) -> Result<Json<SemanticsHistory>, Problem> {
-    let versions = app.semantics_versions(path.map_id.0).await?.into_iter().map(Into::into).collect();
+    let versions = app.semantics_versions(&caller, path.map_id.0).await?.into_iter().map(Into::into).collect();
     let links = vec![
         base.link("self", &format!("/v1/maps/{}/semantics/versions", path.map_id), JSON),
         base.link("latest-version", &format!("/v1/maps/{}/semantics", path.map_id), JSON),

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use stillage_core::Point;
 use utoipa::{IntoParams, ToSchema};
 
-use crate::app::{App, MapContext};
+use crate::app::{App, Caller, MapContext};
 use crate::geojson::{Collection, Crs, Transform};
 use crate::http::extract::conditional::{EntityTag, IfNoneMatch};
 use crate::http::extract::crs::{CRS84, EPSG_3857};
@@ -191,11 +191,12 @@ pub async fn off_the_runtime<T: Send + 'static>(
         headers(("ETag" = String, description = "Changes with the map, its analysis and its labels")))))]
 pub async fn list(
     State(app): State<Arc<App>>,
+    caller: Caller,
     base: Base,
     Path(path): Path<MapPath>,
     if_none_match: IfNoneMatch,
 ) -> Result<Response, Problem> {
-    let context = app.context(path.map_id.0).await?;
+    let context = app.context(&caller, path.map_id.0).await?;
     off_the_runtime(move || {
         Ok(tag("collections", &context).answer(&if_none_match, || {
             let collections = Collection::ALL.map(|collection| CollectionView::new(&base, &context, collection));
@@ -216,11 +217,12 @@ pub async fn list(
         headers(("ETag" = String, description = "Changes with the map, its analysis and its labels")))))]
 pub async fn get(
     State(app): State<Arc<App>>,
+    caller: Caller,
     base: Base,
     Path(path): Path<CollectionPath>,
     if_none_match: IfNoneMatch,
 ) -> Result<Response, Problem> {
-    let context = app.context(path.map_id.0).await?;
+    let context = app.context(&caller, path.map_id.0).await?;
     off_the_runtime(move || {
         let answer = || Json(CollectionView::new(&base, &context, path.collection_id.0)).into_response();
         Ok(tag("collection", &context).answer(&if_none_match, answer))

@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use utoipa::{IntoParams, ToSchema};
 
-use crate::app::{App, MapContext};
+use crate::app::{App, Caller, MapContext};
 use crate::geojson::{Collection, Feature, FeatureId, MapView, Transform, locations_csv};
 use crate::http::extract::conditional::IfNoneMatch;
 use crate::http::extract::crs::CrsName;
@@ -126,6 +126,7 @@ pub enum FeatureIdView {
             ("Link" = Option<String>, description = "The next page")))))]
 pub async fn list(
     State(app): State<Arc<App>>,
+    caller: Caller,
     base: Base,
     Path(path): Path<CollectionPath>,
     Query(query): Query<ItemsQuery>,
@@ -141,7 +142,7 @@ pub async fn list(
         None if collection == Collection::Locations && accept.prefers(CSV, GEO_JSON) => Format::Csv,
         None => Format::Json,
     };
-    let context = app.context(path.map_id.0).await?;
+    let context = app.context(&caller, path.map_id.0).await?;
     off_the_runtime(move || {
         let page = Page::select(&context, collection, &query)?;
         let kind = if format == Format::Csv { "items.csv" } else { "items" };
@@ -307,13 +308,14 @@ pub struct ItemQuery {
             ("Content-Crs" = String, description = "System of the coordinates")))))]
 pub async fn get(
     State(app): State<Arc<App>>,
+    caller: Caller,
     base: Base,
     Path(path): Path<FeaturePath>,
     Query(query): Query<ItemQuery>,
     if_none_match: IfNoneMatch,
 ) -> Result<Response, Problem> {
     let (collection, id) = (path.collection_id.0, path.feature_id);
-    let context = app.context(path.map_id.0).await?;
+    let context = app.context(&caller, path.map_id.0).await?;
     off_the_runtime(move || {
         let missing =
             || Problem::new(ProblemType::NotFound, format!("there is no feature {id} in {}", collection.id()));

@@ -14,16 +14,15 @@ use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 use utoipa::{IntoParams, ToSchema};
 
-use crate::app::{App, JobFilter, JobRecord, JobState};
+use crate::app::{App, Caller, JobFilter, JobRecord, JobState};
 use crate::http::extract::{Id, ListLimit, Path, Query};
 use crate::http::links::{Base, JSON, Link};
 use crate::http::problem::Problem;
 use crate::http::views::{StageView, cut};
 
-/// The one process of this service.
-const PROCESS: &str = "semantic-map";
 /// How often an idle stream of events says that it is still there.
 const HEARTBEAT: Duration = Duration::from_secs(15);
+
 /// How soon a client comes back to a stream that broke off.
 const RETRY: Duration = Duration::from_secs(2);
 
@@ -37,7 +36,7 @@ pub struct JobView {
     /// `semantic-map`
     #[serde(rename = "processID")]
     #[schema(example = "semantic-map")]
-    process_id: &'static str,
+    process_id: String,
     /// `process`
     #[schema(example = "process")]
     r#type: &'static str,
@@ -110,9 +109,10 @@ impl JobView {
             let path = format!("/v1/maps/{}/collections", job.map);
             links.push(base.link("http://www.opengis.net/def/rel/ogc/1.0/results", &path, JSON));
         }
+        let analysis_id = job.analysis().map(Id);
         Self {
             job_id: Id(job.id),
-            process_id: PROCESS,
+            process_id: job.process,
             r#type: "process",
             status: job.state.into(),
             progress: job.progress,
@@ -122,7 +122,7 @@ impl JobView {
             finished: job.finished,
             updated: job.updated,
             map_id: Id(job.map),
-            analysis_id: job.analysis.map(Id),
+            analysis_id,
             stage: job.stage,
             stages: job.stages.iter().map(Into::into).collect(),
             attempt: job.attempt,
@@ -212,11 +212,16 @@ pub struct JobList {
 #[utoipa::path(get, path = "/v1/jobs", tag = "jobs", operation_id = "listJobs", params(JobQuery),
     responses((status = 200, description = "A page of jobs", body = JobList,
         headers(("Link" = Option<String>, description = "The next page")))))]
-pub async fn list(State(app): State<Arc<App>>, base: Base, Query(query): Query<JobQuery>) -> Result<Response, Problem> {
+pub async fn list(
+    State(app): State<Arc<App>>,
+    caller: Caller,
+    base: Base,
+    Query(query): Query<JobQuery>,
+) -> Result<Response, Problem> {
     let limit = query.limit.0;
     let (states, text) = query.status.map(|status| (status.states, status.text)).unwrap_or_default();
     let filter = JobFilter { states, map: None, limit: limit + 1, after: query.after.map(|id| id.0) };
-    let (jobs, more) = cut(app.jobs(filter).await?, limit);
+    let (jobs, more) = cut(app.jobs(&caller, filter).await?, limit);
     let status = if text.is_empty() { String::new() } else { format!("&status={text}") };
     let next = jobs.last().filter(|_| more).map(|last| format!("/v1/jobs?limit={limit}{status}&after={}", last.id));
     let next = next.map(|path| base.link("next", &path, JSON));
@@ -229,8 +234,13 @@ pub async fn list(State(app): State<Arc<App>>, base: Base, Query(query): Query<J
 /// A job
 #[utoipa::path(get, path = "/v1/jobs/{jobId}", tag = "jobs", operation_id = "getJob", params(JobPath),
     responses((status = 200, description = "The job", body = JobView)))]
-pub async fn get(State(app): State<Arc<App>>, base: Base, Path(path): Path<JobPath>) -> Result<Response, Problem> {
-    let job = app.job(path.job_id.0).await?;
+pub async fn get(
+    State(app): State<Arc<App>>,
+    caller: Caller,
+    base: Base,
+    Path(path): Path<JobPath>,
+) -> Result<Response, Problem> {
+    let job = app.job(&caller, path.job_id.0).await?;
     Ok(([(header::CACHE_CONTROL, "no-store")], Json(JobView::new(&base, job))).into_response())
 }
 
@@ -243,10 +253,11 @@ pub async fn get(State(app): State<Arc<App>>, base: Base, Path(path): Path<JobPa
             content_type = "application/problem+json")))]
 pub async fn dismiss(
     State(app): State<Arc<App>>,
+    caller: Caller,
     base: Base,
     Path(path): Path<JobPath>,
 ) -> Result<Json<JobView>, Problem> {
-    Ok(Json(JobView::new(&base, app.dismiss_job(path.job_id.0).await?)))
+    Ok(Json(JobView::new(&base, app.dismiss_job(&caller, path.job_id.0).await?)))
 }
 
 /// One event of the stream, field by field.
@@ -275,16 +286,17 @@ pub struct JobEvent {
         (status = 204, description = "The job is over, and the client knows")))]
 pub async fn events(
     State(app): State<Arc<App>>,
+    caller: Caller,
     base: Base,
     Path(path): Path<JobPath>,
     headers: HeaderMap,
 ) -> Result<Response, Problem> {
-    let job = app.job(path.job_id.0).await?;
+    let job = app.job(&caller, path.job_id.0).await?;
     let last = headers.get("last-event-id").and_then(|id| id.to_str().ok()?.parse::<i64>().ok());
     if job.state.is_final() && last.is_some_and(|last| last >= event_id(&job)) {
         return Ok(StatusCode::NO_CONTENT.into_response());
     }
-    let events = Sse::new(watch(app, base, path.job_id, last));
+    let events = Sse::new(watch(app, caller, base, path.job_id, last));
     // Proxies that buffer would hold the events back.
     let headers = [("x-accel-buffering", "no"), ("cache-control", "no-store")];
     Ok((headers, events.keep_alive(KeepAlive::new().interval(HEARTBEAT))).into_response())
@@ -296,7 +308,13 @@ fn event_id(job: &JobRecord) -> i64 {
 }
 
 /// The states of a job from `last` on, up to the final one.
-fn watch(app: Arc<App>, base: Base, id: Id, last: Option<i64>) -> impl Stream<Item = Result<Event, Infallible>> {
+fn watch(
+    app: Arc<App>,
+    caller: Caller,
+    base: Base,
+    id: Id,
+    last: Option<i64>,
+) -> impl Stream<Item = Result<Event, Infallible>> {
     struct Watching {
         changes: tokio::sync::watch::Receiver<u64>,
         last: Option<i64>,
@@ -304,12 +322,12 @@ fn watch(app: Arc<App>, base: Base, id: Id, last: Option<i64>) -> impl Stream<It
     }
     let start = Watching { changes: app.job_changes(), last, over: false };
     futures::stream::unfold(start, move |mut watching| {
-        let (app, base) = (Arc::clone(&app), base.clone());
+        let (app, caller, base) = (Arc::clone(&app), caller.clone(), base.clone());
         async move {
             while !watching.over && !app.is_stopping() {
                 // Marked before the job is read: a change after the reading wakes again.
                 watching.changes.mark_unchanged();
-                let job = app.job(id.0).await.ok()?;
+                let job = app.job(&caller, id.0).await.ok()?;
                 if watching.last.is_none_or(|last| event_id(&job) > last) {
                     watching.last = Some(event_id(&job));
                     watching.over = job.state.is_final();

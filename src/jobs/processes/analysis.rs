@@ -13,7 +13,7 @@ use crate::store::queue::JobResult;
 use crate::store::{Blob, BlobId, NewAnalysis, NewJob, ResultAddress};
 
 const DESCRIPTION: ProcessDescription = ProcessDescription {
-    id: "analysis",
+    id: "semantic-map",
     title: "Analysis of a map",
     description: "Reads the map, finds its place categories, orientations, rows, rooms and faces, and puts the result \
                   in force for the map.",

@@ -67,7 +67,7 @@ pub enum ComputeError {
     #[error("the map cannot be read: {0}")]
     Map(#[from] IngestError),
     /// A defect of the program.
-    #[error("the {process} hit a defect of the program ({panic}); other jobs are not affected")]
+    #[error("the process {process} hit a defect of the program ({panic}); other jobs are not affected")]
     Panicked {
         /// Id of the process.
         process: String,

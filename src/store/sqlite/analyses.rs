@@ -26,7 +26,9 @@ impl Analyses for Sqlite {
         now: Timestamp,
     ) -> Result<Option<Request>, StoreError> {
         let mut transaction = self.write().await?;
-        let row = sqlx::query("SELECT id FROM maps WHERE tenant = $1 AND id = $2").bind(tenant.as_str()).bind(job.map.to_string());
+        let row = sqlx::query("SELECT id FROM maps WHERE tenant = $1 AND id = $2")
+            .bind(tenant.as_str())
+            .bind(job.map.to_string());
         if row.fetch_optional(&mut *transaction).await?.is_none() {
             return Ok(None);
         }
@@ -59,10 +61,10 @@ impl Analyses for Sqlite {
             "SELECT analyses.* FROM analyses JOIN maps ON maps.id = analyses.map \
              WHERE maps.tenant = $1 AND maps.id = $2 ORDER BY analyses.id DESC",
         )
-            .bind(tenant.as_str())
-            .bind(map.to_string())
-            .fetch_all(&self.readers)
-            .await?;
+        .bind(tenant.as_str())
+        .bind(map.to_string())
+        .fetch_all(&self.readers)
+        .await?;
         rows.iter().map(analysis_record).collect()
     }
 
@@ -74,7 +76,9 @@ impl Analyses for Sqlite {
         .bind(ALGORITHM_VERSION)
         .fetch_all(&self.readers)
         .await?;
-        let outdated = |row| Ok(Outdated { tenant: Columns::tenant(row)?, map: row.uuid("id")?, options: row.json("options")? });
+        let outdated = |row: &SqliteRow| {
+            Ok(Outdated { tenant: row.tenant()?, map: row.uuid("id")?, options: row.json("options")? })
+        };
         rows.iter().map(outdated).collect()
     }
 
@@ -97,7 +101,8 @@ impl Analyses for Sqlite {
 
     async fn snapshot(&self, tenant: &Tenant, map: Uuid) -> Result<Option<Snapshot>, StoreError> {
         let mut transaction = self.read().await?;
-        let row = sqlx::query("SELECT * FROM maps WHERE tenant = $1 AND id = $2").bind(tenant.as_str()).bind(map.to_string());
+        let row =
+            sqlx::query("SELECT * FROM maps WHERE tenant = $1 AND id = $2").bind(tenant.as_str()).bind(map.to_string());
         let Some(row) = row.fetch_optional(&mut *transaction).await? else { return Ok(None) };
         let record = map_record(&row)?;
         let analysis = sqlx::query("SELECT * FROM analyses WHERE id = $1 AND algorithm = $2")

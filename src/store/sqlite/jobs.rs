@@ -32,14 +32,16 @@ impl Jobs for Sqlite {
         .bind(tenant.as_str())
         .execute(&mut *transaction)
         .await?;
-        let row = sqlx::query("SELECT * FROM jobs WHERE id = $1 AND tenant = $2").bind(id.to_string()).bind(tenant.as_str());
+        let row =
+            sqlx::query("SELECT * FROM jobs WHERE id = $1 AND tenant = $2").bind(id.to_string()).bind(tenant.as_str());
         let row = row.fetch_optional(&mut *transaction).await?;
         transaction.commit().await?;
         row.as_ref().map(job_record).transpose()
     }
 
     async fn job(&self, tenant: &Tenant, id: Uuid) -> Result<Option<JobRecord>, StoreError> {
-        let row = sqlx::query("SELECT * FROM jobs WHERE id = $1 AND tenant = $2").bind(id.to_string()).bind(tenant.as_str());
+        let row =
+            sqlx::query("SELECT * FROM jobs WHERE id = $1 AND tenant = $2").bind(id.to_string()).bind(tenant.as_str());
         row.fetch_optional(&self.readers).await?.as_ref().map(job_record).transpose()
     }
 

@@ -47,13 +47,13 @@ impl Maps for Sqlite {
             sqlx::query(
                 "INSERT INTO idempotency_keys (tenant, key, content, job, created) VALUES ($1, $2, $3, $4, $5)",
             )
-                .bind(tenant.as_str())
-                .bind(&key.key)
-                .bind(&key.content)
-                .bind(job.id.to_string())
-                .bind(now.as_microsecond())
-                .execute(&mut *transaction)
-                .await?;
+            .bind(tenant.as_str())
+            .bind(&key.key)
+            .bind(&key.content)
+            .bind(job.id.to_string())
+            .bind(now.as_microsecond())
+            .execute(&mut *transaction)
+            .await?;
         }
         fail_point::pass("before-upload-commit");
         transaction.commit().await?;
@@ -61,41 +61,45 @@ impl Maps for Sqlite {
         Ok(Upload::New(job))
     }
 
-    async fn seen_upload(&self, tenant: &Tenant, key: &IdempotencyKey, now: Timestamp) -> Result<Option<Upload>, StoreError> {
+    async fn seen_upload(
+        &self,
+        tenant: &Tenant,
+        key: &IdempotencyKey,
+        now: Timestamp,
+    ) -> Result<Option<Upload>, StoreError> {
         let mut transaction = self.read().await?;
-        let young: bool =
-            sqlx::query_scalar(
-                "SELECT EXISTS (SELECT 1 FROM idempotency_keys WHERE tenant = $1 AND key = $2 AND created > $3)",
-            )
-                .bind(tenant.as_str())
-                .bind(&key.key)
-                .bind(now.as_microsecond() - KEY_LIFE_US)
-                .fetch_one(&mut *transaction)
-                .await?;
+        let young: bool = sqlx::query_scalar(
+            "SELECT EXISTS (SELECT 1 FROM idempotency_keys WHERE tenant = $1 AND key = $2 AND created > $3)",
+        )
+        .bind(tenant.as_str())
+        .bind(&key.key)
+        .bind(now.as_microsecond() - KEY_LIFE_US)
+        .fetch_one(&mut *transaction)
+        .await?;
         if young { find_key(&mut transaction, tenant, key).await } else { Ok(None) }
     }
 
     async fn maps(&self, tenant: &Tenant, limit: u32, after: Option<Uuid>) -> Result<Vec<MapRecord>, StoreError> {
-        let rows = sqlx::query(
-            "SELECT * FROM maps WHERE tenant = $1 AND ($2 IS NULL OR id < $2) ORDER BY id DESC LIMIT $3",
-        )
-            .bind(tenant.as_str())
-            .bind(after.map(|id| id.to_string()))
-            .bind(limit)
-            .fetch_all(&self.readers)
-            .await?;
+        let rows =
+            sqlx::query("SELECT * FROM maps WHERE tenant = $1 AND ($2 IS NULL OR id < $2) ORDER BY id DESC LIMIT $3")
+                .bind(tenant.as_str())
+                .bind(after.map(|id| id.to_string()))
+                .bind(limit)
+                .fetch_all(&self.readers)
+                .await?;
         rows.iter().map(map_record).collect()
     }
 
     async fn map(&self, tenant: &Tenant, id: Uuid) -> Result<Option<MapRecord>, StoreError> {
-        let row = sqlx::query("SELECT * FROM maps WHERE tenant = $1 AND id = $2")
-            .bind(tenant.as_str()).bind(id.to_string());
+        let row =
+            sqlx::query("SELECT * FROM maps WHERE tenant = $1 AND id = $2").bind(tenant.as_str()).bind(id.to_string());
         row.fetch_optional(&self.readers).await?.as_ref().map(map_record).transpose()
     }
 
     async fn map_source(&self, tenant: &Tenant, id: Uuid) -> Result<Option<BlobId>, StoreError> {
         let row = sqlx::query("SELECT source FROM maps WHERE tenant = $1 AND id = $2")
-            .bind(tenant.as_str()).bind(id.to_string());
+            .bind(tenant.as_str())
+            .bind(id.to_string());
         row.fetch_optional(&self.readers).await?.map(|row| row.blob("source")).transpose()
     }
 
@@ -108,8 +112,8 @@ impl Maps for Sqlite {
         now: Timestamp,
     ) -> Result<Option<Result<MapRecord, MapRecord>>, StoreError> {
         let mut transaction = self.write().await?;
-        let row = sqlx::query("SELECT * FROM maps WHERE tenant = $1 AND id = $2")
-            .bind(tenant.as_str()).bind(id.to_string());
+        let row =
+            sqlx::query("SELECT * FROM maps WHERE tenant = $1 AND id = $2").bind(tenant.as_str()).bind(id.to_string());
         let Some(row) = row.fetch_optional(&mut *transaction).await? else { return Ok(None) };
         let current = map_record(&row)?;
         if if_match.is_some_and(|version| version != current.version) {
@@ -153,19 +157,20 @@ impl Maps for Sqlite {
 impl Sqlite {
     async fn delete_map_rows(&self, tenant: &Tenant, id: Uuid) -> Result<Option<Vec<BlobId>>, StoreError> {
         let mut transaction = self.write().await?;
-        let rows =
-            sqlx::query(
-                "SELECT source AS blob FROM maps WHERE tenant = $1 AND id = $2 \
+        let rows = sqlx::query(
+            "SELECT source AS blob FROM maps WHERE tenant = $1 AND id = $2 \
                  UNION SELECT blob FROM analyses WHERE map = $2",
-            )
-                .bind(tenant.as_str())
-                .bind(id.to_string())
-                .fetch_all(&mut *transaction)
-                .await?;
+        )
+        .bind(tenant.as_str())
+        .bind(id.to_string())
+        .fetch_all(&mut *transaction)
+        .await?;
         let blobs = rows.iter().map(|row| row.blob("blob")).collect::<Result<Vec<_>, _>>()?;
-        let deleted =
-            sqlx::query("DELETE FROM maps WHERE tenant = $1 AND id = $2")
-            .bind(tenant.as_str()).bind(id.to_string()).execute(&mut *transaction).await?;
+        let deleted = sqlx::query("DELETE FROM maps WHERE tenant = $1 AND id = $2")
+            .bind(tenant.as_str())
+            .bind(id.to_string())
+            .execute(&mut *transaction)
+            .await?;
         if deleted.rows_affected() == 0 {
             return Ok(None);
         }
@@ -209,7 +214,11 @@ async fn forget_old_keys(connection: &mut SqliteConnection, now: Timestamp) -> R
     Ok(())
 }
 
-async fn find_key(connection: &mut SqliteConnection, tenant: &Tenant, key: &IdempotencyKey) -> Result<Option<Upload>, StoreError> {
+async fn find_key(
+    connection: &mut SqliteConnection,
+    tenant: &Tenant,
+    key: &IdempotencyKey,
+) -> Result<Option<Upload>, StoreError> {
     let row = sqlx::query(
         "SELECT jobs.*, idempotency_keys.content AS content \
          FROM idempotency_keys JOIN jobs ON jobs.id = idempotency_keys.job \

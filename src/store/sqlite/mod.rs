@@ -23,7 +23,7 @@ mod rows;
 mod rule_sets;
 mod semantics;
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;
 
 use std::time::Duration;
 

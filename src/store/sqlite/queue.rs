@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use async_trait::async_trait;
 use jiff::{SignedDuration, Timestamp};
-use serde_json::json;
+use serde_json::json as object;
 use sqlx::sqlite::SqliteRow;
 use sqlx::{Row, SqliteConnection};
 
@@ -93,7 +93,7 @@ impl Queue for Sqlite {
         let outputs = match result {
             JobResult::Analysis(analysis, blob) => {
                 self.blobs.put(blob).await?;
-                json!({"analysis": analysis.id})
+                object!({"analysis": analysis.id.to_string()})
             }
             JobResult::Document(outputs) => outputs.clone(),
         };

@@ -11,7 +11,10 @@ use crate::store::{RuleSets, StoreError};
 #[async_trait]
 impl RuleSets for Sqlite {
     async fn rule_sets(&self, tenant: &Tenant) -> Result<Vec<RuleSetRecord>, StoreError> {
-        let rows = sqlx::query("SELECT * FROM rule_sets WHERE tenant = $1 ORDER BY id").bind(tenant.as_str()).fetch_all(&self.readers).await?;
+        let rows = sqlx::query("SELECT * FROM rule_sets WHERE tenant = $1 ORDER BY id")
+            .bind(tenant.as_str())
+            .fetch_all(&self.readers)
+            .await?;
         rows.iter().map(rule_set_record).collect()
     }
 
@@ -20,13 +23,19 @@ impl RuleSets for Sqlite {
         row.fetch_optional(&self.readers).await?.as_ref().map(rule_set_record).transpose()
     }
 
-    async fn create_rule_set(&self, tenant: &Tenant, id: &str, draft: &RuleSetDraft) -> Result<Option<RuleSetRecord>, StoreError> {
+    async fn create_rule_set(
+        &self,
+        tenant: &Tenant,
+        id: &str,
+        draft: &RuleSetDraft,
+    ) -> Result<Option<RuleSetRecord>, StoreError> {
         let mut transaction = self.write().await?;
         let row = sqlx::query(
             "INSERT INTO rule_sets (tenant, id, draft, version) VALUES ($1, $2, $3, 1) \
              ON CONFLICT (tenant, id) DO NOTHING RETURNING *",
         )
-        .bind(tenant.as_str()).bind(id)
+        .bind(tenant.as_str())
+        .bind(id)
         .bind(json(draft))
         .fetch_optional(&mut *transaction)
         .await?;
@@ -42,30 +51,44 @@ impl RuleSets for Sqlite {
         version: u64,
     ) -> Result<Option<Result<RuleSetRecord, u64>>, StoreError> {
         let mut transaction = self.write().await?;
-        let row = sqlx::query("SELECT version FROM rule_sets WHERE tenant = $1 AND id = $2").bind(tenant.as_str()).bind(id);
+        let row =
+            sqlx::query("SELECT version FROM rule_sets WHERE tenant = $1 AND id = $2").bind(tenant.as_str()).bind(id);
         let Some(row) = row.fetch_optional(&mut *transaction).await? else { return Ok(None) };
         let current: u64 = row.whole("version")?;
         if current != version {
             return Ok(Some(Err(current)));
         }
-        let row = sqlx::query("UPDATE rule_sets SET draft = $3, version = version + 1 WHERE tenant = $1 AND id = $2 RETURNING *")
-            .bind(tenant.as_str()).bind(id)
-            .bind(json(draft))
-            .fetch_one(&mut *transaction)
-            .await?;
+        let row = sqlx::query(
+            "UPDATE rule_sets SET draft = $3, version = version + 1 WHERE tenant = $1 AND id = $2 RETURNING *",
+        )
+        .bind(tenant.as_str())
+        .bind(id)
+        .bind(json(draft))
+        .fetch_one(&mut *transaction)
+        .await?;
         transaction.commit().await?;
         Ok(Some(Ok(rule_set_record(&row)?)))
     }
 
-    async fn delete_rule_set(&self, tenant: &Tenant, id: &str, version: u64) -> Result<Option<Result<(), u64>>, StoreError> {
+    async fn delete_rule_set(
+        &self,
+        tenant: &Tenant,
+        id: &str,
+        version: u64,
+    ) -> Result<Option<Result<(), u64>>, StoreError> {
         let mut transaction = self.write().await?;
-        let row = sqlx::query("SELECT version FROM rule_sets WHERE tenant = $1 AND id = $2").bind(tenant.as_str()).bind(id);
+        let row =
+            sqlx::query("SELECT version FROM rule_sets WHERE tenant = $1 AND id = $2").bind(tenant.as_str()).bind(id);
         let Some(row) = row.fetch_optional(&mut *transaction).await? else { return Ok(None) };
         let current: u64 = row.whole("version")?;
         if current != version {
             return Ok(Some(Err(current)));
         }
-        sqlx::query("DELETE FROM rule_sets WHERE tenant = $1 AND id = $2").bind(tenant.as_str()).bind(id).execute(&mut *transaction).await?;
+        sqlx::query("DELETE FROM rule_sets WHERE tenant = $1 AND id = $2")
+            .bind(tenant.as_str())
+            .bind(id)
+            .execute(&mut *transaction)
+            .await?;
         transaction.commit().await?;
         Ok(Some(Ok(())))
     }

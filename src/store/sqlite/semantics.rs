@@ -56,10 +56,10 @@ impl SemanticsVersions for Sqlite {
             "SELECT semantics_versions.* FROM semantics_versions JOIN maps ON maps.id = semantics_versions.map \
              WHERE maps.tenant = $1 AND maps.id = $2 ORDER BY semantics_versions.version DESC",
         )
-            .bind(tenant.as_str())
-            .bind(map.to_string())
-            .fetch_all(&self.readers)
-            .await?;
+        .bind(tenant.as_str())
+        .bind(map.to_string())
+        .fetch_all(&self.readers)
+        .await?;
         rows.iter().map(semantics_record).collect()
     }
 }

@@ -1,0 +1,119 @@
+//! The queue: the worker's side of jobs.
+
+use super::*;
+use crate::store::queue::Progress;
+
+pub async fn a_job_is_claimed_once_however_many_ask(engine: &impl Engine) {
+    let store = engine.store();
+    for index in 0..20 {
+        upload(store, &index.to_string()).await;
+    }
+    let mut claims = tokio::task::JoinSet::new();
+    for _ in 0..40 {
+        let store = Arc::clone(store);
+        claims.spawn(async move { claim(&store, now()).await.map(|claim| claim.job) });
+    }
+    let claims = claims.join_all().await;
+    let mut jobs: Vec<Uuid> = claims.into_iter().flatten().collect();
+    jobs.sort_unstable();
+    jobs.dedup();
+    assert_eq!(jobs.len(), 20);
+}
+
+pub async fn a_zombie_can_neither_finish_nor_harm(engine: &impl Engine) {
+    let store = engine.store();
+    let job = upload(store, "map").await;
+    let zombie = claim(store, now()).await.unwrap();
+    // The lease runs out; the next claim puts the job back, and after its wait hands it to another worker.
+    assert!(claim(store, later(31)).await.is_none());
+    let heir = claim(store, later(37)).await.expect("it is due again");
+    assert_eq!((heir.job, heir.attempt), (job.id, 2));
+
+    assert!(matches!(finish(store, &zombie).await, Err(StoreError::ClaimLost)));
+    let beat = store.heartbeat(&zombie, &Progress::default(), TERMS.lease, now()).await;
+    assert!(matches!(beat, Err(StoreError::ClaimLost)));
+    assert!(matches!(store.is_cancel_requested(&zombie).await, Err(StoreError::ClaimLost)));
+    assert!(matches!(store.end(&zombie, JobState::Failed, "", now()).await, Err(StoreError::ClaimLost)));
+    assert!(matches!(store.requeue(&zombie, 0, Duration::ZERO, "", now()).await, Err(StoreError::ClaimLost)));
+    assert_eq!((state(store, job.id).await, counts(store).await), ((JobState::Running, 2), (1, 0, 1)));
+
+    finish(store, &heir).await.unwrap();
+    assert!(matches!(finish(store, &heir).await, Err(StoreError::ClaimLost)), "nor does the heir finish twice");
+    assert_eq!((state(store, job.id).await, counts(store).await), ((JobState::Successful, 2), (1, 1, 1)));
+}
+
+pub async fn an_attempt_given_back_does_not_give_its_token_back(engine: &impl Engine) {
+    let store = engine.store();
+    let job = upload(store, "map").await;
+    let stopped = claim(store, now()).await.unwrap();
+    store.requeue(&stopped, stopped.attempt - 1, Duration::ZERO, "stopped", now()).await.unwrap();
+    assert_eq!(state(store, job.id).await, (JobState::Accepted, 0));
+
+    let next = claim(store, now()).await.expect("due at once");
+    assert_eq!(next.attempt, 1);
+    assert!(matches!(finish(store, &stopped).await, Err(StoreError::ClaimLost)));
+    finish(store, &next).await.unwrap();
+}
+
+pub async fn a_heartbeat_keeps_the_lease_and_shows_the_progress(engine: &impl Engine) {
+    let store = engine.store();
+    let job = upload(store, "map").await;
+    let held = claim(store, now()).await.unwrap();
+    let progress = Progress { percent: 40, stage: Some("features".into()), stages: Vec::new() };
+    assert!(!store.heartbeat(&held, &progress, TERMS.lease, later(25)).await.unwrap());
+    assert!(claim(store, later(40)).await.is_none());
+    assert_eq!(state(store, job.id).await, (JobState::Running, 1), "not rescued");
+    let record = store.job(&local(), job.id).await.unwrap().unwrap();
+    assert_eq!((record.progress, record.stage.as_deref()), (40, Some("features")));
+}
+
+pub async fn a_job_that_kills_its_process_fails_after_the_last_attempt(engine: &impl Engine) {
+    let store = engine.store();
+    let job = upload(store, "poison").await;
+    for attempt in 1..=TERMS.max_attempts {
+        // The lease of the attempt before has run out: it is taken back first, and due again after a wait.
+        let at = i64::from(attempt) * 100;
+        assert_eq!(claim(store, later(at)).await.is_some(), attempt == 1);
+        if attempt > 1 {
+            assert_eq!(claim(store, later(at + 6)).await.expect("it is due").attempt, attempt);
+        }
+    }
+    assert!(claim(store, later(3600)).await.is_none());
+    let record = store.job(&local(), job.id).await.unwrap().unwrap();
+    assert_eq!((record.state, record.attempt), (JobState::Failed, 3));
+    assert_eq!(record.message, "given up: the service died or stalled in each of 3 attempts");
+    assert!(record.finished.is_some());
+}
+
+pub async fn a_waiting_job_is_dismissed_at_once_a_running_one_is_asked_to_stop(engine: &impl Engine) {
+    let store = engine.store();
+    let (running, waiting) = (upload(store, "first").await, upload(store, "second").await);
+    let held = claim(store, now()).await.unwrap();
+    assert_eq!(store.dismiss(&local(), waiting.id, now()).await.unwrap().unwrap().state, JobState::Dismissed);
+    assert_eq!(store.dismiss(&local(), running.id, now()).await.unwrap().unwrap().state, JobState::Running);
+    assert!(store.heartbeat(&held, &Progress::default(), TERMS.lease, now()).await.unwrap());
+    assert!(matches!(finish(store, &held).await, Err(StoreError::ClaimLost)), "cancelled means no result");
+    store.end(&held, JobState::Dismissed, "dismissed", now()).await.unwrap();
+    assert!(claim(store, later(3600)).await.is_none());
+    assert_eq!(counts(store).await, (2, 0, 2));
+    assert!(store.dismiss(&local(), Uuid::now_v7(), now()).await.unwrap().is_none());
+}
+
+pub async fn a_full_queue_takes_no_more(engine: &impl Engine) {
+    let store = engine.store();
+    upload(store, "first").await;
+    assert_eq!(try_upload(store, &local(), "second", None, 1).await, Upload::QueueFull);
+    assert_eq!(counts(store).await, (1, 0, 1));
+    claim(store, now()).await.unwrap();
+    assert!(matches!(try_upload(store, &local(), "second", None, 1).await, Upload::New(_)), "running jobs do not wait");
+}
+
+pub async fn a_result_may_be_a_document(engine: &impl Engine) {
+    let store = engine.store();
+    let job = upload(store, "map").await;
+    let held = claim(store, now()).await.unwrap();
+    let outputs = json!({"ways": 3});
+    store.finish(&held, &JobResult::Document(outputs.clone()), &[], now()).await.unwrap();
+    let job = store.job(&local(), job.id).await.unwrap().unwrap();
+    assert_eq!((job.state, job.outputs, counts(store).await), (JobState::Successful, Some(outputs), (1, 0, 1)));
+}
