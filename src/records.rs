@@ -279,5 +279,5 @@ pub enum AnalysisTicket {
     /// The same options were analysed before.
     Existing(Box<AnalysisRecord>),
     /// A job will do it.
-    Job(JobRecord),
+    Job(Box<JobRecord>),
 }

@@ -39,10 +39,10 @@ impl App {
         match request {
             None => Err(AppError::not_found("map", map)),
             Some(Request::QueueFull) => Err(AppError::Busy { retry_after_s: RETRY_AFTER_S }),
-            Some(Request::Pending(job)) => Ok(AnalysisTicket::Job(job)),
+            Some(Request::Pending(job)) => Ok(AnalysisTicket::Job(Box::new(job))),
             Some(Request::New(job)) => {
                 self.signals.queued();
-                Ok(AnalysisTicket::Job(job))
+                Ok(AnalysisTicket::Job(Box::new(job)))
             }
             Some(Request::Existing(analysis)) => Ok(AnalysisTicket::Existing(analysis)),
         }

@@ -47,7 +47,7 @@ impl Process for Script {
             _ => {
                 let options = AnalysisOptions::default();
                 let analysis = NewAnalysis { id: Uuid::now_v7(), options, diagnostics: Vec::new() };
-                Ok(JobResult::Analysis(analysis, Blob::new(text.clone())))
+                Ok(JobResult::Analysis(Box::new(analysis), Blob::new(text.clone())))
             }
         }
     }

@@ -77,7 +77,7 @@ pub struct Progress {
 pub enum JobResult {
     /// An analysis of its map, which then is in force unless another one was asked for later. The outputs of the job are
     /// `{"analysis": id}`.
-    Analysis(NewAnalysis, Blob),
+    Analysis(Box<NewAnalysis>, Blob),
     /// A JSON object, which is the outputs of the job.
     Document(Value),
 }

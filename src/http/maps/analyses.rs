@@ -99,7 +99,7 @@ pub async fn create(
     let in_body = |pointer: &str| pointer.strip_prefix("/options").unwrap_or(pointer).to_owned();
     Ok(match ticket.map_err(|error| Problem::from(error).map_pointers(in_body))? {
         AnalysisTicket::Existing(record) => Json(AnalysisView::from(*record)).into_response(),
-        AnalysisTicket::Job(job) => JobView::accepted(&base, job),
+        AnalysisTicket::Job(job) => JobView::accepted(&base, *job),
     })
 }
 

@@ -65,6 +65,7 @@ impl Process for AnalysisProcess {
         drop(map);
         let blob = Blob::encode(&analysis);
         let (options, diagnostics) = (analysis.options, analysis.diagnostics);
-        Ok(JobResult::Analysis(NewAnalysis { id: Uuid::now_v7(), options, diagnostics }, blob))
+        let new = NewAnalysis { id: Uuid::now_v7(), options, diagnostics };
+        Ok(JobResult::Analysis(Box::new(new), blob))
     }
 }

@@ -163,7 +163,7 @@ async fn finish(store: &Arc<dyn Store>, claim: &Claim) -> Result<(), StoreError>
     let options = with_seed(claim.inputs["seed"].as_u64().expect("a seed"));
     let analysis = NewAnalysis { id: Uuid::now_v7(), options, diagnostics: Vec::new() };
     let blob = Blob::new(format!("result of {}", claim.job).into_bytes());
-    store.finish(claim, &JobResult::Analysis(analysis, blob), &[], now()).await
+    store.finish(claim, &JobResult::Analysis(Box::new(analysis), blob), &[], now()).await
 }
 
 async fn state(store: &Arc<dyn Store>, job: Uuid) -> (JobState, u32) {
