@@ -86,7 +86,7 @@ const CONTRADICTIONS: &[(&str, &str)] = &[
     (
         "successful jobs without exactly their one result",
         "SELECT count(*) FROM jobs WHERE state = 'successful' AND \
-             (SELECT count(*) FROM analyses WHERE analyses.job = jobs.id AND analyses.id = jobs.analysis) <> 1",
+             (SELECT count(*) FROM analyses WHERE analyses.job = jobs.id AND analyses.id = jobs.outputs ->> '$.analysis') <> 1",
     ),
     (
         "results of jobs that did not end successful",

@@ -9,7 +9,11 @@
 
 use serde::Serialize;
 use serde::de::DeserializeOwned;
-use stillage_core::Analysis;
+use stillage_core::grid::GridFrame;
+use stillage_core::spec::{
+    AnnotationOptions, CategorizationOptions, DecompositionOptions, GridOptions, OrientationOptions, RegionOptions,
+};
+use stillage_core::{Analysis, AnalysisOptions};
 
 use crate::ingest::MapSource;
 
@@ -40,11 +44,40 @@ impl Stored for MapSource {
 impl Stored for Analysis {
     const FORMAT: u8 = 1;
 
-    /// Format 0 has the layout of format 1.
-    fn upgrade(_: u8, plain: Vec<u8>) -> Option<Vec<u8>> {
-        Some(plain)
+    /// Format 0 had the first seven groups of the options alone; the others have their defaults, which is what was done
+    /// then. All before and after the options is the same.
+    fn upgrade(format: u8, plain: Vec<u8>) -> Option<Vec<u8>> {
+        if format != 0 {
+            return None;
+        }
+        let (_, from_options): ((GridFrame, usize, usize), _) = postcard::take_from_bytes(&plain).ok()?;
+        let before = &plain[..plain.len() - from_options.len()];
+        let (groups, after): (FirstGroups, _) = postcard::take_from_bytes(from_options).ok()?;
+        let mut options = AnalysisOptions::default();
+        (
+            options.seed,
+            options.grid,
+            options.categorization,
+            options.orientation,
+            options.regions,
+            options.decomposition,
+            options.annotation,
+        ) = groups;
+        let options = postcard::to_stdvec(&options).ok()?;
+        Some([before, &options, after].concat())
     }
 }
+
+/// The options of an analysis of format 0, in their order.
+type FirstGroups = (
+    u64,
+    GridOptions,
+    CategorizationOptions,
+    OrientationOptions,
+    RegionOptions,
+    DecompositionOptions,
+    AnnotationOptions,
+);
 
 /// Why bytes are not a value.
 #[derive(Debug, PartialEq, Eq)]
