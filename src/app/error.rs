@@ -96,6 +96,7 @@ impl From<StoreError> for AppError {
         match error {
             StoreError::NoSpace => Self::NoSpace,
             StoreError::Busy => Self::Unavailable,
+            unreadable @ StoreError::Format { .. } => Self::Conflict(unreadable.to_string()),
             other => Self::Internal(Box::new(other)),
         }
     }

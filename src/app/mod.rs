@@ -134,11 +134,11 @@ impl App {
     }
 }
 
-/// Takes up what earlier processes left: blobs without a row, jobs in the hands of the dead, analyses of another version
-/// of the algorithms.
+/// Takes up what earlier processes left: blobs without a row, claims of processes that are dead, analyses made by another
+/// version of the algorithms.
 async fn take_up(store: &dyn Store, max_attempts: u32) -> Result<(), AppError> {
     let swept = store.sweep_blobs(ORPHAN_AGE).await?;
-    let requeued = store.end_claims_of_the_dead(max_attempts, now()).await?;
+    let requeued = store.end_claims_of_dead_processes(max_attempts, now()).await?;
     if swept + usize::try_from(requeued).unwrap_or(usize::MAX) > 0 {
         tracing::info!(swept, requeued, "took up what an earlier process left");
     }

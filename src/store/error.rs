@@ -1,11 +1,11 @@
-//! Why the store could not do it.
+//! Why a call to the store failed.
 
 use std::io;
 use std::path::{Path, PathBuf};
 
 use super::BlobId;
 
-/// Why the store could not do it.
+/// Why a call to the store failed.
 #[derive(Debug, thiserror::Error)]
 pub enum StoreError {
     /// Another process has the lock of the folder.

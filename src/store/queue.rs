@@ -90,7 +90,7 @@ pub trait Queue {
 
     /// Ends the claims of processes that are known to be dead, without waiting for their leases. Their attempts count.
     /// An engine that other processes may use at the same time knows of none. Answers how many there were.
-    async fn end_claims_of_the_dead(&self, max_attempts: u32, now: Timestamp) -> Result<u64, StoreError>;
+    async fn end_claims_of_dead_processes(&self, max_attempts: u32, now: Timestamp) -> Result<u64, StoreError>;
 
     /// Renews the lease and stores how far the job is. Answers whether it is to be cancelled.
     ///

@@ -80,7 +80,7 @@ macro_rules! contract {
                 }
                 tenants {
                     what_belongs_to_another_tenant_is_not_there
-                    two_tenants_may_use_the_same_words
+                    two_tenants_may_use_the_same_names
                 }
             }
         }

@@ -46,7 +46,7 @@ pub async fn what_belongs_to_another_tenant_is_not_there(engine: &impl Engine) {
     assert_eq!(store.map(&local(), job.map).await.unwrap().unwrap().name, "map");
 }
 
-pub async fn two_tenants_may_use_the_same_words(engine: &impl Engine) {
+pub async fn two_tenants_may_use_the_same_names(engine: &impl Engine) {
     let store = engine.store();
     let other = Tenant::new("other");
     let key = |content: &str| IdempotencyKey { key: "key".into(), content: content.into() };

@@ -20,7 +20,7 @@ use crate::store::{Blobs, ResultAddress, StoreError};
 impl Queue for Sqlite {
     async fn claim(&self, terms: &Terms, now: Timestamp) -> Result<Option<Claim>, StoreError> {
         let mut transaction = self.write().await?;
-        rescue(&mut transaction, terms, now).await?;
+        end_expired_claims(&mut transaction, terms, now).await?;
         let row = sqlx::query(
             "UPDATE jobs SET state = 'running', attempt = attempt + 1, claim = claim + 1, lease_until = $2, \
                  started = coalesce(started, $1), updated = max(updated + 1, $1), message = '', progress = 0, stage = NULL, stages = '[]' \
@@ -36,13 +36,13 @@ impl Queue for Sqlite {
         row.as_ref().map(claim_of).transpose()
     }
 
-    /// The lock on the data folder belonged to the process that made these claims, and it is ours now: so that process
-    /// is dead, and nothing has to be waited for.
-    async fn end_claims_of_the_dead(&self, max_attempts: u32, now: Timestamp) -> Result<u64, StoreError> {
+    /// The process that made these claims held the lock on the data folder. This process holds it now, so that one is
+    /// dead, and its leases need not be waited for.
+    async fn end_claims_of_dead_processes(&self, max_attempts: u32, now: Timestamp) -> Result<u64, StoreError> {
         let mut transaction = self.write().await?;
         let rows = sqlx::query("SELECT * FROM jobs WHERE state = 'running'").fetch_all(&mut *transaction).await?;
         for row in &rows {
-            end_orphan(&mut transaction, row, max_attempts, Duration::ZERO, now).await?;
+            end_claim(&mut transaction, row, max_attempts, Duration::ZERO, now).await?;
         }
         transaction.commit().await?;
         Ok(rows.len() as u64)
@@ -168,21 +168,25 @@ impl Queue for Sqlite {
 }
 
 /// Ends the claims whose lease has run out.
-async fn rescue(connection: &mut SqliteConnection, terms: &Terms, now: Timestamp) -> Result<(), StoreError> {
+async fn end_expired_claims(
+    connection: &mut SqliteConnection,
+    terms: &Terms,
+    now: Timestamp,
+) -> Result<(), StoreError> {
     let rows = sqlx::query("SELECT * FROM jobs WHERE state = 'running' AND lease_until < $1")
         .bind(now.as_microsecond())
         .fetch_all(&mut *connection)
         .await?;
     for row in &rows {
         let wait = (terms.backoff)(row.uuid("id")?, row.whole("attempt")?);
-        end_orphan(connection, row, terms.max_attempts, wait, now).await?;
+        end_claim(connection, row, terms.max_attempts, wait, now).await?;
     }
     Ok(())
 }
 
 /// Takes a running job from a worker that is gone: dismissed where that was asked for, failed after its last attempt,
 /// queued again otherwise.
-async fn end_orphan(
+async fn end_claim(
     connection: &mut SqliteConnection,
     row: &SqliteRow,
     max_attempts: u32,

@@ -172,12 +172,12 @@ async fn what_an_interrupted_write_left_goes_at_the_next_start() {
 }
 
 #[tokio::test]
-async fn who_has_the_lock_ends_the_claims_of_whoever_had_it_before() {
+async fn the_process_with_the_lock_ends_the_claims_of_the_one_before() {
     let fixture = Fixture::new();
     let store = fixture.open().await;
     let job = upload_to(&store, "map").await;
     let held = store.claim(&TERMS, now()).await.unwrap().expect("due at once");
-    assert_eq!(store.end_claims_of_the_dead(TERMS.max_attempts, now()).await.unwrap(), 1);
+    assert_eq!(store.end_claims_of_dead_processes(TERMS.max_attempts, now()).await.unwrap(), 1);
     let again = store.claim(&TERMS, now()).await.unwrap().expect("due at once, without waiting for the lease");
     assert_eq!((again.job, again.attempt), (job.id, 2));
     assert!(matches!(store.end(&held, JobState::Failed, "", now()).await, Err(StoreError::ClaimLost)));
@@ -191,7 +191,7 @@ async fn a_clock_set_back_holds_no_job_up() {
     let day = SignedDuration::from_hours(24);
     let yesterday = now() - day;
     store.claim(&TERMS, yesterday).await.unwrap().expect("due whatever the clock says");
-    store.end_claims_of_the_dead(TERMS.max_attempts, yesterday).await.unwrap();
+    store.end_claims_of_dead_processes(TERMS.max_attempts, yesterday).await.unwrap();
     store.claim(&TERMS, yesterday - day).await.unwrap().expect("due whatever the clock says");
 }
 

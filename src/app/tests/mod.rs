@@ -1,5 +1,7 @@
 //! The use cases on a real store: a small hall is uploaded, analysed, and read.
 
+mod sharing;
+
 use std::sync::Arc;
 
 use serde_json::json;
@@ -12,7 +14,6 @@ use uuid::Uuid;
 use super::*;
 use crate::geojson::Georeference;
 use crate::ingest::MapSource;
-use crate::records::Tenant;
 
 /// A service in its own folder, without job slots: jobs run when a test says so.
 struct Service {
@@ -281,63 +282,4 @@ async fn questions_about_maps_that_do_not_exist_push_nothing_out() {
     let other = analysed(&service).await;
     service.context(&me(), other).await.unwrap();
     assert!(!Arc::ptr_eq(&context, &service.context(&me(), map).await.unwrap()), "the one used longest ago went");
-}
-
-#[tokio::test]
-async fn what_another_process_changes_is_seen_at_the_next_question() {
-    // Two services on one store, as two processes on one database.
-    let service = service().await;
-    let config = service.config().clone();
-    let other = App::start(config.clone(), Arc::clone(&service.store), Processes::standard(config.limits));
-    let map = analysed(&service).await;
-    let before = other.context(&me(), map).await.unwrap();
-    assert!(Arc::ptr_eq(&before, &other.context(&me(), map).await.unwrap()), "nothing has changed");
-
-    let patch = MapPatch { name: Some("Hall".into()), georeference: None };
-    service.update_map(&me(), map, patch, None).await.unwrap();
-    assert_eq!(other.context(&me(), map).await.unwrap().record.name, "Hall");
-
-    let new = NewSemantics { rule_set: Some("office".into()), assignment: Assignment::default() };
-    service.put_semantics(&me(), map, new, Some(0)).await.unwrap();
-    let decided = other.context(&me(), map).await.unwrap();
-    assert_eq!((decided.semantics.version, decided.semantics.rule_set.as_str()), (1, "office"));
-    assert!(Arc::ptr_eq(&before.analysis, &decided.analysis), "the geometry is not read again");
-
-    let options = AnalysisOptions { seed: 9, ..AnalysisOptions::default() };
-    service.create_analysis(&me(), map, options).await.unwrap();
-    service.run_until_empty().await.unwrap();
-    assert_eq!(other.context(&me(), map).await.unwrap().analysis.options.seed, 9);
-
-    service.delete_map(&me(), map).await.unwrap();
-    assert!(matches!(other.context(&me(), map).await, Err(AppError::NotFound { kind: "map", .. })));
-}
-
-#[tokio::test]
-async fn what_belongs_to_another_caller_is_not_found() {
-    let service = service().await;
-    let (job, _) = service.create_map(&me(), hall(20)).await.unwrap();
-    service.run_until_empty().await.unwrap();
-    service.context(&me(), job.map).await.unwrap();
-    service.create_rule_set(&me(), "clinic", RuleSet::office().draft().clone()).await.unwrap();
-
-    let other = Caller::of(Tenant::new("other"));
-    let not_found = |error: AppError| assert!(matches!(error, AppError::NotFound { .. }), "{error:?}");
-    not_found(service.map(&other, job.map).await.unwrap_err());
-    not_found(service.context(&other, job.map).await.unwrap_err());
-    not_found(service.analyses(&other, job.map).await.unwrap_err());
-    not_found(service.create_analysis(&other, job.map, AnalysisOptions::default()).await.unwrap_err());
-    not_found(service.semantics(&other, job.map).await.unwrap_err());
-    not_found(service.semantics_versions(&other, job.map).await.unwrap_err());
-    let new = NewSemantics { rule_set: None, assignment: Assignment::default() };
-    not_found(service.put_semantics(&other, job.map, new, Some(0)).await.unwrap_err());
-    not_found(service.update_map(&other, job.map, MapPatch::default(), None).await.unwrap_err());
-    not_found(service.delete_map(&other, job.map).await.unwrap_err());
-    not_found(service.job(&other, job.id).await.unwrap_err());
-    not_found(service.dismiss_job(&other, job.id).await.unwrap_err());
-    not_found(service.rule_set(&other, "clinic").await.unwrap_err());
-    not_found(service.delete_rule_set(&other, "clinic", Some(1)).await.unwrap_err());
-    assert_eq!(service.maps(&other, 9, None).await.unwrap(), []);
-    assert_eq!(service.jobs(&other, JobFilter { limit: 9, ..JobFilter::default() }).await.unwrap(), []);
-    assert_eq!(service.rule_sets(&other).await.unwrap().len(), 2, "the built-in ones");
-    service.context(&me(), job.map).await.expect("for its owner it is there");
 }
