@@ -12,15 +12,19 @@ use crate::records::StageReport;
 
 /// Share of each stage in the time of a whole analysis, percent, for one progress bar over all of them; measured on
 /// floors of two million cells. The features (beams from every free cell) are most of the work.
-const SHARES: [(Stage, f64); 8] = [
-    (Stage::Features, 80.0),
+const SHARES: [(Stage, f64); 12] = [
+    (Stage::Declutter, 1.0),
+    (Stage::Features, 79.0),
     (Stage::Clustering, 6.0),
     (Stage::Categorization, 2.0),
     (Stage::Orientation, 2.0),
-    (Stage::Regions, 7.0),
+    (Stage::Regions, 6.0),
     (Stage::Radiography, 1.0),
-    (Stage::Arrangement, 1.0),
-    (Stage::Annotation, 1.0),
+    (Stage::Rooms, 1.0),
+    (Stage::Rows, 0.5),
+    (Stage::SitePlan, 0.5),
+    (Stage::Arrangement, 0.5),
+    (Stage::Annotation, 0.5),
 ];
 
 /// An observer with a clock: wall time and CPU time of the process, by stage.
@@ -139,9 +143,9 @@ mod tests {
         let clock = StageClock::new();
         clock.progress(Stage::Features, 0.0);
         clock.progress(Stage::Features, 0.5);
-        assert_eq!((clock.stage(), clock.percent(), clock.reports().len()), (Some(Stage::Features), 40, 0));
+        assert_eq!((clock.stage(), clock.percent(), clock.reports().len()), (Some(Stage::Features), 39, 0));
         clock.progress(Stage::Features, 1.0);
-        assert_eq!((clock.stage(), clock.percent()), (None, 80));
+        assert_eq!((clock.stage(), clock.percent()), (None, 79));
         assert_eq!(clock.reports()[0].name, "features");
     }
 
@@ -151,7 +155,7 @@ mod tests {
         for fraction in [0.0, 1.0, 1.0] {
             clock.progress(Stage::Features, fraction);
         }
-        assert_eq!((clock.percent(), clock.reports().len()), (80, 1));
+        assert_eq!((clock.percent(), clock.reports().len()), (79, 1));
     }
 
     #[test]

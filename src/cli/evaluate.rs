@@ -28,7 +28,7 @@ pub(super) struct Arguments {
     /// Labels and their rules: `warehouse`, or a JSON file with labels `co`, `ju` and `pc`.
     #[arg(long, value_name = "ID|FILE", default_value = "warehouse")]
     rule_set: String,
-    /// JSON file with options of the analysis; absent fields keep their defaults.
+    /// JSON file with options of the analysis: a preset, and what differs from it or from the defaults.
     #[arg(long, value_name = "FILE")]
     options: Option<PathBuf>,
     /// JSON file with one label per category, to be compared as well.

@@ -4,11 +4,12 @@ use std::fmt::Display;
 use std::path::{Path, PathBuf};
 
 use serde::de::DeserializeOwned;
+use stillage_core::AnalysisSpec;
 use stillage_core::semantics::{Assignment, AssignmentProblem, RuleSet, RuleSetDraft};
-use stillage_core::{AnalysisOptions, AnalysisSpec};
 
 use super::Failure;
 use crate::ingest::{self, IngestError, MapSource};
+use crate::options::RequestedOptions;
 
 /// Reads a map: a metadata file with the image it names, or a message.
 pub(super) fn map(path: &Path) -> Result<MapSource, Failure> {
@@ -60,7 +61,7 @@ pub(super) fn map_name(path: &Path) -> String {
 /// The options in a file, or the defaults.
 pub(super) fn options(path: Option<&Path>) -> Result<AnalysisSpec, Failure> {
     let Some(path) = path else { return Ok(AnalysisSpec::default()) };
-    let options: AnalysisOptions = read_json(path)?;
+    let RequestedOptions(options) = read_json(path)?;
     options.check().map_err(|problems| Failure::Input(format!("{}: {}", path.display(), list(&problems))))
 }
 

@@ -85,19 +85,19 @@ impl Diagnostic {
 /// [`Stopped`] when the watch says so.
 pub fn analyze(grid: &OccupancyGrid, spec: &AnalysisSpec, watch: &Watch<'_>) -> Result<Analysis, Stopped> {
     let options = spec.options();
-    let declutter::Decluttered { grid: clean, removed: clutter } = declutter::declutter(grid, watch)?;
+    let declutter::Decluttered { grid: clean, removed: clutter } =
+        watch.stage(Stage::Declutter, || declutter::declutter(grid, &options.declutter, watch))?;
     let grid = &clean;
     let categorization = categorization::categorize(grid, &options.categorization, options.seed, watch)?;
     let orientations =
         watch.stage(Stage::Orientation, || orientation::dominant_orientations(grid, &options.orientation, watch))?;
     let regions = watch.stage(Stage::Regions, || segmentation::segment(grid, &orientations, options, watch))?;
-    let (radiograms, SitePlan { lines, plots, rooms }) = watch.stage(Stage::Radiography, || {
-        let (radiograms, lines) = radiography::lines(grid, &regions, &options.decomposition, watch)?;
-        if options.decomposition.method == DecompositionMethod::Paper {
-            return Ok((radiograms, SitePlan { lines, ..SitePlan::default() }));
-        }
-        Ok((radiograms, rooms::plan(grid, &regions, &options.decomposition, watch)?))
-    })?;
+    let (radiograms, lines) =
+        watch.stage(Stage::Radiography, || radiography::lines(grid, &regions, &options.decomposition, watch))?;
+    let SitePlan { lines, plots, rooms } = match options.decomposition.method {
+        DecompositionMethod::Adaptive => rooms::plan(grid, &regions, &options.decomposition, watch)?,
+        DecompositionMethod::Paper => SitePlan { lines, ..SitePlan::default() },
+    };
     let subdivision = watch.stage(Stage::Arrangement, || {
         let segments = arrangement::source_segments(grid, &regions, &lines, &rooms.cells);
         let subdivision = arrangement::arrange(&segments, watch)?;

@@ -19,6 +19,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::components::{Component, Components, Neighbours};
 use crate::grid::{Occupancy, OccupancyGrid};
+use crate::spec::{DeclutterMethod, DeclutterOptions};
 use crate::watch::{Stopped, Watch};
 
 /// Components above this area are structure whatever stands around them, square metres (a block of a pallet has 0.02).
@@ -66,11 +67,18 @@ pub struct Removed {
     pub rate: f64,
 }
 
-/// Turns lone hits, small holes and specks into the ground around them.
+/// Turns lone hits, small holes and specks into the ground around them, if the options say so.
 ///
 /// # Errors
 /// [`Stopped`] when the watch says so.
-pub fn declutter(grid: &OccupancyGrid, watch: &Watch<'_>) -> Result<Decluttered, Stopped> {
+pub fn declutter(grid: &OccupancyGrid, options: &DeclutterOptions, watch: &Watch<'_>) -> Result<Decluttered, Stopped> {
+    match options.method {
+        DeclutterMethod::Adaptive => without_clutter(grid, watch),
+        DeclutterMethod::None => Ok(Decluttered { grid: grid.clone(), removed: Removed::default() }),
+    }
+}
+
+fn without_clutter(grid: &OccupancyGrid, watch: &Watch<'_>) -> Result<Decluttered, Stopped> {
     let hits = components(grid, Occupancy::Occupied, watch)?;
     let rate = speckle_rate(grid, &hits, watch)?;
     let company = Company::new(grid, watch)?;
@@ -317,7 +325,7 @@ mod tests {
 
     fn removed(picture: &str, resolution: f64) -> (usize, usize) {
         let grid = OccupancyGrid::from_ascii(picture, resolution);
-        let found = declutter(&grid, &Watch::unwatched()).expect("nobody stops it");
+        let found = without_clutter(&grid, &Watch::unwatched()).expect("nobody stops it");
         (found.removed.occupied.len(), found.removed.unknown.len())
     }
 
@@ -360,7 +368,7 @@ mod tests {
         let cell = |row, column| if hit(row, column) || leg(row, column) { '#' } else { '.' };
         let rows: Vec<String> = (0..160).map(|row| (0..200).map(|column| cell(row, column)).collect()).collect();
         let grid = OccupancyGrid::from_ascii(&rows.join("\n"), 0.05);
-        let found = declutter(&grid, &Watch::unwatched()).expect("nobody stops it");
+        let found = without_clutter(&grid, &Watch::unwatched()).expect("nobody stops it");
         expect_test::expect!["160 of 410 hits and legs stay"].assert_eq(&format!(
             "{} of {} hits and legs stay",
             found.grid.count(Occupancy::Occupied),
@@ -371,7 +379,7 @@ mod tests {
     #[test]
     fn specks_in_unknown_ground_are_unknown() {
         let grid = OccupancyGrid::from_ascii("?????\n?#?.?\n?????", 0.05);
-        let found = declutter(&grid, &Watch::unwatched()).expect("nobody stops it");
+        let found = without_clutter(&grid, &Watch::unwatched()).expect("nobody stops it");
         assert_eq!(found.grid.count(Occupancy::Unknown), 15);
     }
 

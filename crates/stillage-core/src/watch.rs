@@ -3,9 +3,11 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// The stages of [`crate::analyze`], in their order.
+/// The stages of [`crate::analyze`], in their order. The paper's decomposition has neither rooms, rows nor site plan.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Stage {
+    /// Removal of lone hits, small holes and specks.
+    Declutter,
     /// Beams from every free cell of a sample, or of the whole map, reduced to features.
     Features,
     /// Clustering of the features into place categories.
@@ -14,10 +16,16 @@ pub enum Stage {
     Categorization,
     /// Dominant orientations of the whole map.
     Orientation,
-    /// Texture regions and their own orientations.
+    /// Regions of one direction or texture, and their own orientations.
     Regions,
-    /// Projections along the orientations, and the lines that cut each region.
+    /// Projections along the orientations, and the infinite lines of the paper's method.
     Radiography,
+    /// Passages and gates of the ground, and the rooms between them (adaptive method).
+    Rooms,
+    /// Aisles, rows and their places, and which rooms are halls (adaptive method).
+    Rows,
+    /// Goods that stand in rooms, and the borders of rooms (adaptive method).
+    SitePlan,
     /// Subdivision into faces and its dual graph.
     Arrangement,
     /// Categories, occupancy and evidence of faces and edges.
@@ -26,13 +34,17 @@ pub enum Stage {
 
 impl Stage {
     /// Every stage, in order.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 12] = [
+        Self::Declutter,
         Self::Features,
         Self::Clustering,
         Self::Categorization,
         Self::Orientation,
         Self::Regions,
         Self::Radiography,
+        Self::Rooms,
+        Self::Rows,
+        Self::SitePlan,
         Self::Arrangement,
         Self::Annotation,
     ];
@@ -41,12 +53,16 @@ impl Stage {
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
+            Self::Declutter => "declutter",
             Self::Features => "features",
             Self::Clustering => "clustering",
             Self::Categorization => "categorization",
             Self::Orientation => "orientation",
             Self::Regions => "regions",
             Self::Radiography => "radiography",
+            Self::Rooms => "rooms",
+            Self::Rows => "rows",
+            Self::SitePlan => "site-plan",
             Self::Arrangement => "arrangement",
             Self::Annotation => "annotation",
         }

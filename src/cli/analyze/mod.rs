@@ -27,7 +27,7 @@ pub(super) struct Arguments {
     /// Labels and their rules: `warehouse`, `office`, or a JSON file.
     #[arg(long, value_name = "ID|FILE", default_value = "warehouse")]
     rule_set: String,
-    /// JSON file with options of the analysis; absent fields keep their defaults.
+    /// JSON file with options of the analysis: a preset, and what differs from it or from the defaults.
     #[arg(long, value_name = "FILE")]
     options: Option<PathBuf>,
     /// JSON file with one label per category (`{"assignment": {"0": "co"}}`); the suggested labels when absent.

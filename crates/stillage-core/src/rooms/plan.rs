@@ -21,7 +21,7 @@ use crate::grid::{Occupancy, OccupancyGrid};
 use crate::radiography::Line;
 use crate::segmentation::RegionMap;
 use crate::spec::DecompositionOptions;
-use crate::watch::{Stopped, Watch};
+use crate::watch::{Stage, Stopped, Watch};
 
 /// Passages wider than a door join their rooms to one zone, metres: doors have 0.7 to 1.6.
 const DOOR_M: f64 = 1.6;
@@ -52,34 +52,61 @@ pub fn plan(
     options: &DecompositionOptions,
     watch: &Watch<'_>,
 ) -> Result<SitePlan, Stopped> {
-    let ground = Ground::of(grid, watch)?;
-    let passages = flood::passages(&ground, watch)?;
-    let gates = bays::gates(grid, &ground, watch)?;
-    let partition = Partition::of(&ground, passages.iter().chain(&gates), watch)?;
-    let zones = Zones::of(&ground, &partition, &passages);
+    let (ground, cuts) = watch.stage(Stage::Rooms, || {
+        let ground = Ground::of(grid, watch)?;
+        let passages = flood::passages(&ground, watch)?;
+        let gates = bays::gates(grid, &ground, watch)?;
+        let partition = Partition::of(&ground, passages.iter().chain(&gates), watch)?;
+        Ok((ground, Cuts { partition, passages, gates }))
+    })?;
+    let (rows, rooms) = watch.stage(Stage::Rows, || settle(grid, regions, &ground, &cuts, options, watch))?;
+    watch.stage(Stage::SitePlan, || assemble(grid, regions, &ground, &cuts.partition, rows, rooms, watch))
+}
+
+/// Finds out which zones are halls: the rows of all that may be, again without those that turn out to have none.
+fn settle(
+    grid: &OccupancyGrid,
+    regions: &RegionMap,
+    ground: &Ground,
+    cuts: &Cuts,
+    options: &DecompositionOptions,
+    watch: &Watch<'_>,
+) -> Result<(Decomposition, Rooms), Stopped> {
+    let zones = Zones::of(ground, &cuts.partition, &cuts.passages);
     let mut is_hall = zones.may_be_halls();
-    let cuts = Cuts { ground: &ground, partition: &partition, passages, gates };
-    let mut rooms = cuts.rooms(&is_hall);
-    let rows = loop {
+    let mut rooms = cuts.rooms(ground, &is_hall);
+    loop {
         let rows = if is_hall.contains(&true) {
             let grid = if rooms.count == 0 { grid } else { &without(grid, &rooms) };
             decomposition::decompose(grid, regions, options, watch)?
         } else {
             Decomposition::default()
         };
-        let holds_places = zones.hold_places(&ground, &partition, &rows);
+        let holds_places = zones.hold_places(ground, &cuts.partition, &rows);
         let is_settled = (1..is_hall.len()).all(|room| !is_hall[room] || holds_places[room]);
         if is_settled {
-            break rows;
+            return Ok((rows, rooms));
         }
         // Furniture that repeats by chance does so less when the rows of the next room are gone.
         is_hall.iter_mut().zip(holds_places).for_each(|(is_hall, holds_places)| *is_hall &= holds_places);
-        rooms = cuts.rooms(&is_hall);
-    };
-    if rooms.count == 0 {
-        return Ok(SitePlan { lines: rows.lines, plots: rows.plots, rooms });
+        rooms = cuts.rooms(ground, &is_hall);
     }
+}
+
+/// Puts rows and rooms together, with the stacks of goods that stand in rooms.
+fn assemble(
+    grid: &OccupancyGrid,
+    regions: &RegionMap,
+    ground: &Ground,
+    partition: &Partition,
+    rows: Decomposition,
+    mut rooms: Rooms,
+    watch: &Watch<'_>,
+) -> Result<SitePlan, Stopped> {
     let Decomposition { mut lines, mut plots } = rows;
+    if rooms.count == 0 {
+        return Ok(SitePlan { lines, plots, rooms });
+    }
     let stands_alone = |cell: usize| ground.is_stack[cell] && rooms.cells[partition.nearest[cell] as usize] != 0;
     let stacks = Stacks::find(grid, &rooms.cells, stands_alone, main_direction(regions), watch)?;
     plots.extend(stacks.footprints.iter().map(|&bounds| plot(grid, regions, bounds)));
@@ -168,18 +195,17 @@ impl Zones {
 }
 
 /// A site cut at its passages and gates.
-struct Cuts<'a> {
-    ground: &'a Ground,
-    partition: &'a Partition,
+struct Cuts {
+    partition: Partition,
     passages: Vec<Passage>,
     /// Those between a hall and the bays behind it.
     gates: Vec<Passage>,
 }
 
-impl Cuts<'_> {
+impl Cuts {
     /// The rooms that are no part of a hall, and the passages that lead into them.
-    fn rooms(&self, is_hall: &[bool]) -> Rooms {
-        let Self { ground, partition, passages, gates } = self;
+    fn rooms(&self, ground: &Ground, is_hall: &[bool]) -> Rooms {
+        let Self { partition, passages, gates } = self;
         // Only what is behind the gate of a hall is a room by itself.
         let mut same = DisjointSets::new(is_hall.len());
         for gate in gates {

@@ -1,0 +1,113 @@
+//! The options of an analysis as a client writes them, the same for the API and the command line.
+//!
+//! A client writes what differs from a preset, or from the defaults. [`RequestedOptions`] puts the two together; from
+//! there on options are whole.
+
+use serde::Deserialize;
+use serde::de::{Deserializer, Error};
+use serde_json::{Map, Value};
+use stillage_core::AnalysisOptions;
+use stillage_core::spec::Preset;
+
+/// Options read from JSON: the preset that `preset` names, or the defaults, with the other members put over them.
+///
+/// An error begins with the path to its culprit, as in `categorization.k: invalid type`.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct RequestedOptions(pub AnalysisOptions);
+
+/// The member that names a preset. No result has it: there, all options are written out.
+const PRESET: &str = "preset";
+
+impl<'de> Deserialize<'de> for RequestedOptions {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let mut members = Map::deserialize(deserializer)?;
+        let base = match members.remove(PRESET) {
+            None => AnalysisOptions::default(),
+            Some(name) => {
+                let preset = Preset::deserialize(name);
+                preset.map_err(|error| D::Error::custom(format!("{PRESET}: {error}")))?.options()
+            }
+        };
+        let mut whole = serde_json::to_value(base).map_err(D::Error::custom)?;
+        put_over(&mut whole, Value::Object(members));
+        serde_path_to_error::deserialize(whole).map(Self).map_err(D::Error::custom)
+    }
+}
+
+/// Puts the members of an object over those of another, group by group.
+fn put_over(base: &mut Value, over: Value) {
+    match (base, over) {
+        (Value::Object(base), Value::Object(over)) => {
+            for (name, value) in over {
+                put_over(base.entry(name).or_insert(Value::Null), value);
+            }
+        }
+        (base, over) => *base = over,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use stillage_core::spec::{
+        CategoryCount, DeclutterMethod, DecompositionMethod, FeatureProfile, RegionMethod, RelaxationOptions,
+    };
+
+    use super::*;
+
+    fn read(json: &str) -> Result<AnalysisOptions, String> {
+        serde_json::from_str(json).map(|RequestedOptions(options)| options).map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn without_a_preset_the_defaults_fill_the_gaps() {
+        assert_eq!(read("{}"), Ok(AnalysisOptions::default()));
+        let options = read(r#"{"categorization": {"k": 3}}"#).unwrap();
+        let mut expected = AnalysisOptions::default();
+        expected.categorization.k = CategoryCount::Fixed(3);
+        assert_eq!(options, expected);
+    }
+
+    #[test]
+    fn options_beside_a_preset_override_it() {
+        let options = read(
+            r#"{"preset": "paper", "regions": {"method": "single"},
+                "categorization": {"profile": "halmstad2017", "relaxation": {}, "maxRangeM": null}}"#,
+        )
+        .unwrap();
+        assert_eq!(options.declutter.method, DeclutterMethod::None);
+        assert_eq!(options.decomposition.method, DecompositionMethod::Paper);
+        assert_eq!(options.regions.method, RegionMethod::Single);
+        assert_eq!(options.categorization.profile, FeatureProfile::Halmstad2017);
+        assert_eq!(options.categorization.relaxation, Some(RelaxationOptions::default()));
+        assert_eq!(options.categorization.restarts, 20);
+    }
+
+    #[test]
+    fn options_that_are_whole_already_stay_as_they_are() {
+        let whole = Preset::Halmstad2017.options();
+        assert_eq!(read(&serde_json::to_string(&whole).unwrap()), Ok(whole));
+    }
+
+    #[test]
+    fn errors_name_the_culprit() {
+        let errors: String = [
+            r#"{"preset": "papr"}"#,
+            r#"{"preset": 1}"#,
+            r#"{"preset": "paper", "regions": {"method": "tiles"}}"#,
+            r#"{"categorisation": {}}"#,
+            r#"{"categorization": 5}"#,
+            r#"{"seed": 1"#,
+        ]
+        .iter()
+        .map(|json| format!("{json} -> {}\n", read(json).unwrap_err()))
+        .collect();
+        expect_test::expect![[r#"
+            {"preset": "papr"} -> preset: unknown variant `papr`, expected `paper` or `halmstad2017`
+            {"preset": 1} -> preset: invalid type: integer `1`, expected string or map
+            {"preset": "paper", "regions": {"method": "tiles"}} -> regions.method: unknown variant `tiles`, expected one of `energy`, `single`, `gabor`
+            {"categorisation": {}} -> categorisation: unknown field `categorisation`, expected one of `seed`, `grid`, `categorization`, `orientation`, `regions`, `decomposition`, `annotation`, `declutter`
+            {"categorization": 5} -> categorization: invalid type: integer `5`, expected struct CategorizationOptions
+            {"seed": 1 -> EOF while parsing an object at line 1 column 10
+        "#]].assert_eq(&errors);
+    }
+}
