@@ -21,13 +21,9 @@ const PRESET: &str = "preset";
 impl<'de> Deserialize<'de> for RequestedOptions {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let mut members = Map::deserialize(deserializer)?;
-        let base = match members.remove(PRESET) {
-            None => AnalysisOptions::default(),
-            Some(name) => {
-                let preset = Preset::deserialize(name);
-                preset.map_err(|error| D::Error::custom(format!("{PRESET}: {error}")))?.options()
-            }
-        };
+        let preset = Option::<Preset>::deserialize(members.remove(PRESET).unwrap_or_default())
+            .map_err(|error| D::Error::custom(format!("{PRESET}: {error}")))?;
+        let base = preset.map_or_else(AnalysisOptions::default, Preset::options);
         let mut whole = serde_json::to_value(base).map_err(D::Error::custom)?;
         put_over(&mut whole, Value::Object(members));
         serde_path_to_error::deserialize(whole).map(Self).map_err(D::Error::custom)

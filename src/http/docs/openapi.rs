@@ -142,7 +142,7 @@ fn complete_operation(operation: &mut Operation, path: &str, is_read: bool) {
 }
 
 /// The schemas of the options, with the member of [`AnalysisOptions`] that each describes.
-const OPTIONS: [(&str, &str); 8] = [
+const OPTIONS: [(&str, &str); 9] = [
     ("AnalysisOptions", ""),
     ("GridOptions", "/grid"),
     ("CategorizationOptions", "/categorization"),
@@ -151,6 +151,7 @@ const OPTIONS: [(&str, &str); 8] = [
     ("RegionOptions", "/regions"),
     ("DecompositionOptions", "/decomposition"),
     ("AnnotationOptions", "/annotation"),
+    ("DeclutterOptions", "/declutter"),
 ];
 
 /// The document as it is served and stored: pretty, with the defaults of the core and a last line break.

@@ -21,6 +21,7 @@ use crate::http::maps::options::AnalysisOptionsView;
 use crate::http::ogc::jobs::JobView;
 use crate::http::problem::Problem;
 use crate::http::views::{DiagnosticView, StageView};
+use crate::options::RequestedOptions;
 
 /// A finished analysis.
 #[derive(Debug, Serialize, ToSchema)]
@@ -92,7 +93,7 @@ pub async fn create(
     caller: Caller,
     base: Base,
     Path(path): Path<MapPath>,
-    JsonBody(options): JsonBody<AnalysisOptions>,
+    JsonBody(RequestedOptions(options)): JsonBody<RequestedOptions>,
 ) -> Result<Response, Problem> {
     let ticket = app.create_analysis(&caller, path.map_id.0, options).await;
     // The use case names the options as a part of an upload; here they are the whole body.

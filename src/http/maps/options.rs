@@ -11,6 +11,11 @@ use utoipa::ToSchema;
 #[schema(as = AnalysisOptions)]
 #[serde(default, deny_unknown_fields, rename_all = "camelCase")]
 pub struct AnalysisOptionsView {
+    /// A set of options under one name; what stands beside it overrides it. Results do not have it: there, every option
+    /// is written out.
+    #[schema(write_only)]
+    #[serde(skip_serializing)]
+    preset: Option<Preset>,
     /// Seed of every random choice.
     seed: u64,
     grid: GridOptionsView,
@@ -19,6 +24,16 @@ pub struct AnalysisOptionsView {
     regions: RegionOptionsView,
     decomposition: DecompositionOptionsView,
     annotation: AnnotationOptionsView,
+    declutter: DeclutterOptionsView,
+}
+
+/// `paper`: every stage as the paper describes it, and nothing else touches the map. `halmstad2017`: the same, with the
+/// place categorization of the author's published code of 2017.
+#[derive(Debug, Serialize, ToSchema)]
+#[serde(rename_all = "lowercase")]
+enum Preset {
+    Paper,
+    Halmstad2017,
 }
 
 /// Overrides of the thresholds in the map's own metadata.
@@ -279,6 +294,24 @@ enum AnnotationMethod {
     Vote,
 }
 
+/// Removal of clutter, before every other stage.
+#[derive(Debug, Default, Serialize, ToSchema)]
+#[schema(as = DeclutterOptions)]
+#[serde(default, deny_unknown_fields, rename_all = "camelCase")]
+pub struct DeclutterOptionsView {
+    /// `adaptive`: lone hits and small holes, by what is around them. `none`: the stages see the map as it is.
+    method: DeclutterMethod,
+}
+
+/// How clutter is told from structure.
+#[derive(Debug, Default, Serialize, ToSchema)]
+#[serde(rename_all = "camelCase")]
+enum DeclutterMethod {
+    #[default]
+    Adaptive,
+    None,
+}
+
 #[cfg(test)]
 mod tests {
     use serde_json::Value;
@@ -304,6 +337,14 @@ mod tests {
     }
 
     #[test]
+    fn the_view_names_the_presets() {
+        let names =
+            [Preset::Paper, Preset::Halmstad2017].map(|name| serde_json::to_value(name).expect("can be written"));
+        let known = stillage_core::spec::Preset::ALL.map(|name| serde_json::to_value(name).expect("can be written"));
+        assert_eq!(names, known);
+    }
+
+    #[test]
     fn every_choice_of_the_view_can_be_read() {
         for (pointer, choices) in [
             ("/categorization/profile", vec!["paper13", "halmstad2017"]),
@@ -315,6 +356,7 @@ mod tests {
             ("/regions/method", vec!["energy", "single", "gabor"]),
             ("/decomposition/method", vec!["adaptive", "paper"]),
             ("/annotation/method", vec!["faces", "vote"]),
+            ("/declutter/method", vec!["adaptive", "none"]),
         ] {
             for choice in choices {
                 let mut options = serde_json::to_value(AnalysisOptions::default()).expect("can be written");

@@ -11,6 +11,7 @@ use crate::http::extract::{self, Name, broken_body, is_json, parse_json};
 use crate::http::problem::{Problem, ProblemType};
 use crate::http::views::GeoreferenceView;
 use crate::ingest::{Limits, MapSource};
+use crate::options::RequestedOptions;
 
 /// Bytes that the part `metadata` or `options` may have: a hundred times what `map_server` writes.
 const TEXT_PART_BYTES: usize = 64 << 10;
@@ -82,7 +83,7 @@ struct Form {
     file_name: Option<String>,
     metadata: Option<Vec<u8>>,
     name: Option<Name>,
-    options: Option<AnalysisOptions>,
+    options: Option<RequestedOptions>,
     georeference: Option<GeoreferenceView>,
 }
 
@@ -132,7 +133,7 @@ impl Form {
         if let Some(Name(name)) = self.name.or_else(file_stem) {
             map.name = name;
         }
-        map.options = self.options.unwrap_or_default();
+        map.options = self.options.unwrap_or_default().0;
         map.georeference = match self.georeference {
             Some(georeference) => georeference.check("/georeference")?,
             None => None,
