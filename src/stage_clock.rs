@@ -6,26 +6,10 @@ use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
 use rustix::time::{ClockId, clock_gettime};
+use stillage_core::stage_shares::StageShares;
 use stillage_core::watch::{Observer, Stage};
 
 use crate::records::StageReport;
-
-/// Share of each stage in the time of a whole analysis, percent, for one progress bar over all of them; measured on
-/// floors of two million cells. The features (beams from every free cell) are most of the work.
-const SHARES: [(Stage, f64); 12] = [
-    (Stage::Declutter, 1.0),
-    (Stage::Features, 79.0),
-    (Stage::Clustering, 6.0),
-    (Stage::Categorization, 2.0),
-    (Stage::Orientation, 2.0),
-    (Stage::Regions, 6.0),
-    (Stage::Radiography, 1.0),
-    (Stage::Rooms, 1.0),
-    (Stage::Rows, 0.5),
-    (Stage::SitePlan, 0.5),
-    (Stage::Arrangement, 0.5),
-    (Stage::Annotation, 0.5),
-];
 
 /// An observer with a clock: wall time and CPU time of the process, by stage.
 ///
@@ -37,6 +21,7 @@ pub struct StageClock(Mutex<Times>);
 struct Times {
     finished: Vec<StageReport>,
     running: Option<Running>,
+    shares: StageShares,
 }
 
 #[derive(Debug)]
@@ -70,12 +55,11 @@ impl StageClock {
     #[must_use]
     pub fn percent(&self) -> u8 {
         let times = self.times();
-        let share =
-            |stage: &str| SHARES.iter().find(|(known, _)| known.name() == stage).map_or(0.0, |(_, share)| *share);
-        let finished: f64 = times.finished.iter().map(|report| share(&report.name)).sum();
+        let is_finished = |stage: &&Stage| times.finished.iter().any(|report| report.name == stage.name());
+        let finished: f64 = Stage::ALL.iter().filter(is_finished).map(|&stage| times.shares.of(stage)).sum();
         let running = times.running.as_ref().filter(|running| running.fraction < 1.0);
-        let running = running.map_or(0.0, |running| share(running.stage.name()) * running.fraction);
-        (finished + running).clamp(0.0, 100.0) as u8
+        let running = running.map_or(0.0, |running| times.shares.of(running.stage) * running.fraction);
+        (100.0 * (finished + running)).clamp(0.0, 100.0) as u8
     }
 
     /// Times something that is no stage of the core.
@@ -97,6 +81,10 @@ impl StageClock {
 }
 
 impl Observer for StageClock {
+    fn begin(&self, shares: &StageShares) {
+        self.times().shares = *shares;
+    }
+
     fn progress(&self, stage: Stage, fraction: f64) {
         let mut times = self.times();
         if times.running.as_ref().is_none_or(|running| running.stage != stage) {
@@ -143,9 +131,9 @@ mod tests {
         let clock = StageClock::new();
         clock.progress(Stage::Features, 0.0);
         clock.progress(Stage::Features, 0.5);
-        assert_eq!((clock.stage(), clock.percent(), clock.reports().len()), (Some(Stage::Features), 39, 0));
+        assert_eq!((clock.stage(), clock.percent(), clock.reports().len()), (Some(Stage::Features), 4, 0));
         clock.progress(Stage::Features, 1.0);
-        assert_eq!((clock.stage(), clock.percent()), (None, 79));
+        assert_eq!((clock.stage(), clock.percent()), (None, 8));
         assert_eq!(clock.reports()[0].name, "features");
     }
 
@@ -155,12 +143,6 @@ mod tests {
         for fraction in [0.0, 1.0, 1.0] {
             clock.progress(Stage::Features, fraction);
         }
-        assert_eq!((clock.percent(), clock.reports().len()), (79, 1));
-    }
-
-    #[test]
-    fn the_shares_make_a_whole_in_the_order_of_the_stages() {
-        assert_eq!(SHARES.map(|(stage, _)| stage), Stage::ALL);
-        assert!((SHARES.iter().map(|(_, share)| share).sum::<f64>() - 100.0).abs() < 1e-9);
+        assert_eq!((clock.percent(), clock.reports().len()), (8, 1));
     }
 }

@@ -5,6 +5,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use indicatif::{ProgressBar, ProgressStyle};
 use stillage_core::Stage;
+use stillage_core::stage_shares::StageShares;
 use stillage_core::watch::Observer;
 
 use crate::stage_clock::StageClock;
@@ -48,6 +49,10 @@ impl Progress {
 }
 
 impl Observer for Progress {
+    fn begin(&self, shares: &StageShares) {
+        self.clock.begin(shares);
+    }
+
     fn progress(&self, stage: Stage, fraction: f64) {
         self.clock.progress(stage, fraction);
         if let Some(bar) = &self.bar {

@@ -12,6 +12,7 @@
 )]
 
 mod analyze;
+mod authors_categories;
 mod evaluate;
 mod maps;
 mod wild_metadata;

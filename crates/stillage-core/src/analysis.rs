@@ -14,6 +14,7 @@ use crate::relaxation::RelaxationReport;
 use crate::rooms::{self, RoomMap, SitePlan};
 use crate::segmentation::{self, RegionMap};
 use crate::spec::{AnalysisOptions, AnalysisSpec, DecompositionMethod};
+use crate::stage_shares::{CellCounts, StageShares};
 use crate::watch::{Stage, Stopped, Watch};
 
 /// Version of the algorithms: part of the address of a stored analysis, raised whenever results change.
@@ -85,6 +86,7 @@ impl Diagnostic {
 /// [`Stopped`] when the watch says so.
 pub fn analyze(grid: &OccupancyGrid, spec: &AnalysisSpec, watch: &Watch<'_>) -> Result<Analysis, Stopped> {
     let options = spec.options();
+    watch.begin(&StageShares::estimate(&CellCounts::of(grid), options));
     let declutter::Decluttered { grid: clean, removed: clutter } =
         watch.stage(Stage::Declutter, || declutter::declutter(grid, &options.declutter, watch))?;
     let grid = &clean;

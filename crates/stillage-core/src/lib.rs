@@ -66,6 +66,7 @@ mod runs;
 mod site_ground;
 mod smallest_box;
 pub mod spec;
+pub mod stage_shares;
 mod walls;
 pub mod watch;
 

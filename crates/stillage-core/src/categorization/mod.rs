@@ -24,11 +24,12 @@ use crate::vectors::Vectors;
 use crate::watch::{Stage, Stopped, Watch};
 
 pub(crate) use parts::KEPT_CELLS;
+pub(crate) use parts::sampled_share;
 use parts::{PartLabels, Sample, assign_parts};
 use spread::spread;
 
 /// Cells that categories are fitted to: the standard error of a centroid is then below half a percent of the spread.
-const FIT_CELLS: usize = 200_000;
+pub(crate) const FIT_CELLS: usize = 200_000;
 /// When centroids rest. On flat ground a looser one moves thousands of cells by the seed.
 const TOLERANCE: f64 = 1e-6;
 /// The same of the author, who fitted to all cells (the default of scikit-learn).
@@ -96,8 +97,10 @@ pub fn categorize(
     watch: &Watch<'_>,
 ) -> Result<Categorization, Stopped> {
     let (source, sample) = watch.stage(Stage::Features, || {
-        let source = FeatureSource::new(grid, options, Vectors::widest(), watch)?;
-        let sample = Sample::measure(&source, grid.count(Occupancy::Free), seed, watch)?;
+        let cells = grid.count(Occupancy::Free);
+        let prepared = FeatureSource::preparation_share(options.profile, sampled_share(cells));
+        let source = FeatureSource::new(grid, options, Vectors::widest(), &watch.part(0.0, prepared))?;
+        let sample = Sample::measure(&source, cells, seed, &watch.part(prepared, 1.0))?;
         Ok((source, sample))
     })?;
     let columns = source.names().len();

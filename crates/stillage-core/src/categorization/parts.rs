@@ -4,7 +4,6 @@
 //! are kept until they are labelled, so nothing is measured twice; a map of up to [`KEPT_CELLS`] is its own sample.
 
 use std::ops::Range;
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
@@ -17,6 +16,11 @@ use crate::watch::{Stage, Stopped, Watch};
 
 /// Cells whose features are kept for the clustering: 104 MB of them, from a hundred and more parts all over the map.
 pub(crate) const KEPT_CELLS: usize = 2_000_000;
+
+/// Share of so many free cells that the sample holds; 1 where it holds them all.
+pub(crate) fn sampled_share(cells: usize) -> f64 {
+    (KEPT_CELLS as f64 / cells.max(1) as f64).min(1.0)
+}
 
 /// The features of some parts, drawn by lot, or of all.
 pub(super) struct Sample {
@@ -33,19 +37,19 @@ impl Sample {
         seed: u64,
         watch: &Watch<'_>,
     ) -> Result<Self, Stopped> {
-        let sample = Self::of(source, draw(source.parts(), KEPT_CELLS as f64 / cells.max(1) as f64, seed), watch)?;
+        let sample = Self::of(source, draw(source.parts(), sampled_share(cells), seed), watch)?;
         // The lot may fall on empty parts alone.
         if sample.rows.is_empty() { Self::of(source, (0..source.parts()).collect(), watch) } else { Ok(sample) }
     }
 
     /// Measures the drawn parts.
     fn of(source: &FeatureSource<'_>, drawn: Vec<usize>, watch: &Watch<'_>) -> Result<Self, Stopped> {
-        let progress = Progress::new(Stage::Features, drawn.len(), FeatureSource::PREPARATION_SHARE, watch);
+        let steps = watch.steps(Stage::Features, drawn.len());
         let measured: Result<Vec<CellFeatures>, Stopped> = drawn
             .par_iter()
             .map_init(Workspace::default, |workspace, &part| {
                 let features = source.part(part, workspace, watch)?;
-                progress.count_one();
+                steps.count_one();
                 Ok(features)
             })
             .collect();
@@ -99,7 +103,7 @@ pub(super) fn assign_parts(
     watch: &Watch<'_>,
 ) -> Result<Vec<PartLabels>, Stopped> {
     let Sample { parts, rows } = sample;
-    let progress = Progress::new(Stage::Categorization, parts.len(), 0.0, watch);
+    let steps = watch.steps(Stage::Categorization, parts.len());
     parts
         .into_par_iter()
         .enumerate()
@@ -111,7 +115,7 @@ pub(super) fn assign_parts(
                 let CellFeatures { cells, values, .. } = source.part(part, workspace, watch)?;
                 label(cells, &values, model, is_graded)
             };
-            progress.count_one();
+            steps.count_one();
             Ok(labels)
         })
         .collect()
@@ -138,30 +142,6 @@ fn label(cells: Vec<u32>, rows: &[f32], model: &PlaceModel, is_graded: bool) -> 
         sums.iter_mut().zip(row).for_each(|(sum, &value)| *sum += f64::from(value));
     }
     PartLabels { cells, labels, shares, counts, sums }
-}
-
-/// Reports how many of some parts are done.
-struct Progress<'a> {
-    stage: Stage,
-    parts: usize,
-    /// What of the stage was done before the first part.
-    before: f64,
-    done: AtomicUsize,
-    watch: &'a Watch<'a>,
-}
-
-impl<'a> Progress<'a> {
-    fn new(stage: Stage, parts: usize, before: f64, watch: &'a Watch<'a>) -> Self {
-        Self { stage, parts, before, done: AtomicUsize::new(0), watch }
-    }
-
-    /// Counts one more part.
-    fn count_one(&self) {
-        let done = self.done.fetch_add(1, Ordering::Relaxed) + 1;
-        // The end of a stage is told by the stage.
-        let share = (done as f64 / self.parts as f64).min(0.999);
-        self.watch.progress(self.stage, self.before + (1.0 - self.before) * share);
-    }
 }
 
 #[cfg(test)]

@@ -22,10 +22,15 @@ use super::points::{GROUPS_PER_BLOCK, LANES, Points, nearest, sample, squared_di
 use super::random::{below, draw, stream, uniform};
 use super::scaling::RowScaling;
 use crate::spec::Scaling;
-use crate::watch::{Stopped, Watch};
+use crate::watch::{Stage, Stopped, Watch};
 
 /// Restarts compete on one of so many rows of the sample.
 const COMPETITION: usize = 10;
+
+/// Share of the time of a fit when the competition is over, and when its runs are compared on the whole sample.
+const COMPETED: f64 = 0.4;
+/// See [`COMPETED`].
+const JUDGED: f64 = 0.7;
 
 /// How to look for centroids.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -55,7 +60,7 @@ pub fn k_means(rows: &[f32], columns: usize, options: &KMeansOptions, watch: &Wa
     let scaling = RowScaling::fit(rows, columns, Scaling::None);
     let mut points = Points::default();
     points.refill(rows, &scaling, sample(rows.len() / columns, options.fit_rows, options.seed).into_iter());
-    let centroids = fit(&points, options, watch)?.centroids;
+    let centroids = fit(&points, options, &watch.silent())?.centroids;
     points.refill(rows, &scaling, 0..rows.len() / columns);
     let labels = |group| nearest(points.group(group), &centroids).labels.into_iter().take(points.rows_in(group));
     Ok((0..points.group_count()).flat_map(labels).map(|label| label as u8).collect())
@@ -70,7 +75,7 @@ pub(super) struct Run {
     pub inertia: f64,
 }
 
-/// Finds the centroids of points.
+/// Finds the centroids of points. Reports its progress as that of [`Stage::Clustering`].
 pub(super) fn fit(points: &Points, options: &KMeansOptions, watch: &Watch<'_>) -> Result<Run, Stopped> {
     assert!((1..=255).contains(&options.k), "clusters are numbered by a byte");
     if points.len() == 0 {
@@ -79,20 +84,27 @@ pub(super) fn fit(points: &Points, options: &KMeansOptions, watch: &Watch<'_>) -
     // A sample of a sample: only where that one had to be drawn itself.
     let few = options.fit_rows / COMPETITION;
     let competition = (points.len() > few).then(|| points.select(sample(points.len(), few, options.seed).into_iter()));
-    let runs: Result<Vec<Run>, Stopped> = (0..options.restarts.max(1))
+    let restarts = options.restarts.max(1);
+    let (competed, judged) = if competition.is_some() { (COMPETED, JUDGED) } else { (1.0, 1.0) };
+    let steps = watch.part(0.0, competed).steps(Stage::Clustering, restarts);
+    let runs: Result<Vec<Run>, Stopped> = (0..restarts)
         .into_par_iter()
         .map(|restart| {
             let mut random = stream(options.seed, restart as u64);
             let points = competition.as_ref().unwrap_or(points);
             // Greedy starts are better as a rule, plain ones differ more: both have their turns.
             let candidates = if restart % 2 == 0 { greedy_candidates(options.k) } else { 1 };
-            lloyd(points, first_centroids(points, options.k, candidates, &mut random), options, watch)
+            let run = lloyd(points, first_centroids(points, options.k, candidates, &mut random), options, watch)?;
+            steps.count_one();
+            Ok(run)
         })
         .collect();
     let mut runs = runs?;
     if competition.is_some() {
+        let steps = watch.part(competed, judged).steps(Stage::Clustering, restarts);
         for run in &mut runs {
             run.inertia = cluster_sums(points, &run.centroids, watch)?.inertia;
+            steps.count_one();
         }
     }
     let best = runs.into_iter().reduce(|best, run| if run.inertia < best.inertia { run } else { best });

@@ -27,7 +27,7 @@ use super::Candidate;
 use super::kmeans::{self, KMeansOptions};
 use super::points::{Points, nearest, sample};
 use super::random::{shuffled, stream};
-use crate::watch::{Stopped, Watch};
+use crate::watch::{Stage, Stopped, Watch};
 
 /// Strength that clusters must have: the middle of the 0.8 to 0.9 that the authors recommend.
 const STRONG: f64 = 0.85;
@@ -41,6 +41,10 @@ const FIRST_STREAM: u64 = 1 << 32;
 /// The strength of every number of clusters from 2 to `most.k`.
 pub(super) fn candidates(points: &Points, most: &KMeansOptions, watch: &Watch<'_>) -> Result<Vec<Candidate>, Stopped> {
     let rows = sample(points.len(), 2 * HALF, most.seed);
+    // The time of k-means grows with the number of clusters.
+    let all: usize = (2..=most.k).sum();
+    let steps = watch.steps(Stage::Clustering, all * HALVINGS as usize);
+    let silent = watch.silent();
     (2..=most.k)
         .map(|k| {
             let options = KMeansOptions { k, ..*most };
@@ -49,10 +53,11 @@ pub(super) fn candidates(points: &Points, most: &KMeansOptions, watch: &Watch<'_
                 let order = shuffled(rows.len(), &mut stream(most.seed, FIRST_STREAM + halving));
                 let (one, other) = order.split_at(order.len() / 2);
                 let [one, other] = [one, other].map(|half| points.select(half.iter().map(|&index| rows[index])));
-                let of_one = kmeans::fit(&one, &options, watch)?.centroids;
-                let of_other = kmeans::fit(&other, &options, watch)?.centroids;
+                let of_one = kmeans::fit(&one, &options, &silent)?.centroids;
+                let of_other = kmeans::fit(&other, &options, &silent)?.centroids;
                 strengths.push(strength(&one, &of_one, &of_other));
                 strengths.push(strength(&other, &of_other, &of_one));
+                (0..k).for_each(|_| steps.count_one());
             }
             strengths.sort_by(f64::total_cmp);
             let middle = strengths.len() / 2;

@@ -34,7 +34,7 @@ use crate::radiography::Line;
 use crate::segmentation::RegionMap;
 use crate::site_ground::SiteGround;
 use crate::spec::DecompositionOptions;
-use crate::watch::{Stopped, Watch};
+use crate::watch::{Stage, Stopped, Watch};
 
 use ground::{RegionFrame, drivable};
 use rows::SizeHints;
@@ -61,9 +61,14 @@ pub fn decompose(
     watch: &Watch<'_>,
 ) -> Result<Decomposition, Stopped> {
     let site = SiteGround::of(grid, regions, watch)?;
+    let steps = watch.steps(Stage::Rows, regions.regions.len());
     let of_region: Vec<Decomposition> = (0..regions.regions.len() as u8)
         .into_par_iter()
-        .map(|region| decompose_region(grid, regions, region, &site, options, watch))
+        .map(|region| {
+            let found = decompose_region(grid, regions, region, &site, options, watch)?;
+            steps.count_one();
+            Ok(found)
+        })
         .collect::<Result<_, _>>()?;
     let mut whole = Decomposition::default();
     for part in of_region {

@@ -21,8 +21,8 @@
 //! the sums are turned once and no beam is. Cost: O(cells x beams). Tiles are independent, and no sum depends on the
 //! width of the machine's vectors, so the result depends on neither.
 
+use super::CellFeatures;
 use super::paper_sums::{BeamTerms, FanTerms, GROUP, Planes, TileSums};
-use super::{CellFeatures, FeatureSource};
 use crate::grid::{Occupancy, OccupancyGrid};
 use crate::raycast::{BeamOptions, PLANE_PITCH, Sweep, Tile, TileScratch, beam_direction};
 use crate::spec::CategorizationOptions;
@@ -103,7 +103,7 @@ impl<'a> PaperFeatures<'a> {
         vectors: Vectors,
         watch: &Watch<'_>,
     ) -> Result<Self, Stopped> {
-        let progress = |done: f64| watch.progress(Stage::Features, FeatureSource::PREPARATION_SHARE * done);
+        let progress = |done: f64| watch.progress(Stage::Features, done);
         let sweep = Sweep::new(grid, &BeamOptions::from(options), vectors, watch, progress)?;
         let count = options.beams;
         let beams: Vec<BeamTerms> = (0..count)
@@ -310,6 +310,7 @@ impl TileWork<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::features::FeatureSource;
     use crate::raycast::PLANE_LENGTH;
     use crate::test_maps::real_maps;
     use proptest::prelude::*;

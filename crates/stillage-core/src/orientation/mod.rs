@@ -27,7 +27,7 @@ use crate::grid::OccupancyGrid;
 use crate::signal::{self, Boundary, Peak, RidgeSpec};
 use crate::spec::{OrientationMethod, OrientationOptions};
 use crate::walls;
-use crate::watch::{Stopped, Watch};
+use crate::watch::{Stage, Stopped, Watch};
 
 mod blocks;
 pub mod energy;
@@ -100,22 +100,28 @@ pub fn dominant_orientations(
 /// them, so what is no wall is asked by itself as well.
 fn by_energy(grid: &OccupancyGrid, options: &OrientationOptions, watch: &Watch<'_>) -> Result<Orientations, Stopped> {
     let is_wall = walls::find(grid, watch)?;
+    watch.progress(Stage::Orientation, 0.1);
     let all = OccupiedSample::of_parts(grid, 1, |_, _| Some(0), energy::SAMPLE_CELLS, watch)?.swap_remove(0);
     let no_wall = |column: usize, row: usize| (!is_wall[row * grid.width() + column]).then_some(0);
     let goods = OccupiedSample::of_parts(grid, 1, no_wall, energy::SAMPLE_CELLS, watch)?.swap_remove(0);
+    watch.progress(Stage::Orientation, 0.2);
     let histogram = EnergyScan::new(&all, watch)?.normalized_contrasts();
+    watch.progress(Stage::Orientation, 0.3);
     let separation = options.min_separation_deg.to_radians();
     let mut angles = refine(&all, &[], options, watch)?;
+    watch.progress(Stage::Orientation, 0.4);
     let enough = goods.len() >= LEAST_GOODS;
     for angle in if enough { refine(&goods, &[], options, watch)? } else { Vec::new() } {
         if angles.iter().all(|&other| line_angle_between(angle, other) >= separation) {
             angles.push(angle);
         }
     }
+    watch.progress(Stage::Orientation, 0.5);
     for pair in blocks::pairs(grid, if enough { &goods } else { &all }, &angles, watch)? {
         let both = [pair, pair + PI / 2.0].map(fold_half_turn);
         angles.extend(both);
     }
+    watch.progress(Stage::Orientation, 0.6);
     if angles.is_empty() {
         return Ok(Orientations::default());
     }

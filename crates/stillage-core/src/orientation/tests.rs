@@ -209,7 +209,7 @@ fn the_number_of_threads_changes_nothing() {
 fn a_raised_flag_stops_the_search() {
     struct Silent;
     impl crate::watch::Observer for Silent {
-        fn progress(&self, _: crate::Stage, _: f64) {}
+        fn progress(&self, _: Stage, _: f64) {}
     }
     let flag = StopFlag::default();
     flag.raise();

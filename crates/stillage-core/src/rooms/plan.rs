@@ -54,8 +54,11 @@ pub fn plan(
 ) -> Result<SitePlan, Stopped> {
     let (ground, cuts) = watch.stage(Stage::Rooms, || {
         let ground = Ground::of(grid, watch)?;
+        watch.progress(Stage::Rooms, 0.1);
         let passages = flood::passages(&ground, watch)?;
+        watch.progress(Stage::Rooms, 0.2);
         let gates = bays::gates(grid, &ground, watch)?;
+        watch.progress(Stage::Rooms, 0.3);
         let partition = Partition::of(&ground, passages.iter().chain(&gates), watch)?;
         Ok((ground, Cuts { partition, passages, gates }))
     })?;
