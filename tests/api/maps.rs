@@ -125,6 +125,28 @@ async fn other_options_are_another_analysis_and_the_same_are_not() {
 }
 
 #[tokio::test]
+async fn a_preset_is_written_out_in_the_answer() {
+    let api = Api::new().await;
+    let map = api.hall().await;
+    let options = json!({"preset": "paper", "categorization": {"k": 3}});
+    let asked = api.send_json(Method::POST, &format!("{map}/analyses"), &[], &options).await;
+    assert_eq!(asked.status, 202, "{}", asked.text());
+    api.app.run_until_empty().await.expect("the queue can be worked on");
+    let analyses = api.get(&format!("{map}/analyses")).await.json();
+    let found = analyses["analyses"].as_array().expect("a list").iter().map(|analysis| &analysis["options"]);
+    let options = found.into_iter().find(|options| options["decomposition"]["method"] == "paper").expect("is there");
+    assert_eq!(options.get("preset"), None);
+    assert_eq!((&options["declutter"]["method"], &options["categorization"]["k"]), (&json!("none"), &json!(3)));
+    // The options of an answer may be sent again: they are the same analysis.
+    let again = api.send_json(Method::POST, &format!("{map}/analyses"), &[], options).await;
+    assert_eq!(again.status, 200, "{}", again.text());
+    let unknown = json!({"preset": "papr"});
+    let problem = api.send_json(Method::POST, &format!("{map}/analyses"), &[], &unknown).await.problem(422, "invalid");
+    assert_eq!(problem["errors"][0]["pointer"], "/preset");
+    assert_eq!(problem["errors"][0]["detail"], "unknown variant `papr`, expected `paper` or `halmstad2017`");
+}
+
+#[tokio::test]
 async fn diagnostics_hold_the_signals() {
     let api = Api::new().await;
     let map = api.hall().await;

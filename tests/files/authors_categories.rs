@@ -25,8 +25,8 @@ const METADATA: &str =
 const TICK: Duration = Duration::from_millis(500);
 
 #[test]
-#[ignore = "minutes: cargo build --release, then STILLAGE_BINARY=target/release/stillage cargo test --test files -- --ignored"]
-fn the_command_line_reproduces_the_authors_categories() {
+#[ignore = "minutes: see .ci/run"]
+fn the_authors_categories_come_from_the_command_line() {
     let Some(golden) = shared("maps/golden/categories-2017") else { return };
     for (map, k) in LABELLED {
         let folder = tempfile::tempdir().unwrap();
@@ -42,8 +42,8 @@ fn the_command_line_reproduces_the_authors_categories() {
 }
 
 #[test]
-#[ignore = "minutes: cargo build --release, then STILLAGE_BINARY=target/release/stillage cargo test --test files -- --ignored"]
-fn the_service_reproduces_the_authors_categories() {
+#[ignore = "minutes: see .ci/run"]
+fn the_authors_categories_come_from_the_service() {
     let Some(golden) = shared("maps/golden/categories-2017") else { return };
     let service = Service::start();
     for (map, k) in LABELLED {

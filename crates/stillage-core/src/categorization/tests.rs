@@ -161,16 +161,6 @@ fn the_authors_categories_of_a_layout_are_reproduced() {
     }
 }
 
-#[test]
-#[ignore = "minutes in a debug build: cargo test --release -- --ignored"]
-fn the_authors_categories_of_every_cell_are_reproduced() {
-    for (map, k) in [("E5_layout", 2), ("E5_layout", 4), ("E5_06", 2), ("F5_04", 2), ("F5_04", 3), ("F5_04", 4)] {
-        if let Some(agreement) = agreement_with_the_author(map, k, 1) {
-            assert!(agreement >= 0.995, "{map}, k = {k}: {agreement}");
-        }
-    }
-}
-
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(32))]
 
