@@ -168,7 +168,7 @@ async fn a_running_job_is_cancelled_within_a_second() {
     let service = service(&fixture, 1).await;
     let job = upload(&service.store, "endless").await;
     service.signals.queued();
-    service.wait_for(job.id, |job| job.progress == 40).await;
+    service.wait_for(job.id, |job| job.progress > 0).await;
     let begun = Instant::now();
     service.store.dismiss(&local(), job.id, now()).await.unwrap();
     service.wait_for(job.id, |job| job.state == JobState::Dismissed).await;
