@@ -6,6 +6,7 @@
 //! | `jobs` | analyses and the jobs that make them |
 //! | `rule_sets` | the vocabulary of labels |
 //! | `semantics` | the human decision on a map |
+//! | `grid` | the cells of a map, before any analysis |
 //! | `context` | the analysed map in memory, for every question about it |
 //! | `features` | its collections |
 //! | `evaluations` | how well it fits the truth of its site |
@@ -18,6 +19,7 @@ mod context;
 mod error;
 mod evaluations;
 mod features;
+mod grid;
 mod jobs;
 mod maps;
 mod rule_sets;
@@ -43,6 +45,7 @@ pub use crate::records::{
 pub use caller::Caller;
 pub use context::MapContext;
 pub use error::{AppError, FieldProblem};
+pub use grid::GridSource;
 
 use context::ContextCache;
 

@@ -18,6 +18,8 @@ pub const GEO_JSON: &str = "application/geo+json";
 pub const CSV: &str = "text/csv";
 /// Portable Network Graphics.
 pub const PNG: &str = "image/png";
+/// A drawing.
+pub const SVG: &str = "image/svg+xml";
 /// An OpenAPI 3.1 document.
 pub const OPENAPI: &str = "application/vnd.oai.openapi+json;version=3.1";
 

@@ -60,6 +60,7 @@ fn routes(upload_bytes: usize) -> OpenApiRouter<Arc<App>> {
         .routes(routes!(maps::pictures::categories))
         .routes(routes!(maps::pictures::regions))
         .routes(routes!(maps::pictures::semantic))
+        .routes(routes!(maps::pictures::semantic_svg))
         .routes(routes!(maps::semantics::categories))
         .routes(routes!(maps::semantics::get, maps::semantics::assign))
         .routes(routes!(maps::semantics::versions))

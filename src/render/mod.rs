@@ -3,21 +3,27 @@
 //! - [`image()`]: the cells as `map_saver` draws them (occupied 0, unknown 205, free 254);
 //! - [`categories`]: a palette picture, the index of a pixel is its category + 1, 0 for none;
 //! - [`regions`]: a palette picture, regions coloured over the dimmed map;
-//! - [`semantic()`]: drawn like the paper's Fig. 9, with a legend.
+//! - [`semantic_png`] and [`semantic_svg`]: drawn like the paper's Fig. 9, with codes, a legend and a scale bar. Both are
+//!   made from one drawing: a list of shapes in pixels.
 //!
 //! The first three have the size of the map. Deterministic; O(cells).
 
-mod canvas;
-mod font;
+mod cells;
+mod drawing;
+mod legend;
+mod raster;
 mod semantic;
+mod svg;
+mod typeface;
 
 use std::borrow::Cow;
 
 use stillage_core::{Analysis, Occupancy, OccupancyGrid};
 
-pub use semantic::semantic;
+pub use semantic::{semantic_png, semantic_svg};
 
-use canvas::{Colour, mix};
+use cells::Veil;
+use drawing::Colour;
 
 /// Grey levels of `map_saver`.
 const FREE: u8 = 254;
@@ -60,7 +66,7 @@ pub fn categories(analysis: &Analysis) -> Vec<u8> {
     let rows = analysis.categories.cells.chunks(analysis.width.max(1)).rev();
     // `CategoryMap::NONE` is 255: it wraps to 0.
     let pixels: Vec<u8> = rows.flatten().map(|category| category.wrapping_add(1)).collect();
-    encode(analysis.width, analysis.height, png::ColorType::Indexed, Some(palette), &pixels)
+    encode(analysis.width, analysis.height, png::ColorType::Indexed, Some(Palette::opaque(palette)), &pixels)
 }
 
 /// The regions, coloured over the dimmed map.
@@ -72,7 +78,11 @@ pub fn regions(analysis: &Analysis, grid: &OccupancyGrid) -> Vec<u8> {
     let shades = |region: Option<usize>| {
         [Occupancy::Free, Occupancy::Occupied, Occupancy::Unknown].map(|cell| {
             let below = [grey(cell); 3];
-            region.map_or(mix(below, [UNKNOWN; 3], 160), |region| mix(below, colour(region), 140))
+            let veil = region.map_or(Veil { colour: [UNKNOWN; 3], opacity: 160 }, |region| Veil {
+                colour: colour(region),
+                opacity: 140,
+            });
+            veil.over(below)
         })
     };
     let regions = analysis.regions.regions.len().min(MOST);
@@ -85,7 +95,7 @@ pub fn regions(analysis: &Analysis, grid: &OccupancyGrid) -> Vec<u8> {
             (region * SHADES + cell as usize) as u8
         }));
     }
-    encode(grid.width(), grid.height(), png::ColorType::Indexed, Some(palette), &pixels)
+    encode(grid.width(), grid.height(), png::ColorType::Indexed, Some(Palette::opaque(palette)), &pixels)
 }
 
 /// The colour of a category or region.
@@ -102,8 +112,20 @@ fn colour(index: usize) -> Colour {
     })
 }
 
+/// The colours of a palette picture: three bytes each, and how opaque they are (all of them where it is empty).
+struct Palette {
+    colours: Vec<u8>,
+    opacities: Vec<u8>,
+}
+
+impl Palette {
+    fn opaque(colours: Vec<u8>) -> Self {
+        Self { colours, opacities: Vec::new() }
+    }
+}
+
 /// Encodes pixels of one byte per channel. A picture without pixels, which PNG does not know, becomes one pixel of 0.
-fn encode(width: usize, height: usize, kind: png::ColorType, palette: Option<Vec<u8>>, pixels: &[u8]) -> Vec<u8> {
+fn encode(width: usize, height: usize, kind: png::ColorType, palette: Option<Palette>, pixels: &[u8]) -> Vec<u8> {
     let (width, height, pixels) = match pixels {
         [] => (1, 1, Cow::Owned(vec![0; kind.samples()])),
         pixels => (width as u32, height as u32, Cow::Borrowed(pixels)),
@@ -113,8 +135,11 @@ fn encode(width: usize, height: usize, kind: png::ColorType, palette: Option<Vec
     encoder.set_color(kind);
     encoder.set_depth(png::BitDepth::Eight);
     encoder.set_compression(png::Compression::Fast);
-    if let Some(palette) = palette {
-        encoder.set_palette(palette);
+    if let Some(Palette { colours, opacities }) = palette {
+        encoder.set_palette(colours);
+        if !opacities.is_empty() {
+            encoder.set_trns(opacities);
+        }
     }
     encoder
         .write_header()

@@ -1,177 +1,180 @@
 //! The semantic map drawn like the paper's Fig. 9: faces in the colour of their label, obstacles dark, edges by
-//! cogency, and a legend below.
+//! cogency, codes in the storage locations that have room for them, and a legend with a scale bar below.
 
-use stillage_core::annotation::CellFaces;
+use std::collections::HashMap;
+
 use stillage_core::arrangement::FaceId;
 use stillage_core::geometry::Point;
+use stillage_core::layout::Location;
 use stillage_core::semantics::{Cogency, SemanticMap};
-use stillage_core::{Analysis, Occupancy, OccupancyGrid};
+use stillage_core::{Analysis, OccupancyGrid};
 
-use super::canvas::{Canvas, Colour, Stroke, mix};
-use super::{encode, font};
+use super::drawing::{Colour, Drawing, Pixel, Scale, Shape, Stroke, Text};
+use super::legend::Legend;
+use super::{encode, raster, svg, typeface};
 
-/// Small maps are enlarged until their longer side has so many pixels.
-const SMALLEST_SIDE: usize = 800;
-/// Pixels of the longer side per pixel of line thickness.
-const SIDE_PER_THICKNESS: usize = 1_200;
+/// A small map is enlarged by a whole factor until its longer side has at least so many pixels: a wide screen, on which
+/// the codes of pallet places of a site of 80 m can be read.
+const ENLARGED_SIDE: usize = 1_600;
+/// Pixels on each side of a cell that no enlargement exceeds: a map of a few cells stays a small picture.
+const LARGEST_CELL: usize = 40;
+/// Pixels of a map beyond which several cells share one. A pixel takes seven bytes while it is drawn and encoded, so that
+/// a picture takes at most 175 MB; a site of the paper's size (20.5 million cells) still has one pixel for each cell.
+const MOST_PIXELS: usize = 25_000_000;
 
-const PAPER: Colour = [255, 255, 255];
-const INK: Colour = [20, 20, 24];
-const UNKNOWN: Colour = [205, 205, 205];
+/// Ems of the legend to the longer side of the map.
+const SIDE_PER_EM: f64 = 100.0;
+/// Smallest and largest em of the legend, pixels.
+const EMS: [f64; 2] = [16.0, 44.0];
+/// Thickness of the thin lines to an em.
+const EM_PER_THICKNESS: f64 = 14.0;
+/// Em below which a code cannot be read and is left out, pixels.
+const SMALLEST_CODE: f64 = 7.5;
+/// Share of a location's sides that its code may take.
+const CODE_SHARE: f64 = 0.84;
+
+pub(super) const PAPER: Colour = [255, 255, 255];
+pub(super) const INK: Colour = [20, 20, 24];
+const NO_COLOUR: Colour = [205, 205, 205];
 const ACCESS: Colour = [226, 74, 20];
 
-/// Draws the semantic map. `cells` are the faces of the cells of `grid`.
+/// Draws the semantic map, as PNG.
 #[must_use]
-pub fn semantic(grid: &OccupancyGrid, cells: &CellFaces, analysis: &Analysis, semantic: &SemanticMap) -> Vec<u8> {
-    let longer = grid.width().max(grid.height()).max(1);
-    let scale = SMALLEST_SIDE.div_ceil(longer);
-    let thickness = (longer * scale).div_ceil(SIDE_PER_THICKNESS);
-    let legend = Legend::new(semantic, thickness);
-    let map_height = grid.height() * scale;
-    let width = (grid.width() * scale).max(legend.widest());
-    let mut canvas = Canvas::new(width, map_height + legend.height(width), PAPER);
-    draw_faces(&mut canvas, grid, cells, semantic, scale);
-    let pixels_per_metre = scale as f64 / grid.resolution();
-    let pixel = |point: Point| [point.x * pixels_per_metre, map_height as f64 - point.y * pixels_per_metre];
-    // What matters most is drawn last.
-    for cogency in [Cogency::Invalid, Cogency::Cogent, Cogency::StorageAccess] {
-        let stroke = stroke(cogency, thickness);
-        for edge in analysis.subdivision.edges().filter(|edge| semantic.cogency[edge.index()] == cogency) {
-            let [start, end] = analysis.subdivision.segment(edge);
-            canvas.line(pixel(start), pixel(end), stroke);
-        }
-    }
-    legend.draw(&mut canvas, map_height);
-    encode(canvas.width, canvas.height, png::ColorType::Rgb, None, &canvas.pixels)
+pub fn semantic_png(
+    grid: &OccupancyGrid,
+    analysis: &Analysis,
+    semantic: &SemanticMap,
+    locations: &[Location],
+) -> Vec<u8> {
+    let drawing = drawing(grid, analysis, semantic, locations);
+    encode(drawing.width, drawing.height, png::ColorType::Rgb, None, &raster::pixels(&drawing))
 }
 
-const fn stroke(cogency: Cogency, thickness: usize) -> Stroke {
-    match cogency {
-        Cogency::Cogent => Stroke { colour: INK, opacity: 255, thickness },
-        Cogency::StorageAccess => Stroke { colour: ACCESS, opacity: 255, thickness: thickness * 2 },
-        Cogency::Invalid => Stroke { colour: INK, opacity: 50, thickness },
+/// Draws the semantic map, as SVG: the same picture, with the label and the code of a face under the pointer.
+#[must_use]
+pub fn semantic_svg(
+    grid: &OccupancyGrid,
+    analysis: &Analysis,
+    semantic: &SemanticMap,
+    locations: &[Location],
+) -> Vec<u8> {
+    svg::write(&drawing(grid, analysis, semantic, locations)).into_bytes()
+}
+
+fn drawing<'a>(
+    grid: &'a OccupancyGrid,
+    analysis: &Analysis,
+    semantic: &SemanticMap,
+    locations: &[Location],
+) -> Drawing<'a> {
+    let scale = scale(grid.width(), grid.height());
+    let [map_width, map_height] = [grid.width(), grid.height()].map(|cells| scale.pixels(cells));
+    let em = (map_width.max(map_height) as f64 / SIDE_PER_EM).clamp(EMS[0], EMS[1]);
+    let frame = Frame { height: grid.height() as f64 * scale.factor(), per_metre: scale.factor() / grid.resolution() };
+    let legend = Legend::new(semantic, frame.per_metre, em);
+    let width = map_width.max(legend.least_width()).max(1);
+    let mut shapes = faces(analysis, semantic, locations, &frame);
+    shapes.push(Shape::Cells { grid, scale });
+    shapes.extend(edges(analysis, semantic, &frame, em / EM_PER_THICKNESS));
+    shapes.extend(locations.iter().filter_map(|location| code(location, &frame, em)).map(Shape::Text));
+    let legend_height = legend.draw([width, map_height], &mut shapes);
+    Drawing { width, height: map_height + legend_height, background: PAPER, shapes }
+}
+
+/// Chooses the size of a cell.
+fn scale(width: usize, height: usize) -> Scale {
+    if width.saturating_mul(height) <= MOST_PIXELS {
+        return Scale::Enlarged(ENLARGED_SIDE.div_ceil(width.max(height).max(1)).min(LARGEST_CELL));
+    }
+    let fits = |&divisor: &usize| width.div_ceil(divisor).saturating_mul(height.div_ceil(divisor)) <= MOST_PIXELS;
+    Scale::Reduced((2..).find(fits).unwrap_or(usize::MAX))
+}
+
+/// From the grid frame to the picture.
+struct Frame {
+    /// Of the map, pixels.
+    height: f64,
+    /// Pixels.
+    per_metre: f64,
+}
+
+impl Frame {
+    fn pixel(&self, point: Point) -> Pixel {
+        [point.x * self.per_metre, self.height - point.y * self.per_metre]
     }
 }
 
-/// Fills each cell with the colour of its face.
-fn draw_faces(canvas: &mut Canvas, grid: &OccupancyGrid, cells: &CellFaces, semantic: &SemanticMap, scale: usize) {
-    let colours: Vec<Colour> = semantic.rule_set.labels().iter().map(|label| parse_colour(&label.color)).collect();
-    let colour = |face: FaceId, cell: Occupancy| {
-        let below = if face == FaceId::OUTER { PAPER } else { colours[usize::from(semantic.labels[face.index()].0)] };
-        match cell {
-            Occupancy::Free => below,
-            Occupancy::Occupied => mix(below, INK, 225),
-            Occupancy::Unknown => mix(below, UNKNOWN, 130),
+/// The faces, with their label and code as titles.
+fn faces<'a>(analysis: &Analysis, semantic: &SemanticMap, locations: &[Location], frame: &Frame) -> Vec<Shape<'a>> {
+    let codes: HashMap<FaceId, &str> = locations.iter().map(|location| (location.face, &*location.code)).collect();
+    let faces = analysis.subdivision.faces().filter(|&face| face != FaceId::OUTER);
+    let area = |face: FaceId| {
+        let label = semantic.label(face);
+        let rings = analysis.subdivision.rings(face);
+        Shape::Area {
+            rings: rings.iter().map(|ring| ring.iter().map(|&point| frame.pixel(point)).collect()).collect(),
+            colour: parse_colour(&label.color),
+            title: codes.get(&face).map_or_else(|| label.name.clone(), |code| format!("{} {code}", label.name)),
         }
     };
-    for row in 0..grid.height() {
-        let top = (grid.height() - 1 - row) * scale;
-        let line = canvas.row_mut(top);
-        let pixels = line.as_chunks_mut::<3>().0.chunks_mut(scale);
-        for (column, (pixels, &cell)) in pixels.zip(grid.row(row)).enumerate() {
-            pixels.fill(colour(cells.at(column, row), cell));
-        }
-        let bytes = canvas.width * 3;
-        for copy in top + 1..top + scale {
-            canvas.pixels.copy_within(top * bytes..(top + 1) * bytes, copy * bytes);
-        }
+    faces.map(area).collect()
+}
+
+/// The edges by cogency; what matters most is drawn last.
+fn edges<'a>(analysis: &Analysis, semantic: &SemanticMap, frame: &Frame, thickness: f64) -> [Shape<'a>; 3] {
+    [Cogency::Invalid, Cogency::Cogent, Cogency::StorageAccess].map(|cogency| {
+        let edges = analysis.subdivision.edges().filter(|edge| semantic.cogency[edge.index()] == cogency);
+        let segments = edges.map(|edge| analysis.subdivision.segment(edge).map(|point| frame.pixel(point)));
+        Shape::Lines { segments: segments.collect(), stroke: stroke(cogency, thickness) }
+    })
+}
+
+pub(super) const fn stroke(cogency: Cogency, thickness: f64) -> Stroke {
+    match cogency {
+        Cogency::Cogent => Stroke { colour: INK, opacity: 1.0, thickness },
+        Cogency::StorageAccess => Stroke { colour: ACCESS, opacity: 1.0, thickness: 2.0 * thickness },
+        Cogency::Invalid => Stroke { colour: INK, opacity: 0.2, thickness },
     }
+}
+
+/// The code of a location, along the side where it is larger, if it can be read there.
+fn code(location: &Location, frame: &Frame, most: f64) -> Option<Text> {
+    let Location { code, width, depth, heading, .. } = location;
+    let letters = typeface::width(code).max(1.0);
+    let along = |angle: f64, length: f64, across: f64| {
+        let size = (length / letters).min(across) * frame.per_metre * CODE_SHARE;
+        // Never upside down.
+        (size.min(0.8 * most), (90.0 - angle.to_degrees()).rem_euclid(180.0) - 90.0)
+    };
+    let ways = [along(heading + std::f64::consts::FRAC_PI_2, *width, *depth), along(*heading, *depth, *width)];
+    let (size, turn) = if ways[1].0 > ways[0].0 { ways[1] } else { ways[0] };
+    (size >= SMALLEST_CODE).then(|| Text {
+        content: code.clone(),
+        middle: frame.pixel(location.center),
+        size,
+        turn,
+        colour: INK,
+        halo: Some(PAPER),
+    })
 }
 
 /// `#rrggbb`; grey for anything else.
-fn parse_colour(text: &str) -> Colour {
+pub(super) fn parse_colour(text: &str) -> Colour {
     let number = text.strip_prefix('#').filter(|digits| digits.len() == 6);
     let number = number.and_then(|digits| u32::from_str_radix(digits, 16).ok());
-    number.map_or(UNKNOWN, |number| [(number >> 16) as u8, (number >> 8) as u8, number as u8])
+    number.map_or(NO_COLOUR, |number| [(number >> 16) as u8, (number >> 8) as u8, number as u8])
 }
 
-/// The strip below the map: what colours and lines mean.
-struct Legend {
-    items: Vec<(Sample, String)>,
-    /// Pixels of a dot of the letters.
-    dot: usize,
-    thickness: usize,
-}
+#[cfg(test)]
+mod tests {
+    use super::*;
 
-enum Sample {
-    Area(Colour),
-    Line(Cogency),
-}
-
-impl Legend {
-    fn new(semantic: &SemanticMap, thickness: usize) -> Self {
-        let labels = semantic.rule_set.labels().iter();
-        let areas = labels.map(|label| (Sample::Area(parse_colour(&label.color)), label.name.clone()));
-        let lines =
-            [(Cogency::Cogent, "obstruction"), (Cogency::StorageAccess, "storage access"), (Cogency::Invalid, "open")];
-        let lines = lines.map(|(cogency, name)| (Sample::Line(cogency), name.to_owned()));
-        Self { items: areas.chain(lines).collect(), dot: thickness * 2, thickness }
-    }
-
-    /// Space around and between items, pixels.
-    const fn margin(&self) -> usize {
-        font::HEIGHT * self.dot
-    }
-
-    const fn line_height(&self) -> usize {
-        2 * font::HEIGHT * self.dot
-    }
-
-    /// Width of the colour or line before a name.
-    const fn sample_width(&self) -> usize {
-        2 * font::HEIGHT * self.dot
-    }
-
-    /// Width of an item with the space behind it.
-    fn width(&self, name: &str) -> usize {
-        self.sample_width() + (name.chars().count() + 1) * font::ADVANCE * self.dot + self.margin()
-    }
-
-    /// Width that the longest item needs.
-    fn widest(&self) -> usize {
-        self.items.iter().map(|(_, name)| self.width(name)).max().unwrap_or(0) + self.margin()
-    }
-
-    /// Left and top of each item within the strip, and the height of the strip.
-    fn layout(&self, width: usize) -> (Vec<[usize; 2]>, usize) {
-        let (mut left, mut top) = (self.margin(), self.margin());
-        let mut corners = Vec::with_capacity(self.items.len());
-        for (_, name) in &self.items {
-            if left > self.margin() && left + self.width(name) > width {
-                (left, top) = (self.margin(), top + self.line_height());
-            }
-            corners.push([left, top]);
-            left += self.width(name);
-        }
-        (corners, top + self.line_height())
-    }
-
-    fn height(&self, width: usize) -> usize {
-        self.layout(width).1
-    }
-
-    fn draw(&self, canvas: &mut Canvas, below: usize) {
-        let (corners, _) = self.layout(canvas.width);
-        let solid = |colour| Stroke { colour, opacity: 255, thickness: self.thickness };
-        let height = font::HEIGHT * self.dot;
-        for ((sample, name), [left, top]) in self.items.iter().zip(corners) {
-            let top = top + below;
-            let corner = [left as i64, top as i64];
-            let size = [self.sample_width() - self.dot * 2, height];
-            match sample {
-                Sample::Area(colour) => {
-                    canvas.rectangle(corner, size, solid(INK));
-                    let inner = [size[0] - 2 * self.thickness, size[1] - 2 * self.thickness];
-                    canvas.rectangle(corner.map(|edge| edge + self.thickness as i64), inner, solid(*colour));
-                }
-                Sample::Line(cogency) => {
-                    let middle = top as f64 + height as f64 / 2.0;
-                    let ends = [[left as f64, middle], [(left + size[0]) as f64, middle]];
-                    canvas.line(ends[0], ends[1], stroke(*cogency, self.thickness));
-                }
-            }
-            let text = [(left + self.sample_width() + self.dot) as i64, top as i64];
-            canvas.text(text, name, self.dot, solid(INK));
-        }
+    #[test]
+    fn small_maps_are_enlarged_and_huge_ones_reduced() {
+        assert_eq!(scale(16, 6), Scale::Enlarged(40));
+        assert_eq!(scale(300, 800), Scale::Enlarged(2));
+        assert_eq!(scale(3800, 5400), Scale::Enlarged(1));
+        assert_eq!(scale(10_000, 10_000), Scale::Reduced(2));
+        assert_eq!(scale(0, 0), Scale::Enlarged(40));
     }
 }

@@ -1,6 +1,6 @@
 //! Pictures, read back.
 
-use stillage_core::annotation::CellFaces;
+use stillage_core::layout;
 use stillage_core::semantics::{self, Assignment, RuleSet};
 use stillage_core::{AnalysisOptions, Watch};
 
@@ -83,13 +83,40 @@ fn regions_lie_over_the_map() {
 fn the_semantic_map_is_enlarged_and_has_a_legend() {
     let (grid, analysis) = room();
     let map = semantics::apply(&analysis, &RuleSet::warehouse(), &Assignment::default()).unwrap();
-    let cells = CellFaces::rasterize(&analysis.subdivision, grid.width(), grid.height(), grid.resolution());
-    let picture = semantic(&grid, &cells, &analysis, &map);
-    assert_eq!(picture, semantic(&grid, &cells, &analysis, &map));
+    let locations = layout::locations(&analysis, &map);
+    let picture = semantic_png(&grid, &analysis, &map, &locations);
+    assert_eq!(picture, semantic_png(&grid, &analysis, &map, &locations));
     let picture = read(&picture).into_rgb8();
-    // 16 x 6 cells, 50 pixels each.
-    assert_eq!(picture.width(), 800);
-    assert!(picture.height() > 300);
-    let wall = picture.get_pixel(125, 25).0;
+    // 16 x 6 cells, 40 pixels each, and the legend below.
+    assert_eq!(picture.width(), 640);
+    assert!(picture.height() > 280);
+    let wall = picture.get_pixel(100, 20).0;
     assert!(wall.iter().all(|&channel| channel < 60), "walls are dark: {wall:?}");
+}
+
+#[test]
+fn names_of_labels_are_no_markup() {
+    let (grid, analysis) = room();
+    let mut draft = RuleSet::warehouse().draft().clone();
+    draft.labels[0].name = "</title><script>alert('1 & 2')</script>".to_owned();
+    let rule_set = draft.check().unwrap();
+    let map = semantics::apply(&analysis, &rule_set, &Assignment::default()).unwrap();
+    let svg = String::from_utf8(semantic_svg(&grid, &analysis, &map, &[])).unwrap();
+    assert!(svg.contains("&lt;script&gt;"), "{svg}");
+    assert!(!svg.contains("<script"), "{svg}");
+}
+
+#[test]
+fn a_pixel_of_several_cells_shows_their_wall() {
+    let grid = OccupancyGrid::from_ascii(
+        "
+        ??.?#
+        ??...
+        ....?
+        ",
+        0.05,
+    );
+    let rows: Vec<Vec<Occupancy>> = cells::rows(&grid, drawing::Scale::Reduced(2)).collect();
+    let [free, wall, unknown] = [Occupancy::Free, Occupancy::Occupied, Occupancy::Unknown];
+    assert_eq!(rows, [vec![unknown, free, wall], vec![free, free, unknown]]);
 }

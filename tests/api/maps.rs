@@ -93,12 +93,17 @@ async fn a_map_that_is_not_analysed_says_where_to_look() {
     let answer = api.send(upload(&pgm(HALL), METADATA)).await;
     let job = answer.json();
     let map = format!("/v1/maps/{}", job["mapId"].as_str().expect("an id"));
-    for path in ["/collections", "/collections/faces/items", "/semantics", "/categories", "/diagnostics", "/image.png"]
+    for path in ["/collections", "/collections/faces/items", "/semantics", "/categories", "/diagnostics", "/semantic.svg"]
     {
         let problem = api.get(&format!("{map}{path}")).await.problem(409, "not-analysed");
         let detail = problem["detail"].as_str().expect("a detail");
         assert!(detail.contains(job["jobID"].as_str().expect("an id")), "{detail}");
     }
+    // The cells themselves need no analysis.
+    let picture = api.get(&format!("{map}/image.png")).await;
+    assert_eq!((picture.status.as_u16(), picture.header("content-type")), (200, "image/png"));
+    let again = api.get_with(&format!("{map}/image.png"), &[("if-none-match", picture.header("etag"))]).await;
+    assert_eq!((again.status.as_u16(), again.body.len()), (304, 0));
 }
 
 #[tokio::test]
@@ -178,6 +183,17 @@ async fn pictures_are_of_the_size_of_the_map_and_cached() {
         assert_eq!((again.status.as_u16(), again.body.len()), (304, 0), "{picture}");
         api.get_with(&path, &[("accept", "application/json")]).await.problem(406, "not-acceptable");
     }
+}
+
+#[tokio::test]
+async fn the_drawing_is_svg_that_a_browser_may_show() {
+    let api = Api::new().await;
+    let map = api.hall().await;
+    let answer = api.get(&format!("{map}/semantic.svg")).await;
+    assert_eq!((answer.status.as_u16(), answer.header("content-type")), (200, "image/svg+xml"));
+    assert!(answer.text().starts_with("<svg xmlns=\"http://www.w3.org/2000/svg\""), "{}", answer.text());
+    let again = api.get_with(&format!("{map}/semantic.svg"), &[("if-none-match", answer.header("etag"))]).await;
+    assert_eq!(again.status, 304);
 }
 
 #[tokio::test]

@@ -6,7 +6,6 @@ use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
 use stillage_core::analysis::{ALGORITHM_VERSION, Diagnostic};
-use stillage_core::annotation::CellFaces;
 use stillage_core::layout::{self, Location};
 use stillage_core::semantics::{self, Assignment, RuleSet, SemanticMap, Suggestion};
 use stillage_core::{Analysis, OccupancyGrid};
@@ -42,7 +41,6 @@ pub(super) struct Arguments {
 struct Findings {
     name: String,
     grid: OccupancyGrid,
-    cells: CellFaces,
     analysis: Analysis,
     suggestions: Vec<Suggestion>,
     assignment: Assignment,
@@ -87,7 +85,6 @@ fn read_semantics(
     let assignment = assignment.unwrap_or_else(|| Assignment::suggested(&suggestions, rule_set));
     let semantic = semantics::apply(&analysis, rule_set, &assignment).map_err(|problems| input::misfit(&problems))?;
     let locations = layout::locations(&analysis, &semantic);
-    let cells = CellFaces::rasterize(&analysis.subdivision, grid.width(), grid.height(), grid.resolution());
     diagnostics.extend(analysis.diagnostics.iter().cloned());
-    Ok(Findings { name, grid, cells, analysis, suggestions, assignment, semantic, locations, diagnostics })
+    Ok(Findings { name, grid, analysis, suggestions, assignment, semantic, locations, diagnostics })
 }

@@ -67,7 +67,7 @@ fn parent(folder: &Path) -> &Path {
 
 /// Name and content of each file.
 fn files(findings: &Findings, stages: &[StageReport]) -> Vec<(PathBuf, Vec<u8>)> {
-    let Findings { grid, cells, analysis, semantic, .. } = findings;
+    let Findings { grid, analysis, semantic, .. } = findings;
     let view = MapView { analysis, semantic, locations: &findings.locations, georeference: None };
     let layer = |collection: Collection| {
         let bytes = feature_collection(&features(&view, collection), &Transform::map_frame());
@@ -77,7 +77,9 @@ fn files(findings: &Findings, stages: &[StageReport]) -> Vec<(PathBuf, Vec<u8>)>
     files.push(("image.png".into(), render::image(grid)));
     files.push(("categories.png".into(), render::categories(analysis)));
     files.push(("regions.png".into(), render::regions(analysis, grid)));
-    files.push(("semantic.png".into(), render::semantic(grid, cells, analysis, semantic)));
+    let locations = &findings.locations;
+    files.push(("semantic.png".into(), render::semantic_png(grid, analysis, semantic, locations)));
+    files.push(("semantic.svg".into(), render::semantic_svg(grid, analysis, semantic, locations)));
     files.push(("locations.csv".into(), locations_csv(&view)));
     files.push(("report.json".into(), format!("{:#}\n", report(findings, stages)).into_bytes()));
     files

@@ -103,6 +103,11 @@ impl RequestTag {
 pub struct IfNoneMatch(Tags);
 
 impl IfNoneMatch {
+    /// Whether the client has what this tag stands for.
+    pub fn has(&self, current: &EntityTag) -> bool {
+        self.matched(current).is_some()
+    }
+
     /// The tag that the client has, as it sent it (weak comparison).
     fn matched(&self, current: &EntityTag) -> Option<HeaderValue> {
         match &self.0 {

@@ -14,7 +14,7 @@ use super::{pictures, upload};
 use crate::app::{App, Caller, MapPatch, MapRecord};
 use crate::http::extract::conditional::{EntityTag, IfMatch, IfNoneMatch};
 use crate::http::extract::{Id, JsonBody, MapPath, Name, Paging, Path, Query, present};
-use crate::http::links::{Base, JSON, Link, PNG};
+use crate::http::links::{Base, JSON, Link};
 use crate::http::ogc::jobs::JobView;
 use crate::http::problem::Problem;
 use crate::http::views::{DiagnosticView, GeoreferenceView, cut};
@@ -81,7 +81,7 @@ fn map_links(base: &Base, map: &MapRecord) -> Vec<Link> {
         to("version-history", "/semantics/versions", JSON).titled("Versions of the labels"),
         to("related", "/routes", crate::http::links::GEO_JSON).titled("Routes between two places"),
     ];
-    links.extend(pictures::NAMES.map(|(name, title)| to("preview", &format!("/{name}"), PNG).titled(title)));
+    links.extend(pictures::NAMES.map(|(name, kind, title)| to("preview", &format!("/{name}"), kind).titled(title)));
     links.push(base.link("up", "/v1/maps", JSON));
     links
 }

@@ -7,19 +7,20 @@ use axum::http::header;
 use axum::response::{IntoResponse, Response};
 
 use crate::app::{App, Caller, MapContext};
-use crate::http::extract::conditional::IfNoneMatch;
+use crate::http::extract::conditional::{EntityTag, IfNoneMatch};
 use crate::http::extract::{Id, MapPath, Path};
-use crate::http::links::PNG;
+use crate::http::links::{PNG, SVG};
 use crate::http::ogc::collections::{off_the_runtime, tag};
 use crate::http::problem::Problem;
 use crate::render;
 
-/// Names and titles of the pictures.
-pub const NAMES: [(&str, &str); 4] = [
-    ("image.png", "The occupancy grid"),
-    ("categories.png", "Categories of the cells"),
-    ("regions.png", "Regions"),
-    ("semantic.png", "Faces by label, cogency of the edges"),
+/// Names, media types and titles of the pictures.
+pub const NAMES: [(&str, &str, &str); 5] = [
+    ("image.png", PNG, "The occupancy grid"),
+    ("categories.png", PNG, "Categories of the cells"),
+    ("regions.png", PNG, "Regions"),
+    ("semantic.png", PNG, "Faces by label, cogency of the edges"),
+    ("semantic.svg", SVG, "Faces by label, cogency of the edges, as shapes"),
 ];
 
 /// Draws a picture of an analysed map, unless the client has it.
@@ -29,11 +30,12 @@ async fn picture(
     map: Id,
     if_none_match: IfNoneMatch,
     name: &'static str,
+    media_type: &'static str,
     draw: fn(&MapContext) -> Vec<u8>,
 ) -> Result<Response, Problem> {
     let context = app.context(&caller, map.0).await?;
     off_the_runtime(move || {
-        let answer = || ([(header::CONTENT_TYPE, PNG)], draw(&context)).into_response();
+        let answer = || ([(header::CONTENT_TYPE, media_type)], draw(&context)).into_response();
         Ok(tag(name, &context).answer(&if_none_match, answer))
     })
     .await
@@ -41,7 +43,8 @@ async fn picture(
 
 /// The map
 ///
-/// The occupancy grid as `map_saver` draws it: free white, occupied black, unknown grey.
+/// The occupancy grid as `map_saver` draws it: free white, occupied black, unknown grey. It is there as soon as the map
+/// is uploaded; thresholds of the options count once an analysis with them is in force.
 #[utoipa::path(get, path = "/v1/maps/{mapId}/image.png", tag = "maps", operation_id = "getImage", params(MapPath),
     responses((status = 200, description = "The picture", body = Vec<u8>, content_type = "image/png",
         headers(("ETag" = String, description = "Changes with the picture")))))]
@@ -51,7 +54,11 @@ pub async fn image(
     Path(path): Path<MapPath>,
     if_none_match: IfNoneMatch,
 ) -> Result<Response, Problem> {
-    picture(app, caller, path.map_id, if_none_match, "image.png", |context| render::image(&context.grid)).await
+    let source = app.grid_source(&caller, path.map_id.0).await?;
+    let thresholds = format!("{:?}", source.options);
+    let tag = EntityTag::of_content(&["image.png", source.blob.as_str(), &thresholds]);
+    let png = if if_none_match.has(&tag) { Vec::new() } else { app.read_grid(source, render::image).await? };
+    Ok(tag.answer(&if_none_match, || ([(header::CONTENT_TYPE, PNG)], png).into_response()))
 }
 
 /// The categories
@@ -67,8 +74,8 @@ pub async fn categories(
     Path(path): Path<MapPath>,
     if_none_match: IfNoneMatch,
 ) -> Result<Response, Problem> {
-    picture(app, caller, path.map_id, if_none_match, "categories.png", |context| render::categories(&context.analysis))
-        .await
+    let draw = |context: &MapContext| render::categories(&context.analysis);
+    picture(app, caller, path.map_id, if_none_match, "categories.png", PNG, draw).await
 }
 
 /// The regions
@@ -85,7 +92,7 @@ pub async fn regions(
     if_none_match: IfNoneMatch,
 ) -> Result<Response, Problem> {
     let draw = |context: &MapContext| render::regions(&context.analysis, &context.grid);
-    picture(app, caller, path.map_id, if_none_match, "regions.png", draw).await
+    picture(app, caller, path.map_id, if_none_match, "regions.png", PNG, draw).await
 }
 
 /// The semantic map
@@ -101,7 +108,27 @@ pub async fn semantic(
     Path(path): Path<MapPath>,
     if_none_match: IfNoneMatch,
 ) -> Result<Response, Problem> {
-    let draw =
-        |context: &MapContext| render::semantic(&context.grid, &context.cells, &context.analysis, &context.semantic);
-    picture(app, caller, path.map_id, if_none_match, "semantic.png", draw).await
+    let draw = |MapContext { grid, analysis, semantic, locations, .. }: &MapContext| {
+        render::semantic_png(grid, analysis, semantic, locations)
+    };
+    picture(app, caller, path.map_id, if_none_match, "semantic.png", PNG, draw).await
+}
+
+/// The semantic map, as SVG
+///
+/// The same picture as shapes: it can be enlarged, and tells the label and the code of a face under the pointer.
+#[utoipa::path(get, path = "/v1/maps/{mapId}/semantic.svg", tag = "maps", operation_id = "getSemanticDrawing",
+    params(MapPath),
+    responses((status = 200, description = "The picture", body = String, content_type = "image/svg+xml",
+        headers(("ETag" = String, description = "Changes with the picture")))))]
+pub async fn semantic_svg(
+    State(app): State<Arc<App>>,
+    caller: Caller,
+    Path(path): Path<MapPath>,
+    if_none_match: IfNoneMatch,
+) -> Result<Response, Problem> {
+    let draw = |MapContext { grid, analysis, semantic, locations, .. }: &MapContext| {
+        render::semantic_svg(grid, analysis, semantic, locations)
+    };
+    picture(app, caller, path.map_id, if_none_match, "semantic.svg", SVG, draw).await
 }
