@@ -20,7 +20,8 @@ pub struct GridSource {
 impl App {
     /// Where the cells of a map are. The map need not be analysed.
     pub async fn grid_source(&self, caller: &Caller, map: Uuid) -> Result<GridSource, AppError> {
-        let snapshot = self.store.snapshot(caller.tenant(), map).await?.ok_or_else(|| AppError::not_found("map", map))?;
+        let snapshot =
+            self.store.snapshot(caller.tenant(), map).await?.ok_or_else(|| AppError::not_found("map", map))?;
         let Snapshot { source, analysis, .. } = snapshot;
         let options = analysis.map(|(analysis, _)| analysis.options.grid).unwrap_or_default();
         Ok(GridSource { blob: source, options })
@@ -34,8 +35,7 @@ impl App {
     ) -> Result<T, AppError> {
         let _permit = self.decoders.acquire().await.map_err(|_| AppError::Unavailable)?;
         let (blob, limits) = (self.store.blobs().get(&source.blob).await?, self.config.limits);
-        let decode =
-            move || Ok(read(&ingest::decode(&blob.decode::<MapSource>()?, &source.options, &limits)?.grid));
+        let decode = move || Ok(read(&ingest::decode(&blob.decode::<MapSource>()?, &source.options, &limits)?.grid));
         off_the_runtime(decode).await
     }
 }

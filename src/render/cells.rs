@@ -28,7 +28,8 @@ impl Veil {
     pub(super) fn over(self, below: Colour) -> Colour {
         let opacity = u32::from(self.opacity);
         std::array::from_fn(|channel| {
-            ((u32::from(below[channel]) * (255 - opacity) + u32::from(self.colour[channel]) * opacity + 127) / 255) as u8
+            ((u32::from(below[channel]) * (255 - opacity) + u32::from(self.colour[channel]) * opacity + 127) / 255)
+                as u8
         })
     }
 }

@@ -121,7 +121,7 @@ mod tests {
             <svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 10 10" width="10" height="10" font-family="'DejaVu Sans', Verdana, sans-serif" text-anchor="middle">
             <rect width="10" height="10" fill="#ffffff"/>
             <path fill="#000000" shape-rendering="crispEdges" d="M0.00 0.00L1.00 0.00L1.00 1.00Z"><title>&lt;/title&gt;&lt;script/&gt;</title></path>
-            <text transform="translate(5.00 5.00) rotate(0.00)" y="1.46" font-size="4.00" fill="#000000">&lt;script&gt;alert(&quot;1 &amp; 2&quot;)&lt;/script&gt;�</text>
+            <text transform="translate(5.00 5.00) rotate(0.00)" y="1.46" font-size="4.00" fill="#000000" paint-order="stroke" stroke="#ffffff" stroke-width="0.88">&lt;script&gt;alert(&quot;1 &amp; 2&quot;)&lt;/script&gt;�</text>
             </svg>
         "##]]
         .assert_eq(&write(&drawing));

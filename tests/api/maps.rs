@@ -93,7 +93,8 @@ async fn a_map_that_is_not_analysed_says_where_to_look() {
     let answer = api.send(upload(&pgm(HALL), METADATA)).await;
     let job = answer.json();
     let map = format!("/v1/maps/{}", job["mapId"].as_str().expect("an id"));
-    for path in ["/collections", "/collections/faces/items", "/semantics", "/categories", "/diagnostics", "/semantic.svg"]
+    for path in
+        ["/collections", "/collections/faces/items", "/semantics", "/categories", "/diagnostics", "/semantic.svg"]
     {
         let problem = api.get(&format!("{map}{path}")).await.problem(409, "not-analysed");
         let detail = problem["detail"].as_str().expect("a detail");

@@ -9,9 +9,8 @@ use std::sync::LazyLock;
 use tiny_skia::{Path, PathBuilder, Transform};
 use ttf_parser::{Face, GlyphId, OutlineBuilder};
 
-static FACE: LazyLock<Face<'static>> = LazyLock::new(|| {
-    Face::parse(include_bytes!("DejaVuSans-Latin.ttf"), 0).expect("the font in the program is whole")
-});
+static FACE: LazyLock<Face<'static>> =
+    LazyLock::new(|| Face::parse(include_bytes!("DejaVuSans-Latin.ttf"), 0).expect("the font in the program is whole"));
 
 /// Families that a viewer may use for the same text, the first one that it has.
 pub(super) const FAMILIES: &str = "'DejaVu Sans', Verdana, sans-serif";
