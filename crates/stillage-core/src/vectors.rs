@@ -2,8 +2,8 @@
 //!
 //! One plain x86-64 binary runs everywhere and still uses AVX2 or AVX-512 where the machine has them; elsewhere (aarch64
 //! among others) the portable path is compiled for the vectors that every such machine has. A [`Kernel`] is ordinary
-//! safe code over short arrays whose length is a parameter: lanes never mix, nothing is contracted to a fused
-//! multiply-add, so every path gives the same bytes.
+//! safe code over short arrays whose length is a parameter: the numbers of an array never mix, and nothing is contracted
+//! to a fused multiply-add, so every path gives the same bytes.
 
 #![allow(unsafe_code, reason = "calls of functions compiled for features that were just detected: the one place")]
 
@@ -25,9 +25,9 @@ pub trait Kernel {
     /// What it gives.
     type Output;
 
-    /// Does the work on `LANES` single precision numbers at a time. Mark it, and all that it calls in its inner loops,
+    /// Does the work on `SIMD_WIDTH` single precision numbers at a time. Mark it, and all that it calls in its inner loops,
     /// `#[inline(always)]`: what is not inlined is compiled for the portable path only.
-    fn run<const LANES: usize>(self) -> Self::Output;
+    fn run<const SIMD_WIDTH: usize>(self) -> Self::Output;
 }
 
 impl Vectors {
@@ -100,7 +100,7 @@ mod tests {
             type Output = u32;
 
             #[inline(always)]
-            fn run<const LANES: usize>(self) -> u32 {
+            fn run<const SIMD_WIDTH: usize>(self) -> u32 {
                 self.0.iter().map(|value| value.sqrt()).sum::<f32>().to_bits()
             }
         }

@@ -18,7 +18,7 @@ use std::ops::Range;
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 
-use super::points::{GROUPS_PER_BLOCK, LANES, Points, nearest, sample, squared_distances};
+use super::points::{GROUPS_PER_BLOCK, Points, SIMD_WIDTH, nearest, sample, squared_distances};
 use super::random::{below, draw, stream, uniform};
 use super::scaling::RowScaling;
 use crate::spec::Scaling;
@@ -134,12 +134,12 @@ impl ClusterSums {
         let (columns, rows) = (points.columns(), points.rows_in(group));
         let nearest = nearest(points.group(group), centroids);
         self.inertia += nearest.inertia(rows);
-        for (lane, &label) in nearest.labels[..rows].iter().enumerate() {
+        for (slot, &label) in nearest.labels[..rows].iter().enumerate() {
             let label = label as usize;
             self.counts[label] += 1;
             let cluster = &mut self.sums[label * columns..(label + 1) * columns];
             for (sum, values) in cluster.iter_mut().zip(points.group(group)) {
-                *sum += f64::from(values[lane]);
+                *sum += f64::from(values[slot]);
             }
         }
     }
@@ -195,7 +195,7 @@ fn first_centroids(points: &Points, k: usize, candidates: usize, random: &mut Ch
 /// Shortens the squared distances to the nearest centroid by those to a new one; gives their sum.
 fn approach(points: &Points, centroid: &[f32], distances: &mut [f32]) -> f64 {
     let mut total = 0.0;
-    for (group, distances) in distances.chunks_mut(LANES).enumerate() {
+    for (group, distances) in distances.chunks_mut(SIMD_WIDTH).enumerate() {
         let news = squared_distances(points.group(group), centroid);
         for (distance, new) in distances.iter_mut().zip(news) {
             *distance = distance.min(new);
@@ -244,9 +244,9 @@ fn farthest(points: &Points, centroids: &[f32]) -> usize {
     let mut farthest = (0, -1.0);
     for group in 0..points.group_count() {
         let distances = nearest(points.group(group), centroids).squared_distances;
-        for (lane, &distance) in distances[..points.rows_in(group)].iter().enumerate() {
+        for (slot, &distance) in distances[..points.rows_in(group)].iter().enumerate() {
             if distance > farthest.1 {
-                farthest = (group * LANES + lane, distance);
+                farthest = (group * SIMD_WIDTH + slot, distance);
             }
         }
     }

@@ -12,12 +12,12 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::mixture::{GaussianMixture, Scratch, normalize};
-use super::points::{GROUPS_PER_BLOCK, LANES, Points, nearest, squared_distances};
+use super::points::{GROUPS_PER_BLOCK, Points, SIMD_WIDTH, nearest, squared_distances};
 use super::scaling::RowScaling;
 use crate::watch::{Stopped, Watch};
 
 /// Rows that are scaled and compared at once: their values stay in the cache.
-const ROWS_PER_STEP: usize = 16 * LANES;
+const ROWS_PER_STEP: usize = 16 * SIMD_WIDTH;
 
 /// Clusters of places as a function of their features.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -88,17 +88,17 @@ impl PlaceModel {
             if let Clusters::Centroids { values, variance } = &self.clusters {
                 spherical_memberships(group, values, *variance, scratch);
             }
-            let rows = memberships[first * clusters..].chunks_exact_mut(clusters.max(1)).take(LANES);
-            for (lane, row) in rows.enumerate() {
+            let rows = memberships[first * clusters..].chunks_exact_mut(clusters.max(1)).take(SIMD_WIDTH);
+            for (slot, row) in rows.enumerate() {
                 for (membership, of_cluster) in row.iter_mut().zip(&scratch.memberships) {
-                    *membership = of_cluster[lane] as f32;
+                    *membership = of_cluster[slot] as f32;
                 }
             }
         });
     }
 
     /// Labels rows group by group, and shows each group: its first row, its scaled rows, and the scratch.
-    fn walk(&self, rows: &[f32], labels: &mut [u8], mut show: impl FnMut(usize, &[[f32; LANES]], &mut Scratch)) {
+    fn walk(&self, rows: &[f32], labels: &mut [u8], mut show: impl FnMut(usize, &[[f32; SIMD_WIDTH]], &mut Scratch)) {
         assert_eq!(rows.len(), labels.len() * self.columns(), "there is a label for each row");
         let mut points = Points::default();
         let mut scratch = Scratch::default();
@@ -106,7 +106,7 @@ impl PlaceModel {
         let steps = rows.chunks(ROWS_PER_STEP * self.columns()).zip(labels.chunks_mut(ROWS_PER_STEP));
         for (rows, labels) in steps {
             points.refill(rows, &self.scaling, 0..labels.len());
-            for (group, labels) in labels.chunks_mut(LANES).enumerate() {
+            for (group, labels) in labels.chunks_mut(SIMD_WIDTH).enumerate() {
                 let found = self.labels(points.group(group), &mut scratch);
                 labels.iter_mut().zip(found).for_each(|(label, found)| *label = found as u8);
                 show(first, points.group(group), &mut scratch);
@@ -116,7 +116,7 @@ impl PlaceModel {
     }
 
     /// The clusters of a group of scaled rows; of a mixture, its memberships are left in the scratch.
-    fn labels(&self, group: &[[f32; LANES]], scratch: &mut Scratch) -> [u32; LANES] {
+    fn labels(&self, group: &[[f32; SIMD_WIDTH]], scratch: &mut Scratch) -> [u32; SIMD_WIDTH] {
         match &self.clusters {
             Clusters::Centroids { values, .. } => nearest(group, values).labels,
             Clusters::Mixture(mixture) => {
@@ -135,7 +135,7 @@ impl PlaceModel {
         watch: &Watch<'_>,
     ) -> Result<(), Stopped> {
         let groups: Vec<usize> = (0..points.group_count()).collect();
-        let labels: Result<Vec<Vec<[u32; LANES]>>, Stopped> = groups
+        let labels: Result<Vec<Vec<[u32; SIMD_WIDTH]>>, Stopped> = groups
             .par_chunks(GROUPS_PER_BLOCK)
             .map(|groups| {
                 watch.check()?;
@@ -169,27 +169,27 @@ impl PlaceModel {
 }
 
 /// The greatest membership of each row, the first of equals.
-fn greatest(memberships: &[[f64; LANES]]) -> [u32; LANES] {
-    let mut labels = [0; LANES];
-    let mut largest = [f64::NEG_INFINITY; LANES];
+fn greatest(memberships: &[[f64; SIMD_WIDTH]]) -> [u32; SIMD_WIDTH] {
+    let mut labels = [0; SIMD_WIDTH];
+    let mut largest = [f64::NEG_INFINITY; SIMD_WIDTH];
     for (label, memberships) in memberships.iter().enumerate() {
-        for lane in 0..LANES {
-            let greater = memberships[lane] > largest[lane];
-            largest[lane] = if greater { memberships[lane] } else { largest[lane] };
-            labels[lane] = if greater { label as u32 } else { labels[lane] };
+        for slot in 0..SIMD_WIDTH {
+            let greater = memberships[slot] > largest[slot];
+            largest[slot] = if greater { memberships[slot] } else { largest[slot] };
+            labels[slot] = if greater { label as u32 } else { labels[slot] };
         }
     }
     labels
 }
 
 /// Memberships of a group in spherical components of equal weight around the centroids.
-fn spherical_memberships(group: &[[f32; LANES]], centroids: &[f32], variance: f64, scratch: &mut Scratch) {
+fn spherical_memberships(group: &[[f32; SIMD_WIDTH]], centroids: &[f32], variance: f64, scratch: &mut Scratch) {
     // Without any variance, the nearest centroid has it all.
     let precision = variance.max(f64::MIN_POSITIVE).recip();
     let least = nearest(group, centroids).squared_distances;
     let exponents = centroids.chunks_exact(group.len()).map(|centroid| {
         let squares = squared_distances(group, centroid);
-        std::array::from_fn(|lane| -0.5 * precision * f64::from(squares[lane] - least[lane]).max(0.0))
+        std::array::from_fn(|slot| -0.5 * precision * f64::from(squares[slot] - least[slot]).max(0.0))
     });
     scratch.memberships.clear();
     scratch.memberships.extend(exponents);

@@ -1,14 +1,14 @@
-//! Scaled rows in the layout of the hot loops: groups of [`LANES`] rows, column by column within a group.
+//! Scaled rows in the layout of the hot loops: groups of [`SIMD_WIDTH`] rows, column by column within a group.
 //!
-//! One value of a centroid then meets [`LANES`] rows at once, which the compiler turns into vector instructions; no
+//! One value of a centroid then meets [`SIMD_WIDTH`] rows at once, which the compiler turns into vector instructions; no
 //! number depends on the rows it shares a group with, so results are the same for any division into blocks.
 
 use super::random::{below, stream};
 use super::scaling::RowScaling;
 
 /// Rows that are compared with a centroid at once.
-pub(super) const LANES: usize = 16;
-/// Groups of [`LANES`] rows whose sums are taken together.
+pub(super) const SIMD_WIDTH: usize = 16;
+/// Groups of [`SIMD_WIDTH`] rows whose sums are taken together.
 pub(super) const GROUPS_PER_BLOCK: usize = 256;
 
 /// Stream of random numbers that draws the samples; restarts have the streams from 0 on.
@@ -19,13 +19,13 @@ const SAMPLE_STREAM: u64 = u64::MAX;
 pub(super) struct Points {
     count: usize,
     columns: usize,
-    groups: Vec<[f32; LANES]>,
+    groups: Vec<[f32; SIMD_WIDTH]>,
 }
 
 /// The nearest centroids of a group of rows.
 pub(super) struct Nearest {
-    pub labels: [u32; LANES],
-    pub squared_distances: [f32; LANES],
+    pub labels: [u32; SIMD_WIDTH],
+    pub squared_distances: [f32; SIMD_WIDTH],
 }
 
 impl Nearest {
@@ -53,9 +53,9 @@ impl Points {
         let columns = scaling.columns();
         self.resize(chosen.len(), columns);
         for (index, row) in chosen.enumerate() {
-            let group = &mut self.groups[index / LANES * columns..][..columns];
+            let group = &mut self.groups[index / SIMD_WIDTH * columns..][..columns];
             for (values, value) in group.iter_mut().zip(scaling.row(&rows[row * columns..][..columns])) {
-                values[index % LANES] = value;
+                values[index % SIMD_WIDTH] = value;
             }
         }
     }
@@ -65,9 +65,9 @@ impl Points {
         let mut points = Self::default();
         points.resize(chosen.len(), self.columns);
         for (index, row) in chosen.enumerate() {
-            let group = &mut points.groups[index / LANES * self.columns..][..self.columns];
+            let group = &mut points.groups[index / SIMD_WIDTH * self.columns..][..self.columns];
             for (values, value) in group.iter_mut().zip(self.row(row)) {
-                values[index % LANES] = value;
+                values[index % SIMD_WIDTH] = value;
             }
         }
         points
@@ -77,7 +77,7 @@ impl Points {
         self.count = count;
         self.columns = columns;
         self.groups.clear();
-        self.groups.resize(count.div_ceil(LANES) * columns, [0.0; LANES]);
+        self.groups.resize(count.div_ceil(SIMD_WIDTH) * columns, [0.0; SIMD_WIDTH]);
     }
 
     /// Number of rows.
@@ -91,22 +91,22 @@ impl Points {
     }
 
     pub(super) fn group_count(&self) -> usize {
-        self.count.div_ceil(LANES)
+        self.count.div_ceil(SIMD_WIDTH)
     }
 
     /// Rows in a group.
     pub(super) fn rows_in(&self, group: usize) -> usize {
-        LANES.min(self.count - group * LANES)
+        SIMD_WIDTH.min(self.count - group * SIMD_WIDTH)
     }
 
     /// The columns of a group.
-    pub(super) fn group(&self, group: usize) -> &[[f32; LANES]] {
+    pub(super) fn group(&self, group: usize) -> &[[f32; SIMD_WIDTH]] {
         &self.groups[group * self.columns..(group + 1) * self.columns]
     }
 
     /// One row.
     pub(super) fn row(&self, row: usize) -> impl Iterator<Item = f32> {
-        self.group(row / LANES).iter().map(move |values| values[row % LANES])
+        self.group(row / SIMD_WIDTH).iter().map(move |values| values[row % SIMD_WIDTH])
     }
 
     /// Variance of each column.
@@ -126,8 +126,8 @@ impl Points {
 
 /// Squared distances of a group to a centroid.
 #[inline]
-pub(super) fn squared_distances(group: &[[f32; LANES]], centroid: &[f32]) -> [f32; LANES] {
-    let mut distances = [0.0; LANES];
+pub(super) fn squared_distances(group: &[[f32; SIMD_WIDTH]], centroid: &[f32]) -> [f32; SIMD_WIDTH] {
+    let mut distances = [0.0; SIMD_WIDTH];
     for (values, &center) in group.iter().zip(centroid) {
         for (distance, &value) in distances.iter_mut().zip(values) {
             *distance += (value - center) * (value - center);
@@ -138,14 +138,14 @@ pub(super) fn squared_distances(group: &[[f32; LANES]], centroid: &[f32]) -> [f3
 
 /// The nearest centroids of a group, the first of equally near ones.
 #[inline]
-pub(super) fn nearest(group: &[[f32; LANES]], centroids: &[f32]) -> Nearest {
-    let mut nearest = Nearest { labels: [0; LANES], squared_distances: [f32::INFINITY; LANES] };
+pub(super) fn nearest(group: &[[f32; SIMD_WIDTH]], centroids: &[f32]) -> Nearest {
+    let mut nearest = Nearest { labels: [0; SIMD_WIDTH], squared_distances: [f32::INFINITY; SIMD_WIDTH] };
     for (label, centroid) in centroids.chunks_exact(group.len()).enumerate() {
         let distances = squared_distances(group, centroid);
-        for (lane, &distance) in distances.iter().enumerate() {
-            let closer = distance < nearest.squared_distances[lane];
-            nearest.squared_distances[lane] = if closer { distance } else { nearest.squared_distances[lane] };
-            nearest.labels[lane] = if closer { label as u32 } else { nearest.labels[lane] };
+        for (slot, &distance) in distances.iter().enumerate() {
+            let closer = distance < nearest.squared_distances[slot];
+            nearest.squared_distances[slot] = if closer { distance } else { nearest.squared_distances[slot] };
+            nearest.labels[slot] = if closer { label as u32 } else { nearest.labels[slot] };
         }
     }
     nearest

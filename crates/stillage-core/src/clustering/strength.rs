@@ -90,8 +90,8 @@ fn strength(points: &Points, own: &[f32], others: &[f32]) -> f64 {
     let mut table = vec![0_u64; own_count * other_count];
     for group in 0..points.group_count() {
         let [own, others] = [own, others].map(|centroids| nearest(points.group(group), centroids).labels);
-        for lane in 0..points.rows_in(group) {
-            table[own[lane] as usize * other_count + others[lane] as usize] += 1;
+        for slot in 0..points.rows_in(group) {
+            table[own[slot] as usize * other_count + others[slot] as usize] += 1;
         }
     }
     let pairs = |rows: u64| (rows * rows.saturating_sub(1)) as f64;

@@ -9,9 +9,9 @@
 //! free cell at all, every free cell is measured, so that a map with free cells always has features.
 
 mod halmstad;
-mod lanes;
 mod paper;
 mod paper_sums;
+mod simd;
 
 use rayon::prelude::*;
 

@@ -230,7 +230,7 @@ impl Kernel for TileWork<'_> {
     type Output = Result<(), Stopped>;
 
     #[inline(always)]
-    fn run<const LANES: usize>(mut self) -> Self::Output {
+    fn run<const SIMD_WIDTH: usize>(mut self) -> Self::Output {
         self.memory.sums.clear();
         self.choose_pivots();
         let runs = &self.features.runs;
@@ -240,14 +240,14 @@ impl Kernel for TileWork<'_> {
                 self.turn();
                 transposed = run.transposed;
             }
-            self.add_run::<LANES>(index, run)?;
+            self.add_run::<SIMD_WIDTH>(index, run)?;
         }
         for (index, run) in runs.iter().enumerate() {
             let beams = [run.beams[run.beams.len() - 1], runs[run.next].beams[0]];
             let terms = beams.map(|beam| &self.features.beams[beam]);
             let TileMemory { ends, sums, .. } = &mut *self.memory;
             let units = [ends.plane(2 * index + 1), ends.plane(2 * run.next)];
-            sums.join::<LANES>(&self.groups[0], terms, units, &self.features.fan);
+            sums.join::<SIMD_WIDTH>(&self.groups[0], terms, units, &self.features.fan);
         }
         Ok(())
     }
@@ -275,7 +275,7 @@ impl TileWork<'_> {
 
     /// Adds the beams of a run, and keeps its ends.
     #[inline(always)]
-    fn add_run<const LANES: usize>(&mut self, index: usize, run: &Run) -> Result<(), Stopped> {
+    fn add_run<const SIMD_WIDTH: usize>(&mut self, index: usize, run: &Run) -> Result<(), Stopped> {
         let TileMemory { sweep: scratch, planes, sums, ends } = &mut *self.memory;
         let Self { features, tile, groups, watch, .. } = self;
         let groups = &groups[usize::from(run.transposed)];
@@ -285,7 +285,7 @@ impl TileWork<'_> {
                 features.sweep.cast(tile, beam, scratch, planes.plane_mut(place));
             }
             let terms = &run.terms[block * BEAMS_PER_BLOCK..][..beams.len()];
-            sums.add::<LANES>(groups, terms, planes, &features.fan, block == 0);
+            sums.add::<SIMD_WIDTH>(groups, terms, planes, &features.fan, block == 0);
             if block == 0 {
                 ends.plane_mut(2 * index).copy_from_slice(planes.plane(0));
             }

@@ -8,7 +8,7 @@
 
 use std::f64::consts::TAU;
 
-use super::lanes::Lanes;
+use super::simd::Simd;
 use crate::raycast::{PLANE_LENGTH, PLANE_PITCH};
 
 /// How many sums there are.
@@ -140,11 +140,11 @@ impl TileSums {
         opens: bool,
     ) {
         for start in groups.iter().flat_map(|&group| (group..group + GROUP).step_by(N)) {
-            let mut sums: [Lanes<N>; SUMS] = self.load(start);
-            let pivot = Lanes::<N>::load(&self.0.plane(PIVOT)[start..]);
-            let mut previous = Lanes::<N>::load(&self.0.plane(PREVIOUS)[start..]);
+            let mut sums: [Simd<N>; SUMS] = self.load(start);
+            let pivot = Simd::<N>::load(&self.0.plane(PIVOT)[start..]);
+            let mut previous = Simd::<N>::load(&self.0.plane(PREVIOUS)[start..]);
             for (index, beam) in beams.iter().enumerate() {
-                let length = (Lanes::from_units(&planes.plane(index)[start..]) * beam.unit).min(fan.limit);
+                let length = (Simd::from_units(&planes.plane(index)[start..]) * beam.unit).min(fan.limit);
                 add_length(&mut sums, length, pivot, beam);
                 if index > 0 || !opens {
                     add_change(&mut sums, previous, length, fan);
@@ -158,17 +158,17 @@ impl TileSums {
 
     /// The sums of some cells.
     #[inline(always)]
-    fn load<const N: usize>(&self, start: usize) -> [Lanes<N>; SUMS] {
-        let mut sums = [Lanes::ZERO; SUMS];
+    fn load<const N: usize>(&self, start: usize) -> [Simd<N>; SUMS] {
+        let mut sums = [Simd::ZERO; SUMS];
         for (plane, sum) in sums.iter_mut().enumerate() {
-            *sum = Lanes::load(&self.0.plane(plane)[start..]);
+            *sum = Simd::load(&self.0.plane(plane)[start..]);
         }
         sums
     }
 
     /// Keeps the sums of some cells.
     #[inline(always)]
-    fn store<const N: usize>(&mut self, start: usize, sums: &[Lanes<N>; SUMS]) {
+    fn store<const N: usize>(&mut self, start: usize, sums: &[Simd<N>; SUMS]) {
         for (plane, sum) in sums.iter().enumerate() {
             sum.store(&mut self.0.plane_mut(plane)[start..]);
         }
@@ -184,9 +184,9 @@ impl TileSums {
         fan: &FanTerms,
     ) {
         for start in groups.iter().flat_map(|&group| (group..group + GROUP).step_by(N)) {
-            let mut sums: [Lanes<N>; SUMS] = self.load(start);
-            let previous = (Lanes::from_units(&units[0][start..]) * beams[0].unit).min(fan.limit);
-            let length = (Lanes::from_units(&units[1][start..]) * beams[1].unit).min(fan.limit);
+            let mut sums: [Simd<N>; SUMS] = self.load(start);
+            let previous = (Simd::from_units(&units[0][start..]) * beams[0].unit).min(fan.limit);
+            let length = (Simd::from_units(&units[1][start..]) * beams[1].unit).min(fan.limit);
             add_change(&mut sums, previous, length, fan);
             self.store(start, &sums);
         }
@@ -204,7 +204,7 @@ impl TileSums {
 
 /// Adds the terms of a beam alone.
 #[inline(always)]
-fn add_length<const N: usize>(sums: &mut [Lanes<N>; SUMS], length: Lanes<N>, pivot: Lanes<N>, beam: &BeamTerms) {
+fn add_length<const N: usize>(sums: &mut [Simd<N>; SUMS], length: Simd<N>, pivot: Simd<N>, beam: &BeamTerms) {
     let squared = length * length;
     let shifted = length - pivot;
     let shifted_squared = shifted * shifted;
@@ -220,7 +220,7 @@ fn add_length<const N: usize>(sums: &mut [Lanes<N>; SUMS], length: Lanes<N>, piv
 
 /// Adds the terms of a beam and the one before it.
 #[inline(always)]
-fn add_change<const N: usize>(sums: &mut [Lanes<N>; SUMS], previous: Lanes<N>, length: Lanes<N>, fan: &FanTerms) {
+fn add_change<const N: usize>(sums: &mut [Simd<N>; SUMS], previous: Simd<N>, length: Simd<N>, fan: &FanTerms) {
     let change = length - previous;
     let (change_size, change_squared) = (change.abs(), change * change);
     sums[4] += change_size;

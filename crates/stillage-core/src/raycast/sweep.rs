@@ -142,7 +142,7 @@ impl Kernel for QuadrantWalk<'_> {
     type Output = Result<Vec<Vec<u16>>, Stopped>;
 
     #[inline(always)]
-    fn run<const LANES: usize>(self) -> Self::Output {
+    fn run<const SIMD_WIDTH: usize>(self) -> Self::Output {
         let Self { mask, directions, watch } = self;
         let mut walks: Vec<GridWalk> = directions.iter().map(|&direction| GridWalk::new(mask, direction)).collect();
         let ascending = directions.first().is_some_and(|direction| direction.ascending);

@@ -11,7 +11,7 @@ use nalgebra::{Cholesky, DMatrix};
 use rayon::prelude::*;
 
 use super::{Component, GaussianMixture, Scratch, Whitening, triangle};
-use crate::clustering::points::{GROUPS_PER_BLOCK, LANES, Points, nearest};
+use crate::clustering::points::{GROUPS_PER_BLOCK, Points, SIMD_WIDTH, nearest};
 use crate::spec::Covariance;
 use crate::watch::{Stopped, Watch};
 
@@ -65,7 +65,7 @@ pub(in crate::clustering) fn fit(
         let labels = nearest(points.group(group), centroids).labels;
         shares.clear();
         shares.extend((0..components).map(|part| labels.map(|label| f64::from(u8::from(label as usize == part)))));
-        [0.0; LANES]
+        [0.0; SIMD_WIDTH]
     })?;
     let mut mixture = start.mixture(&guard);
     let mut log_likelihood = f64::NEG_INFINITY;
@@ -105,7 +105,7 @@ fn moments(
     points: &Points,
     watch: &Watch<'_>,
     empty: impl Fn() -> Moments + Sync,
-    share: impl Fn(usize, &mut Vec<[f64; LANES]>) -> [f64; LANES] + Sync,
+    share: impl Fn(usize, &mut Vec<[f64; SIMD_WIDTH]>) -> [f64; SIMD_WIDTH] + Sync,
 ) -> Result<Moments, Stopped> {
     let groups: Vec<usize> = (0..points.group_count()).collect();
     let blocks: Result<Vec<Moments>, Stopped> = groups
@@ -162,13 +162,13 @@ impl Moments {
     /// Adds the first `rows` rows of a group.
     fn add_group(
         &mut self,
-        group: &[[f32; LANES]],
+        group: &[[f32; SIMD_WIDTH]],
         rows: usize,
-        shares: &mut [[f64; LANES]],
-        log_densities: &[f64; LANES],
+        shares: &mut [[f64; SIMD_WIDTH]],
+        log_densities: &[f64; SIMD_WIDTH],
     ) {
         self.log_likelihood += log_densities[..rows].iter().sum::<f64>();
-        let values: Vec<[f64; LANES]> = group.iter().map(|column| column.map(f64::from)).collect();
+        let values: Vec<[f64; SIMD_WIDTH]> = group.iter().map(|column| column.map(f64::from)).collect();
         let columns = self.columns;
         let products = self.products.chunks_exact_mut(products(self.covariance, columns));
         for (((share, weight), sums), products) in
@@ -178,7 +178,7 @@ impl Moments {
             *weight += share.iter().sum::<f64>();
             let mut next = products.iter_mut();
             for (column, (value, sum)) in values.iter().zip(sums).enumerate() {
-                let weighted: [f64; LANES] = std::array::from_fn(|lane| share[lane] * value[lane]);
+                let weighted: [f64; SIMD_WIDTH] = std::array::from_fn(|slot| share[slot] * value[slot]);
                 *sum += weighted.iter().sum::<f64>();
                 let first = if self.covariance == Covariance::Diagonal { column } else { 0 };
                 for (other, product) in values[first..=column].iter().zip(&mut next) {
@@ -251,7 +251,7 @@ fn full_whitening(products: &[f64], weight: f64, mean: &[f64], guard: &[f64]) ->
 
 /// Sum of the products of two groups of values, in four running sums.
 #[inline]
-fn dot(one: &[f64; LANES], other: &[f64; LANES]) -> f64 {
+fn dot(one: &[f64; SIMD_WIDTH], other: &[f64; SIMD_WIDTH]) -> f64 {
     let mut sums = [0.0; 4];
     for (one, other) in one.chunks_exact(4).zip(other.chunks_exact(4)) {
         for ((sum, one), other) in sums.iter_mut().zip(one).zip(other) {

@@ -13,7 +13,7 @@ mod em;
 
 use serde::{Deserialize, Serialize};
 
-use super::points::LANES;
+use super::points::SIMD_WIDTH;
 
 pub(super) use em::{Fitted, REGULARIZATION, fit};
 
@@ -55,7 +55,7 @@ impl Component {
 
     /// Logarithm of the weighted density at each row of a group. `offsets` is scratch, one entry per column.
     #[inline]
-    fn log_densities(&self, group: &[[f32; LANES]], offsets: &mut [[f64; LANES]]) -> [f64; LANES] {
+    fn log_densities(&self, group: &[[f32; SIMD_WIDTH]], offsets: &mut [[f64; SIMD_WIDTH]]) -> [f64; SIMD_WIDTH] {
         for ((offset, values), mean) in offsets.iter_mut().zip(group).zip(&self.mean) {
             *offset = values.map(|value| f64::from(value) - mean);
         }
@@ -64,7 +64,7 @@ impl Component {
                 sum_of_squares(offsets.iter().zip(factors).map(|(offset, factor)| offset.map(|value| value * factor)))
             }
             Whitening::Full(rows) => sum_of_squares((0..offsets.len()).map(|row| {
-                let mut sum = [0.0; LANES];
+                let mut sum = [0.0; SIMD_WIDTH];
                 for (factor, offset) in rows[triangle(row)..triangle(row + 1)].iter().zip(&*offsets) {
                     for (sum, value) in sum.iter_mut().zip(offset) {
                         *sum += factor * value;
@@ -83,8 +83,8 @@ const fn triangle(rows: usize) -> usize {
 }
 
 #[inline]
-fn sum_of_squares(columns: impl Iterator<Item = [f64; LANES]>) -> [f64; LANES] {
-    let mut sum = [0.0; LANES];
+fn sum_of_squares(columns: impl Iterator<Item = [f64; SIMD_WIDTH]>) -> [f64; SIMD_WIDTH] {
+    let mut sum = [0.0; SIMD_WIDTH];
     for column in columns {
         for (sum, value) in sum.iter_mut().zip(column) {
             *sum += value * value;
@@ -123,8 +123,8 @@ impl GaussianMixture {
     }
 
     /// Membership of each row of a group in each component, and the logarithm of the density at each row.
-    pub(super) fn memberships(&self, group: &[[f32; LANES]], scratch: &mut Scratch) -> [f64; LANES] {
-        scratch.offsets.resize(group.len(), [0.0; LANES]);
+    pub(super) fn memberships(&self, group: &[[f32; SIMD_WIDTH]], scratch: &mut Scratch) -> [f64; SIMD_WIDTH] {
+        scratch.offsets.resize(group.len(), [0.0; SIMD_WIDTH]);
         scratch.memberships.clear();
         let log_densities = self.components.iter().map(|part| part.log_densities(group, &mut scratch.offsets));
         scratch.memberships.extend(log_densities);
@@ -135,20 +135,20 @@ impl GaussianMixture {
 /// What the memberships of a group are computed in.
 #[derive(Debug, Default)]
 pub(super) struct Scratch {
-    offsets: Vec<[f64; LANES]>,
+    offsets: Vec<[f64; SIMD_WIDTH]>,
     /// By component, the memberships of the rows.
-    pub memberships: Vec<[f64; LANES]>,
+    pub memberships: Vec<[f64; SIMD_WIDTH]>,
 }
 
 /// Turns logarithms of weighted densities into shares; gives the logarithm of their sum.
-pub(super) fn normalize(log_densities: &mut [[f64; LANES]]) -> [f64; LANES] {
-    let mut largest = [f64::NEG_INFINITY; LANES];
+pub(super) fn normalize(log_densities: &mut [[f64; SIMD_WIDTH]]) -> [f64; SIMD_WIDTH] {
+    let mut largest = [f64::NEG_INFINITY; SIMD_WIDTH];
     for densities in &*log_densities {
         for (largest, &density) in largest.iter_mut().zip(densities) {
             *largest = largest.max(density);
         }
     }
-    let mut sums = [0.0; LANES];
+    let mut sums = [0.0; SIMD_WIDTH];
     for densities in &mut *log_densities {
         for ((density, sum), largest) in densities.iter_mut().zip(&mut sums).zip(largest) {
             *density = (*density - largest).exp();
@@ -160,7 +160,7 @@ pub(super) fn normalize(log_densities: &mut [[f64; LANES]]) -> [f64; LANES] {
             *density /= sum;
         }
     }
-    std::array::from_fn(|lane| largest[lane] + sums[lane].ln())
+    std::array::from_fn(|slot| largest[slot] + sums[slot].ln())
 }
 
 #[cfg(test)]

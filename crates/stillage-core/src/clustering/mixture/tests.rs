@@ -79,6 +79,6 @@ fn memberships_far_away_still_sum_to_one() {
     let found = fitted(&stripes(600), &[0.0, 0.0, 0.0, 3.0], Covariance::Full);
     let mut scratch = Scratch::default();
     let log_densities = found.mixture.memberships(rows_of(&[3e7, 1.0], 2).group(0), &mut scratch);
-    let sum: f64 = scratch.memberships.iter().map(|lanes| lanes[0]).sum();
+    let sum: f64 = scratch.memberships.iter().map(|numbers| numbers[0]).sum();
     assert!((sum - 1.0).abs() < 1e-12 && log_densities[0].is_finite());
 }

@@ -7,9 +7,9 @@ use std::ops::{Add, AddAssign, Mul, Sub};
 
 /// One number for each of `N` neighbouring cells.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Lanes<const N: usize>([f32; N]);
+pub(super) struct Simd<const N: usize>([f32; N]);
 
-impl<const N: usize> Lanes<N> {
+impl<const N: usize> Simd<N> {
     /// No number but 0.
     pub(super) const ZERO: Self = Self([0.0; N]);
 
@@ -29,12 +29,12 @@ impl<const N: usize> Lanes<N> {
     #[inline(always)]
     pub(super) fn from_units(units: &[u16]) -> Self {
         let units: &[u16; N] = units.first_chunk().expect("planes are worked on in whole groups");
-        let mut lanes = Self::ZERO;
-        for (lane, &units) in lanes.0.iter_mut().zip(units) {
+        let mut numbers = Self::ZERO;
+        for (number, &units) in numbers.0.iter_mut().zip(units) {
             // By way of i32, for which there is a vector instruction.
-            *lane = i32::from(units) as f32;
+            *number = i32::from(units) as f32;
         }
-        lanes
+        numbers
     }
 
     #[inline(always)]
@@ -60,22 +60,22 @@ impl<const N: usize> Lanes<N> {
 
     #[inline(always)]
     fn map(mut self, function: impl Fn(f32) -> f32) -> Self {
-        for lane in &mut self.0 {
-            *lane = function(*lane);
+        for number in &mut self.0 {
+            *number = function(*number);
         }
         self
     }
 
     #[inline(always)]
     fn zip(mut self, other: Self, function: impl Fn(f32, f32) -> f32) -> Self {
-        for (lane, other) in self.0.iter_mut().zip(other.0) {
-            *lane = function(*lane, other);
+        for (number, other) in self.0.iter_mut().zip(other.0) {
+            *number = function(*number, other);
         }
         self
     }
 }
 
-impl<const N: usize> Add for Lanes<N> {
+impl<const N: usize> Add for Simd<N> {
     type Output = Self;
 
     #[inline(always)]
@@ -84,7 +84,7 @@ impl<const N: usize> Add for Lanes<N> {
     }
 }
 
-impl<const N: usize> Sub for Lanes<N> {
+impl<const N: usize> Sub for Simd<N> {
     type Output = Self;
 
     #[inline(always)]
@@ -93,7 +93,7 @@ impl<const N: usize> Sub for Lanes<N> {
     }
 }
 
-impl<const N: usize> Mul for Lanes<N> {
+impl<const N: usize> Mul for Simd<N> {
     type Output = Self;
 
     #[inline(always)]
@@ -102,7 +102,7 @@ impl<const N: usize> Mul for Lanes<N> {
     }
 }
 
-impl<const N: usize> Mul<f32> for Lanes<N> {
+impl<const N: usize> Mul<f32> for Simd<N> {
     type Output = Self;
 
     #[inline(always)]
@@ -111,7 +111,7 @@ impl<const N: usize> Mul<f32> for Lanes<N> {
     }
 }
 
-impl<const N: usize> AddAssign for Lanes<N> {
+impl<const N: usize> AddAssign for Simd<N> {
     #[inline(always)]
     fn add_assign(&mut self, other: Self) {
         *self = *self + other;
