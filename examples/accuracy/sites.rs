@@ -7,11 +7,10 @@ use std::path::Path;
 use rayon::prelude::*;
 use stillage::ingest::{self, Limits, MapSource};
 use stillage::render;
-use stillage_core::annotation::CellFaces;
 use stillage_core::evaluation::{self, Evaluation, GroundTruth};
 use stillage_core::semantics::{self, Assignment, RuleSet};
 use stillage_core::spec::{AnnotationMethod, DecompositionMethod, GridOptions, OrientationMethod, RegionMethod};
-use stillage_core::{Analysis, AnalysisOptions, AnalysisSpec, OccupancyGrid, Watch, analyze};
+use stillage_core::{Analysis, AnalysisOptions, AnalysisSpec, OccupancyGrid, Watch, analyze, layout};
 use stillage_zoo::{Kind, Options};
 
 use crate::Outcome;
@@ -143,6 +142,6 @@ pub fn picture(grid: &OccupancyGrid, analysis: &Analysis) -> Vec<u8> {
     let rules = RuleSet::warehouse();
     let assignment = Assignment::suggested(&semantics::suggest(analysis, &rules), &rules);
     let semantic = semantics::apply(analysis, &rules, &assignment).expect("suggestions fit their own analysis");
-    let cells = CellFaces::rasterize(&analysis.subdivision, grid.width(), grid.height(), grid.resolution());
-    render::semantic(grid, &cells, analysis, &semantic)
+    let locations = layout::locations(analysis, &semantic);
+    render::semantic_png(grid, analysis, &semantic, &locations)
 }
