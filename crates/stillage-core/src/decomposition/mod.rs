@@ -94,7 +94,7 @@ fn decompose_region(
     drivable::mark(&mut frame, vehicle, watch)?;
     let cut = aisles::cut(&frame, watch)?;
     let parcels = rows::lay_out(&frame, cut, &SizeHints::of(options), watch)?;
-    let parcels = trim::end(&frame, parcels);
+    let parcels = trim::trimmed(&frame, parcels, watch)?;
     let lines = lines::of_parcels(&frame, region, &parcels);
     let plots = parcels.iter().map(|parcel| plot::plot(&frame, region, parcel)).collect();
     Ok(Decomposition { lines, plots })

@@ -1,46 +1,50 @@
 //! Aisles end where the places along them do.
 //!
-//! A band serves a row along its places only, and on beside what nobody saw: a row ends where it is seen to end. Where a
-//! band runs on without any row it is open floor. How much of its width is aisle, [`super::aisle_width`] says.
+//! A band is an aisle along its places, and beyond them as far as the floor beside it was not seen free, since a row ends
+//! where it is seen to end. Where a band runs on without any row it is open floor. How much of its width is aisle,
+//! [`super::aisle_width`] decides.
 //!
-//! Cost: O(bands x places).
+//! Cost: O(cells of the bands + places log places).
 
 use std::ops::Range;
 
-use super::aisle_width::{self, BandSection};
+use super::aisle_width;
+use super::band_section::{BandSection, GROUND_SHARE, OPEN_END_M, without_short_gaps};
+use super::place_index::PlaceIndex;
 use crate::decomposition::ground::{Axis, Cell, Rect, RegionFrame};
 use crate::decomposition::plot::{Parcel, PlotKind};
+use crate::runs::runs_of_equal;
+use crate::watch::{Stopped, Watch};
 
-/// Places and band meet within this, metres.
-pub(super) const CONTACT_M: f64 = 0.8;
-/// A stretch of a band without places is open floor from this length on, metres: narrower, it is an empty place or two.
-const OPEN_STRETCH_M: f64 = 1.9;
-/// The same at the ends of a block, metres.
-const OPEN_END_M: f64 = 0.5;
-/// Where the ground ends that lies beyond the side of a band, metres, and the share of it that must be in the site, or
-/// free.
+/// Where the ground beyond the side of a band begins and ends, metres from the band.
 const BEYOND_M: [f64; 2] = [0.3, 0.8];
-pub(super) const GROUND_SHARE: f64 = 0.5;
 
-/// Cuts the bands where places stop to lie along them.
-pub(super) fn end(frame: &RegionFrame, parcels: Vec<Parcel>) -> Vec<Parcel> {
+/// Cuts the bands at the ends of the places along them; other parcels stay as they are and come first.
+pub(super) fn trimmed(frame: &RegionFrame, parcels: Vec<Parcel>, watch: &Watch<'_>) -> Result<Vec<Parcel>, Stopped> {
     let is_band = |parcel: &Parcel| matches!(parcel.kind, PlotKind::Aisle | PlotKind::OpenFloor);
-    let (bands, mut ended): (Vec<Parcel>, Vec<Parcel>) = parcels.into_iter().partition(is_band);
-    let mut bands: Vec<AisleBand> = bands.into_iter().map(|band| AisleBand::of(frame, band, &ended)).collect();
-    // Bands of one length are those of one block.
+    let (bands, mut trimmed): (Vec<Parcel>, Vec<Parcel>) = parcels.into_iter().partition(is_band);
+    let [along_u, along_v] = Axis::BOTH.map(|axis| PlaceIndex::of(frame, &trimmed, axis, watch));
+    let places = [along_u?, along_v?];
+    let mut bands: Vec<AisleBand> =
+        bands.into_iter().map(|band| AisleBand::of(frame, band, &places, watch)).collect::<Result<_, _>>()?;
+    // Bands of one length are those of one block of rows.
     bands.sort_by_key(AisleBand::block);
     for block in bands.chunk_by_mut(|one, other| one.block() == other.block()) {
-        let first = block.iter().filter_map(|band| band.served().position(|here| here)).min();
-        let last = block.iter().filter_map(|band| band.served().rposition(|here| here)).max();
+        let first = block.iter().filter_map(|band| band.has_place().position(|here| here)).min();
+        let last = block.iter().filter_map(|band| band.has_place().rposition(|here| here)).max();
         if let (Some(first), Some(last)) = (first, last) {
             for band in block {
                 band.reach = first..last + 1;
             }
         }
     }
-    let stretches: Vec<BandSection> = bands.iter().flat_map(|band| band.stretches(frame)).collect();
-    aisle_width::cut(frame, stretches, &mut ended);
-    ended
+    let mut sections = Vec::new();
+    for band in &bands {
+        watch.check()?;
+        sections.extend(band.sections(frame));
+    }
+    trimmed.extend(aisle_width::cut(frame, &sections, &places, watch)?);
+    Ok(trimmed)
 }
 
 /// A band, and where places lie along it.
@@ -54,16 +58,16 @@ struct AisleBand {
 }
 
 impl AisleBand {
-    fn of(frame: &RegionFrame, band: Parcel, others: &[Parcel]) -> Self {
+    fn of(frame: &RegionFrame, band: Parcel, places: &[PlaceIndex; 2], watch: &Watch<'_>) -> Result<Self, Stopped> {
+        watch.check()?;
         let axis = band.axis.unwrap_or(Axis::U);
-        let (along, across) = (band.rect.range(axis), band.rect.range(axis.other()));
-        let contact = frame.cells_of(CONTACT_M);
+        let index = &places[usize::from(axis == Axis::V)];
+        let along = band.rect.range(axis);
         let mut sides = [vec![false; along.len()], vec![false; along.len()]];
-        for place in others.iter().filter(|other| other.kind == PlotKind::Place && other.axis == Some(axis)) {
-            let (beside, depth) = (place.rect.range(axis), place.rect.range(axis.other()));
-            let meets = [depth.end.abs_diff(across.start) <= contact, depth.start.abs_diff(across.end) <= contact];
-            let (start, end) = (beside.start.max(along.start), beside.end.min(along.end));
-            for (side, _) in sides.iter_mut().zip(meets).filter(|&(_, meets)| meets && start < end) {
+        for (side, places) in sides.iter_mut().zip(index.along(&band.rect)) {
+            for place in places {
+                let beside = index.places.rects()[place].range(axis);
+                let (start, end) = (beside.start.max(along.start), beside.end.min(along.end));
                 side[start - along.start..end - along.start].fill(true);
             }
         }
@@ -71,34 +75,33 @@ impl AisleBand {
         for (side, strip) in sides.iter_mut().zip(beyond) {
             let free = frame.counts(&strip, axis.other(), Cell::is_free);
             let depth = strip.range(axis.other()).len() as f64;
-            go_on(side, |line| f64::from(free[line]) >= GROUND_SHARE * depth, frame.cells_of(OPEN_END_M));
+            extend_unseen(side, |line| f64::from(free[line]) >= GROUND_SHARE * depth, frame.cells_of(OPEN_END_M));
         }
-        Self { rect: band.rect, axis, sides, reach: 0..0 }
+        Ok(Self { rect: band.rect, axis, sides, reach: 0..0 })
     }
 
+    /// The block of rows that it belongs to: its direction and where it begins and ends.
     fn block(&self) -> (bool, usize, usize) {
         let along = self.rect.range(self.axis);
         (self.axis == Axis::V, along.start, along.end)
     }
 
-    fn served(&self) -> impl ExactSizeIterator<Item = bool> + DoubleEndedIterator {
+    /// By line across the band: whether there is a place on either side.
+    fn has_place(&self) -> impl ExactSizeIterator<Item = bool> + DoubleEndedIterator {
         self.sides[0].iter().zip(&self.sides[1]).map(|(low, high)| *low || *high)
     }
 
-    /// The stretches with and without places.
-    fn stretches(&self, frame: &RegionFrame) -> Vec<BandSection> {
-        let served = closed(frame, self.served().collect(), &self.reach);
-        let offset = self.rect.range(self.axis).start;
-        let mut start = 0;
-        let stretch = |run: &[bool]| {
-            let range = start..start + run.len();
-            start = range.end;
-            let rect = self.rect.with(self.axis, offset + range.start..offset + range.end);
-            let sides = [&self.sides[0], &self.sides[1]].map(|side| side[range.clone()].to_vec());
-            let fronts = [&sides[0], &sides[1]].map(|side| run[0] && side.contains(&true));
+    /// The sections with and without places, ascending.
+    fn sections(&self, frame: &RegionFrame) -> Vec<BandSection> {
+        let has_place = without_short_gaps(frame, self.has_place().collect(), &self.reach);
+        let start = self.rect.range(self.axis).start;
+        let section = |run: Range<usize>| {
+            let rect = self.rect.with(self.axis, start + run.start..start + run.end);
+            let sides = [&self.sides[0], &self.sides[1]].map(|side| side[run.clone()].to_vec());
+            let fronts = [&sides[0], &sides[1]].map(|side| has_place[run.start] && side.contains(&true));
             BandSection { walls: walls(frame, &rect, self.axis), rect, axis: self.axis, sides, fronts }
         };
-        served.chunk_by(PartialEq::eq).map(stretch).collect()
+        runs_of_equal(&has_place).map(section).collect()
     }
 }
 
@@ -108,9 +111,10 @@ fn walls(frame: &RegionFrame, rect: &Rect, axis: Axis) -> [bool; 2] {
     beyond.map(|strip| frame.share(&strip, Cell::is_inside) < GROUND_SHARE)
 }
 
-/// Lets places go on before the first and behind the last one as far as no stretch of `least` lines was seen free.
-fn go_on(served: &mut [bool], is_free: impl Fn(usize) -> bool, least: usize) {
-    let (Some(first), Some(last)) = (served.iter().position(|&here| here), served.iter().rposition(|&here| here))
+/// Extends the lines with places before the first and behind the last one, up to the first `least` lines in a row that
+/// were seen free.
+fn extend_unseen(has_place: &mut [bool], is_free: impl Fn(usize) -> bool, least: usize) {
+    let (Some(first), Some(last)) = (has_place.iter().position(|&here| here), has_place.iter().rposition(|&here| here))
     else {
         return;
     };
@@ -126,33 +130,9 @@ fn go_on(served: &mut [bool], is_free: impl Fn(usize) -> bool, least: usize) {
         end
     };
     let before = unseen(&mut (0..first).rev());
-    let behind = unseen(&mut (last + 1..served.len()));
-    served[first - before..first].fill(true);
-    served[last + 1..last + 1 + behind].fill(true);
-}
-
-/// Lines with places, and the empty places between and beside them.
-pub(super) fn closed(frame: &RegionFrame, mut served: Vec<bool>, reach: &Range<usize>) -> Vec<bool> {
-    if served.contains(&true) {
-        close_gaps(&mut served[reach.clone()], frame.cells_of(OPEN_STRETCH_M));
-        close_gaps(&mut served, frame.cells_of(OPEN_END_M));
-    }
-    served
-}
-
-/// Closes the stretches without places that are shorter than `least`.
-fn close_gaps(served: &mut [bool], least: usize) {
-    let mut start = 0;
-    let mut gaps: Vec<Range<usize>> = Vec::new();
-    for run in served.chunk_by(PartialEq::eq) {
-        if !run[0] && run.len() < least {
-            gaps.push(start..start + run.len());
-        }
-        start += run.len();
-    }
-    for gap in gaps {
-        served[gap].fill(true);
-    }
+    let behind = unseen(&mut (last + 1..has_place.len()));
+    has_place[first - before..first].fill(true);
+    has_place[last + 1..last + 1 + behind].fill(true);
 }
 
 #[cfg(test)]
@@ -161,12 +141,11 @@ mod tests {
 
     use super::*;
     use crate::decomposition::ground::drivable;
-    use crate::watch::Watch;
 
     /// Cells of 0.05 m along the side of a character: half a metre.
     const CHARACTER: usize = 10;
 
-    /// Ends the bands of a picture: `p` are places of two by two characters, lines without any are bands. Aisles are
+    /// Trims the bands of a picture: `p` are places of two by two characters, lines without any are bands. Aisles are
     /// drawn as `a`, open floor as `-`.
     fn check(picture: &str, expected: &Expect) {
         let lines: Vec<&str> = picture.split_whitespace().collect();
@@ -203,7 +182,8 @@ mod tests {
             }
         }
         let mut drawn: Vec<Vec<char>> = lines.iter().map(|line| line.chars().collect()).collect();
-        for band in end(&frame, parcels).iter().filter(|one| one.kind != PlotKind::Place) {
+        let trimmed = trimmed(&frame, parcels, &Watch::unwatched()).expect("nobody stops it");
+        for band in trimmed.iter().filter(|one| one.kind != PlotKind::Place) {
             let symbol = if band.kind == PlotKind::Aisle { 'a' } else { '-' };
             let rows = (whole.v.end - band.rect.v.end) / CHARACTER..(whole.v.end - band.rect.v.start) / CHARACTER;
             let columns =

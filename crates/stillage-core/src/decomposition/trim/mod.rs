@@ -1,22 +1,34 @@
-//! Where rows end, and where aisles end with them.
+//! Rows, passages and aisles end where their evidence ends.
 //!
-//! The comb fills a row from side to side, whatever is there. Here goes what is no row of goods ([`row_ends`]): pieces
-//! outside the site, passages that several rows share ([`passages`]), and the bare pieces beyond the last sign of
-//! goods. Then bands are cut where no place lies along them any more ([`aisle_bands`]), and across where there is room for more
-//! than the aisles of their rows ([`aisle_width`]), and open floor where nobody saw it ([`open_floor`]). What becomes free that way
-//! is open floor, a lane whatever it was found in, or a gap where it passes through a row.
+//! The comb divides a row from end to end, whatever stands there. The steps that correct this:
+//!
+//! | step | module |
+//! | --- | --- |
+//! | pieces outside the site, and bare pieces beyond the last goods, are no places | [`row_ends`] |
+//! | a way that leads through several rows is a passage | [`passages`] |
+//! | an aisle ends with the places along it | [`aisle_bands`] |
+//! | an aisle is as wide as others, the rest of its band is open floor | [`aisle_width`], [`aisle_need`] |
+//! | open floor ends where the robot saw none | [`open_floor`] |
+//!
+//! Cost: O(cells), and near O(p log p) for p parcels; [`passages`] has its own worst case.
 
 mod aisle_bands;
+mod aisle_need;
 mod aisle_width;
+mod band_section;
 mod open_floor;
 mod passages;
+mod piece_row;
+mod place_index;
 mod row_ends;
 
 use crate::decomposition::ground::RegionFrame;
 use crate::decomposition::plot::Parcel;
+use crate::watch::{Stopped, Watch};
 
-/// Ends rows and bands where their signs end. Layers that are reached from one side end together.
-pub(crate) fn end(frame: &RegionFrame, parcels: Vec<Parcel>) -> Vec<Parcel> {
-    let parcels = row_ends::end(frame, parcels).into_iter().flat_map(Parcel::into_layers).collect();
-    open_floor::cut(frame, aisle_bands::end(frame, parcels))
+/// The parcels of a region, trimmed. Layers that are reached from one side end together.
+pub(crate) fn trimmed(frame: &RegionFrame, parcels: Vec<Parcel>, watch: &Watch<'_>) -> Result<Vec<Parcel>, Stopped> {
+    let parcels = row_ends::trimmed(frame, parcels, watch)?;
+    let parcels = parcels.into_iter().flat_map(Parcel::into_layers).collect();
+    open_floor::trimmed(frame, aisle_bands::trimmed(frame, parcels, watch)?, watch)
 }

@@ -1,95 +1,72 @@
 //! Which pieces of the rows are no places.
 //!
-//! - Ground outside the site holds no goods: the comb runs on behind walls, where a robot looked out of a door.
-//! - Passages that several rows share are no places ([`super::passages`]). A gap that no other row shares leads nowhere:
-//!   a few empty places. So is a bare piece between places that is as wide as they are.
-//! - A row of goods ends where its last sign does, and no row goes through a wall: bare pieces beyond are open floor.
+//! - Pieces outside the site hold no goods. The comb divides ground behind walls as well, where a robot looked out of a door.
+//! - A passage that several rows share is none ([`super::passages`]). A passage that no other row shares leads nowhere: it
+//!   is a few empty places. So is a bare piece between places that is as wide as they are.
+//! - A row ends with its last goods, and no row goes through a wall: bare pieces beyond are open floor.
 //!
-//! Cost: O(cells of the rows). Limits: an empty place at the end of a row without a post is given up, since nothing
-//! tells it from floor.
+//! Cost: O(cells of the rows). Limits: an empty place at the end of a row without a post is given up, since nothing tells
+//! it from floor.
 
-use std::collections::BTreeMap;
-use std::ops::Range;
-
-use super::passages;
+use super::passages::Passages;
+use super::piece_row::PieceRow;
 use crate::decomposition::ground::{Axis, Cell, RegionFrame};
 use crate::decomposition::plot::{Parcel, PlotKind};
+use crate::watch::{Stopped, Watch};
 
-/// Share of a piece that must lie in the site: goods hide as much of their place where they are seen from one side
+/// Share of a piece that must lie in the site: the rest may be hidden by its own goods, where these are seen from one side
 /// only.
 const SITE_SHARE: f64 = 0.3;
-/// The same where most of the row lies in the site, and only its end is seen badly.
+/// The same where the pieces of the row lie in the site by more than [`MAJORITY`] on average, and only its end is seen
+/// badly.
 const SITE_SHARE_OF_END: f64 = 0.1;
 const MAJORITY: f64 = 0.5;
-/// What reaches this far into a piece from its inner neighbour is the neighbour's: overhang and drift, metres.
+/// What reaches this far into a piece from its inner neighbour belongs to the neighbour, metres: overhang and drift.
 const OVERHANG_M: f64 = 0.25;
-/// A post at the outer border of a piece may stand so far beyond it, metres.
+/// A post at the outer border of a piece may stand this far beyond it, metres.
 const POST_REACH_M: f64 = 0.1;
-/// Less than this is no post, square metres: two cells of 5 cm.
+/// A smaller occupied area is no post, square metres: two cells of 5 cm.
 const LEAST_POST_M2: f64 = 0.005;
-/// A piece with more of it unknown than this may hold anything.
+/// A piece with a greater unknown share than this is not taken for empty.
 const UNSEEN_SHARE: f64 = 0.2;
-/// A piece is a place when its width differs by less than this share from that of the places beside it.
+/// A piece is as wide as a place if its width differs by less than this share from the median of the places of its row.
 const LIKE_PLACE: f64 = 0.3;
-/// More places than this are not empty side by side, or behind one another: three of ten are on a site with room.
+/// Most places that are taken for empty side by side, or behind one another: on a site with room, three of ten places
+/// are empty.
 const MOST_EMPTY: usize = 3;
-/// A wall runs on before the row, metres, and is seen along this share of its length.
+/// A wall runs on before the row for this distance, metres, and is seen along this share of its length.
 const BEFORE_ROW_M: f64 = 1.4;
 const WALL_SHARE: f64 = 0.75;
-/// What a wall may be off the line across a row, metres.
+/// Offset of a wall from a line across the row, metres, at most.
 const WALL_WIDTH_M: f64 = 0.1;
 
-/// Ends the rows; other parcels stay as they are.
-pub(super) fn end(frame: &RegionFrame, parcels: Vec<Parcel>) -> Vec<Parcel> {
+/// Trims the rows; other parcels stay as they are and come first.
+pub(super) fn trimmed(frame: &RegionFrame, parcels: Vec<Parcel>, watch: &Watch<'_>) -> Result<Vec<Parcel>, Stopped> {
     let is_of_row = |one: &Parcel| one.axis.is_some() && !matches!(one.kind, PlotKind::Aisle | PlotKind::OpenFloor);
-    let (pieces, mut ended): (Vec<Parcel>, Vec<Parcel>) = parcels.into_iter().partition(is_of_row);
+    let (pieces, mut trimmed): (Vec<Parcel>, Vec<Parcel>) = parcels.into_iter().partition(is_of_row);
     for axis in Axis::BOTH {
         let mut rows = PieceRow::all(pieces.iter().filter(|piece| piece.axis == Some(axis)), axis);
         for row in &mut rows {
-            row.leave_out(frame);
+            watch.check()?;
+            row.leave_out_what_is_outside(frame);
         }
-        let passages = passages::find(frame, &rows);
+        let passages = Passages::find(frame, &rows, watch)?;
         for row in &mut rows {
-            row.fill(frame);
+            watch.check()?;
+            row.fill_empty_places(frame);
         }
-        passages::open(frame, &mut rows, passages);
+        passages.open(frame, &mut rows, watch)?;
         for row in rows {
-            row.end(frame, &mut ended);
+            watch.check()?;
+            row.trim(frame, &mut trimmed);
         }
     }
-    ended
-}
-
-/// Pieces that follow one another.
-pub(super) struct PieceRow {
-    pub axis: Axis,
-    pub across: Range<usize>,
-    pub pieces: Vec<Parcel>,
+    Ok(trimmed)
 }
 
 impl PieceRow {
-    fn all<'a>(pieces: impl Iterator<Item = &'a Parcel>, axis: Axis) -> Vec<Self> {
-        let mut bands: BTreeMap<(usize, usize), Vec<Parcel>> = BTreeMap::new();
-        for piece in pieces {
-            let across = piece.rect.range(axis.other());
-            bands.entry((across.start, across.end)).or_default().push(piece.clone());
-        }
-        let mut rows = Vec::new();
-        for ((start, end), mut pieces) in bands {
-            pieces.sort_by_key(|piece| piece.rect.range(axis).start);
-            for row in pieces.chunk_by(|one, next| one.rect.range(axis).end == next.rect.range(axis).start) {
-                rows.push(Self { axis, across: start..end, pieces: row.to_vec() });
-            }
-        }
-        rows
-    }
-
-    pub(super) fn along(&self, piece: &Parcel) -> Range<usize> {
-        piece.rect.range(self.axis).clone()
-    }
-
-    /// Takes the pieces outside the site for what they are.
-    fn leave_out(&mut self, frame: &RegionFrame) {
+    /// Pieces outside the site are no places.
+    fn leave_out_what_is_outside(&mut self, frame: &RegionFrame) {
         let mut places: Vec<&mut Parcel> = self.pieces.iter_mut().filter(|one| one.kind == PlotKind::Place).collect();
         let shares: Vec<f64> = places.iter().map(|place| frame.share(&place.rect, Cell::is_inside)).collect();
         let is_end = shares.iter().sum::<f64>() > MAJORITY * shares.len() as f64;
@@ -101,8 +78,8 @@ impl PieceRow {
         }
     }
 
-    /// Makes empty places of the gaps between places, and of bare pieces that are as wide as places.
-    fn fill(&mut self, frame: &RegionFrame) {
+    /// Makes empty places of the passages between places, and of bare pieces that are as wide as places.
+    fn fill_empty_places(&mut self, frame: &RegionFrame) {
         let mut widths: Vec<usize> =
             self.pieces.iter().filter(|one| one.kind == PlotKind::Place).map(|one| self.along(one).len()).collect();
         widths.sort_unstable();
@@ -136,9 +113,9 @@ impl PieceRow {
     }
 
     /// Makes open floor of the bare pieces at both ends, and before and behind every wall.
-    fn end(self, frame: &RegionFrame, ended: &mut Vec<Parcel>) {
-        if self.pieces.iter().all(|piece| piece.kind != PlotKind::Place) {
-            ended.extend(self.pieces);
+    fn trim(self, frame: &RegionFrame, trimmed: &mut Vec<Parcel>) {
+        if !self.holds_places() {
+            trimmed.extend(self.pieces);
             return;
         }
         let start = self.along(&self.pieces[0]).start;
@@ -154,11 +131,11 @@ impl PieceRow {
             let high = part[low..].iter().rev().take_while(|piece| is_bare(piece, false)).count();
             let (before, rest) = part.split_at(low);
             let (within, after) = rest.split_at(rest.len() - high);
-            ended.extend(within.iter().cloned());
+            trimmed.extend(within.iter().cloned());
             for floor in [before, after] {
                 if let [first, .., last] | [first @ last] = floor {
                     let along = self.along(first).start..self.along(last).end;
-                    ended.push(Parcel::new(
+                    trimmed.push(Parcel::new(
                         first.rect.with(self.axis, along),
                         PlotKind::OpenFloor,
                         Some(self.axis.other()),
@@ -168,12 +145,12 @@ impl PieceRow {
         }
     }
 
-    /// Whether nothing shows a piece that the row ends with, on its low or high side.
+    /// Whether a piece at the low or the high end of the row holds nothing, and is seen well enough to say so.
     fn is_bare(&self, frame: &RegionFrame, piece: &Parcel, is_low: bool, is_wall: &[bool]) -> bool {
         let along = self.along(piece);
         let (reach, overhang) = (frame.cells_of(POST_REACH_M), frame.cells_of(OVERHANG_M).min(along.len() / 2));
         let most = frame.whole().range(self.axis).end;
-        // What lies behind a wall is none of its business.
+        // What lies behind a wall does not belong to the piece.
         let seen = if is_low {
             let wall = is_wall.iter().rposition(|&is_wall| is_wall);
             wall.map_or(along.start.saturating_sub(reach), |wall| along.start + wall + 1)..along.end - overhang
@@ -186,7 +163,7 @@ impl PieceRow {
         occupied < LEAST_POST_M2 && frame.share(&seen, Cell::is_unknown) <= UNSEEN_SHARE
     }
 
-    /// For every line across the row whether it is a wall, which is seen before the row as well.
+    /// For every line across the row, whether it is a wall; that is seen before the row as well.
     fn walls(&self, frame: &RegionFrame) -> Vec<bool> {
         let along = self.along(&self.pieces[0]).start..self.along(&self.pieces[self.pieces.len() - 1]).end;
         let before = frame.cells_of(BEFORE_ROW_M);
