@@ -1,19 +1,21 @@
-//! Openings: what squares that fit into some cells can cover (G. Matheron 1975), in running lengths.
+//! Opening of cells by a square: the cells that squares which fit can cover (G. Matheron, *Random sets and integral
+//! geometry*, 1975).
 //!
-//! The squares lie along the grid, so both halves take one pass over the cells. Cost: O(cells), whatever the side.
+//! An opening is [`fitting_squares`], then [`mark_covered`]. Squares lie along the grid, so each half is one pass over the
+//! cells with running lengths. Cost: O(cells), whatever the side.
 
 use crate::watch::{Stopped, Watch};
 
-/// Whether a square of `side` cells that ends at a cell, its upper right one, fits into those for which `is_open` holds;
-/// row-major.
-pub(crate) fn squares(
+/// For each cell, row-major: whether a square of `side` cells with its upper right corner there fits into the cells for
+/// which `is_open` holds.
+pub(crate) fn fitting_squares(
     [columns, rows]: [usize; 2],
     side: usize,
     is_open: impl Fn(usize) -> bool,
     watch: &Watch<'_>,
 ) -> Result<Vec<bool>, Stopped> {
     let side = side.max(1);
-    // First along the rows: cells that end an open run of the side. Then along the columns: squares that fit.
+    // Along a row: cells at the end of `side` open ones. Up the columns: squares that fit.
     let mut depth = vec![0_u32; columns];
     let mut fits = vec![false; columns * rows];
     for row in 0..rows {
@@ -29,8 +31,8 @@ pub(crate) fn squares(
     Ok(fits)
 }
 
-/// Marks the cells that squares cover, which end at their upper right cell.
-pub(crate) fn cover(
+/// Marks the cells that squares of `side` cells cover; `squares` tells where their upper right corners are.
+pub(crate) fn mark_covered(
     squares: &[bool],
     columns: usize,
     side: usize,

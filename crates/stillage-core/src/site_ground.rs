@@ -1,8 +1,9 @@
-//! What belongs to the site: everything but the unexplored ground that reaches the border of the map.
+//! The ground of the site: all of the map but the unexplored ground that reaches its border.
 //!
-//! Unknown cells behind goods and between racks lie in the site, those around the building do not. The ground outside is
-//! filled in blocks of a quarter of a metre that hold no known cell, by a square wider than a place: so it does not leak
-//! in through gaps between goods, nor into goods before a wall that shows only between them. Cost: O(cells).
+//! Unknown cells behind goods and between racks belong to the site, those around the building do not. The ground outside
+//! is found on a coarse grid, whose cells are known where the robot saw any part of them: a square wider than a place
+//! moves in from beyond the border over unknown coarse cells only. So the outside does not leak in through gaps between
+//! goods, nor into goods before a wall that shows only between them. Cost: O(cells).
 
 use crate::components::{Components, Neighbours};
 use crate::grid::{Occupancy, OccupancyGrid};
@@ -10,9 +11,9 @@ use crate::morphology;
 use crate::segmentation::RegionMap;
 use crate::watch::{Stopped, Watch};
 
-/// Side of a block, metres: wider than the gaps between goods.
-const BLOCK_M: f64 = 0.25;
-/// Side of the square that fills the ground outside, blocks: wider than a place.
+/// Side of a coarse cell, metres: wider than the gaps between goods.
+const COARSE_M: f64 = 0.25;
+/// Side of the square that fills the ground outside, coarse cells: wider than a place.
 const SQUARE: usize = 5;
 
 /// The ground of a grid that lies in its site, by region.
@@ -23,21 +24,21 @@ pub(crate) struct SiteGround {
     regions: Vec<u8>,
 }
 
-/// A grid in square blocks, and which of them lie outside the site.
+/// A grid in coarse cells, and which of these lie outside the site.
 pub(crate) struct CoarseGrid {
-    /// Cells along the side of a block.
+    /// Cells along the side of a coarse cell.
     pub side: usize,
-    /// CoarseGrid of a row.
+    /// Coarse cells in a row.
     pub columns: usize,
-    /// Row-major.
+    /// By coarse cell, row-major.
     pub is_outside: Vec<bool>,
 }
 
 impl CoarseGrid {
     pub(crate) fn of(grid: &OccupancyGrid, watch: &Watch<'_>) -> Result<Self, Stopped> {
-        let side = ((BLOCK_M / grid.resolution()).round() as usize).max(1);
+        let side = ((COARSE_M / grid.resolution()).round() as usize).max(1);
         let columns = grid.width().div_ceil(side);
-        let is_outside = outside(&known_blocks(grid, side, watch)?, columns, watch)?;
+        let is_outside = outside(&known_coarse_cells(grid, side, watch)?, columns, watch)?;
         Ok(Self { side, columns, is_outside })
     }
 }
@@ -49,9 +50,9 @@ impl SiteGround {
             Self { width: grid.width(), height: grid.height(), regions: vec![RegionMap::NONE; grid.cells().len()] };
         for (row, line) in site.regions.chunks_exact_mut(site.width.max(1)).enumerate() {
             watch.check()?;
-            let blocks = &is_outside[row / side * columns..][..columns];
-            for (block, cells) in line.chunks_mut(side).enumerate().filter(|&(block, _)| !blocks[block]) {
-                for (column, cell) in (block * side..).zip(cells) {
+            let outside = &is_outside[row / side * columns..][..columns];
+            for (coarse, cells) in line.chunks_mut(side).enumerate().filter(|&(coarse, _)| !outside[coarse]) {
+                for (column, cell) in (coarse * side..).zip(cells) {
                     *cell = regions.region_of_cell(column, row).unwrap_or(RegionMap::NONE);
                 }
             }
@@ -67,31 +68,31 @@ impl SiteGround {
     }
 }
 
-/// Whether somebody saw a cell of each block, row-major.
-fn known_blocks(grid: &OccupancyGrid, side: usize, watch: &Watch<'_>) -> Result<Vec<bool>, Stopped> {
+/// Whether any cell of each coarse cell is known, row-major.
+fn known_coarse_cells(grid: &OccupancyGrid, side: usize, watch: &Watch<'_>) -> Result<Vec<bool>, Stopped> {
     let (columns, rows) = (grid.width().div_ceil(side), grid.height().div_ceil(side));
     let mut is_known = vec![false; columns * rows];
     for row in 0..grid.height() {
         watch.check()?;
-        let blocks = &mut is_known[row / side * columns..][..columns];
-        for (cells, is_known) in grid.row(row).chunks(side).zip(blocks) {
+        let known = &mut is_known[row / side * columns..][..columns];
+        for (cells, is_known) in grid.row(row).chunks(side).zip(known) {
             *is_known |= cells.iter().any(|&cell| cell != Occupancy::Unknown);
         }
     }
     Ok(is_known)
 }
 
-/// The blocks that nobody saw and that the square covers on its way in from beyond the border.
+/// The unknown coarse cells that the square covers on its way in from beyond the border.
 fn outside(is_known: &[bool], columns: usize, watch: &Watch<'_>) -> Result<Vec<bool>, Stopped> {
     let rows = is_known.len().checked_div(columns).unwrap_or(0);
-    // Nobody saw what is beyond the border.
+    // Beyond the border all is unknown.
     let [across, down] = [columns, rows].map(|side| side + 2 * SQUARE);
-    let block = |padded: usize| {
+    let coarse_cell = |padded: usize| {
         let (column, row) = ((padded % across).wrapping_sub(SQUARE), (padded / across).wrapping_sub(SQUARE));
         (column < columns && row < rows).then(|| row * columns + column)
     };
-    let is_unseen = |padded: usize| block(padded).is_none_or(|block| !is_known[block]);
-    let fits = morphology::squares([across, down], SQUARE, is_unseen, watch)?;
+    let is_unknown = |padded: usize| coarse_cell(padded).is_none_or(|cell| !is_known[cell]);
+    let fits = morphology::fitting_squares([across, down], SQUARE, is_unknown, watch)?;
     let first = (SQUARE - 1) * (across + 1);
     let mut is_reached = vec![false; fits.len()];
     let connected = Components::of([across, fits.len()], Neighbours::Four, |square| fits[square], watch)?;
@@ -100,10 +101,10 @@ fn outside(is_known: &[bool], columns: usize, watch: &Watch<'_>) -> Result<Vec<b
     }
     let mut is_outside = vec![false; is_known.len()];
     let mark = |padded: usize| {
-        if let Some(block) = block(padded) {
-            is_outside[block] = true;
+        if let Some(cell) = coarse_cell(padded) {
+            is_outside[cell] = true;
         }
     };
-    morphology::cover(&is_reached, across, SQUARE, mark, watch)?;
+    morphology::mark_covered(&is_reached, across, SQUARE, mark, watch)?;
     Ok(is_outside)
 }

@@ -7,6 +7,6 @@ use crate::watch::{Stopped, Watch};
 /// Marks the drivable cells of a frame for a vehicle of `width` cells.
 pub(crate) fn mark(frame: &mut RegionFrame, width: usize, watch: &Watch<'_>) -> Result<(), Stopped> {
     let size = [frame.columns, frame.rows];
-    let squares = morphology::squares(size, width, |cell| frame.cells[cell].is_free(), watch)?;
-    morphology::cover(&squares, frame.columns, width, |cell| frame.cells[cell].mark_drivable(), watch)
+    let squares = morphology::fitting_squares(size, width, |cell| frame.cells[cell].is_free(), watch)?;
+    morphology::mark_covered(&squares, frame.columns, width, |cell| frame.cells[cell].mark_drivable(), watch)
 }

@@ -1,40 +1,43 @@
-//! What the cells of a row say about the borders between its places.
+//! Evidence for the borders between the places of a row, along the row.
 //!
-//! Peaks of a projection sit on goods, not between them: the nine blocks of a pallet are three peaks. The border between
+//! Peaks of a projection lie on goods, not between them: the nine blocks of a pallet are three peaks. The border between
 //! two places is a *gap* in the middle of the depth, often with a *post* at the front and at the back. Both are measured
-//! against their own surroundings, so that a full row and a nearly empty one speak the same language.
+//! against their surroundings, so that the evidence of a full row and that of a nearly empty one are on one scale.
 //!
-//! Source: the accuracy study behind this project (its largest single gain). Cost: O(cells of the row).
+//! Source: the accuracy study behind this project, whose largest single gain this was. Cost: O(cells of the row x widths).
+
+use std::ops::Range;
 
 use crate::decomposition::ground::{self, Cell, Patch, UNKNOWN_CONTENT};
 
-/// How deep the front and the back of a row reach, metres: posts are 0.09 deep, pallets stand 0.05 off.
+/// Depth of the front and of the back of a row, metres: posts are 0.09 deep, pallets stand 0.05 off.
 const FACE_M: f64 = 0.15;
 /// Share of the depth at either side that is not the middle.
 const RIM_SHARE: f64 = 0.25;
-/// Smoothing of content and posts, metres (accuracy study).
+/// Smoothing of content and posts, standard deviation in metres (accuracy study).
 const CONTENT_SIGMA_M: f64 = 0.04;
 const POST_SIGMA_M: f64 = 0.03;
 const MIDDLE_SIGMA_M: f64 = 0.05;
-/// Occupied share of the middle above which something at the front is goods, no post (accuracy study).
+/// Occupied share of the middle above which something at the front is goods, not a post (accuracy study).
 const MIDDLE_CONTENT: f64 = 0.04;
 /// Windows of the local mean and of the local spread, metres: a place, and two of them (accuracy study).
 const MEAN_WINDOW_M: f64 = 1.2;
 const SPREAD_WINDOW_M: f64 = 2.5;
-/// Spread below which a row is even.
+/// Added to the spread of content, a share, so that an even row has no gaps.
 const LEAST_SPREAD: f64 = 0.03;
-/// A gap says at most so much, content at most so much against it, deviations.
+/// Least and greatest number of deviations that count for a gap: content counts against it, missing content for it.
 const GAP_LIMITS: [f64; 2] = [-2.5, 1.5];
-/// Weight of gaps (accuracy study).
+/// Weight of gaps, per deviation (accuracy study).
 const GAP_WEIGHT: f64 = 0.5;
-/// Weight of posts where one sees through the goods, and where goods hide what is behind them: gaps between boxes are
-/// seen well and boxes have corners like posts, gaps between the blocks of pallets are everywhere.
+/// Weight of posts where one sees through the goods, and where goods hide what is behind them: gaps between the blocks of
+/// pallets are everywhere, while gaps between boxes are seen well and boxes have corners like posts.
 const POST_WEIGHTS: [f64; 2] = [2.5, 1.5];
 /// Unknown share of the middle from which on goods hide what is behind them.
 const HIDDEN_SHARE: f64 = 0.2;
-/// Smoothing of content before its two halves are compared, metres: goods stand askew by that much.
+/// Smoothing of content before its two halves are compared, standard deviation in metres: goods stand askew by as much.
 const MIRROR_SIGMA_M: f64 = 0.06;
-/// Window in which content is levelled, metres: two places. What is less than the floor is nothing: a cell of a row.
+/// Window in which content is levelled, metres: two places; added to the level, so that a single cell of a row counts as
+/// nothing.
 const LEVEL_WINDOW_M: f64 = 2.0;
 const LEVEL_FLOOR: f64 = 0.05;
 /// Width of a place in which the usual content is counted, metres.
@@ -44,6 +47,7 @@ const LEAST_CONTENT: f64 = 0.5;
 /// Free share of a column of cells that is clear.
 const CLEAR_SHARE: f64 = 0.9;
 
+/// Evidence along a row, one number per cell.
 /// RowEvidence along a row, one number per cell.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(crate) struct RowEvidence {
@@ -63,70 +67,31 @@ pub(crate) struct RowEvidence {
 }
 
 impl RowEvidence {
-    /// Reads a row; `cell` is the side of its cells and `widths` the range of places that will be asked about, metres.
+    /// Measures a row; `cell` is the side of its cells and `widths` the range of widths of places that are compared with
+    /// their mirror image, metres.
     pub(crate) fn of(row: &Patch, cell: f64, widths: [f64; 2]) -> Self {
-        let height = row.height;
-        let face = ((FACE_M / cell).round() as usize).max(1);
-        let rim = ((height as f64 * RIM_SHARE).round() as usize).max(face + 1);
-        let middle = if height >= 2 * rim + 3 { rim..height - rim } else { 0..height };
-        let front = 0..(face + 1).min(height);
-        let back = height.saturating_sub(face + 1)..height;
-        let share = |rows: std::ops::Range<usize>, is: fn(Cell) -> bool| -> Vec<f64> {
-            let mut counts = vec![0_u32; row.width];
-            for y in rows.clone() {
-                for (count, &cell) in counts.iter_mut().zip(row.row(y)) {
-                    *count += u32::from(is(cell));
-                }
-            }
-            counts.iter().map(|&count| f64::from(count) / rows.len().max(1) as f64).collect()
-        };
-        let occupied = share(middle.clone(), Cell::is_occupied);
-        let unknown = share(middle, Cell::is_unknown);
+        let Depth { front, middle, back } = Depth::of(row.height, cell);
+        let occupied = column_shares(row, &middle, Cell::is_occupied);
+        let unknown = column_shares(row, &middle, Cell::is_unknown);
         let content: Vec<f64> =
             occupied.iter().zip(&unknown).map(|(occupied, unknown)| occupied + UNKNOWN_CONTENT * unknown).collect();
         let content = gaussian(&content, CONTENT_SIGMA_M / cell);
-        let any = |share: &f64| f64::from(u8::from(*share > 0.0));
-        let faces: Vec<f64> = share(front, Cell::is_occupied)
-            .iter()
-            .zip(&share(back, Cell::is_occupied))
-            .map(|(front, back)| f64::midpoint(any(front), any(back)))
-            .collect();
-        let soft_middle = gaussian(&occupied, MIDDLE_SIGMA_M / cell);
-        let posts: Vec<f64> = gaussian(&faces, POST_SIGMA_M / cell)
-            .iter()
-            .zip(&soft_middle)
-            .map(|(post, middle)| if *middle < MIDDLE_CONTENT { *post } else { 0.0 })
-            .collect();
-        let mean = mean_filter(&content, MEAN_WINDOW_M / cell);
-        let above: Vec<f64> = content.iter().zip(&mean).map(|(content, mean)| content - mean).collect();
-        let squares: Vec<f64> = above.iter().map(|above| above * above).collect();
-        let spread = mean_filter(&squares, SPREAD_WINDOW_M / cell);
-        let mean_posts = mean_filter(&posts, MEAN_WINDOW_M / cell);
-        let gap = |x: usize| {
-            let deviations = -above[x] / (spread[x].max(0.0).sqrt() + LEAST_SPREAD);
-            GAP_WEIGHT * deviations.clamp(GAP_LIMITS[0], GAP_LIMITS[1])
-        };
+        let posts = posts([front, back].map(|face| column_shares(row, &face, Cell::is_occupied)), &occupied, cell);
         let hidden = unknown.iter().sum::<f64>() / row.width.max(1) as f64;
-        let [bare, covered] = POST_WEIGHTS;
-        let post_weight = bare + (covered - bare) * (hidden / HIDDEN_SHARE).min(1.0);
-        let border = (0..row.width).map(|x| gap(x) + post_weight * (posts[x] - mean_posts[x])).collect();
-        let free = share(0..height, Cell::is_free);
-        let all_occupied = share(0..height, Cell::is_occupied);
-        let whole: Vec<f64> = free
-            .iter()
-            .zip(&all_occupied)
-            .map(|(free, occupied)| ground::content(*occupied, 1.0 - (free + occupied), free + occupied))
+        let free = column_shares(row, &(0..row.height), Cell::is_free);
+        let occupied = column_shares(row, &(0..row.height), Cell::is_occupied);
+        let shares = || free.iter().zip(&occupied).map(|(&free, &occupied)| (free, occupied));
+        let is_clear = shares().map(|(free, occupied)| occupied == 0.0 && free >= CLEAR_SHARE).collect();
+        let whole: Vec<f64> = shares()
+            .map(|(free, occupied)| ground::content(occupied, 1.0 - (free + occupied), free + occupied))
             .collect();
-        let is_clear =
-            free.iter().zip(&all_occupied).map(|(free, occupied)| *occupied == 0.0 && *free >= CLEAR_SHARE).collect();
         let least_width = (widths[0] / cell).floor().max(1.0) as usize;
         let widths = ((widths[1] / cell).ceil() as usize).saturating_sub(least_width) + 1;
-        let mirror = mirror_differences(&content, least_width, widths, cell);
         Self {
-            border,
+            border: border(&content, &posts, hidden, cell),
             is_clear,
             content: levelled(&gaussian(&whole, CONTENT_SIGMA_M / cell), cell),
-            mirror,
+            mirror: mirror_differences(&content, least_width, widths, cell),
             least_width,
             widths,
             cell,
@@ -175,6 +140,61 @@ impl RowEvidence {
         let at = width.saturating_sub(self.least_width).min(self.widths.saturating_sub(1));
         self.mirror.get(start * self.widths + at).copied().map_or(0.0, f64::from)
     }
+}
+
+/// Ranges across a row, rows of cells.
+struct Depth {
+    front: Range<usize>,
+    middle: Range<usize>,
+    back: Range<usize>,
+}
+
+impl Depth {
+    fn of(height: usize, cell: f64) -> Self {
+        let face = ((FACE_M / cell).round() as usize).max(1);
+        let rim = ((height as f64 * RIM_SHARE).round() as usize).max(face + 1);
+        Self {
+            front: 0..(face + 1).min(height),
+            middle: if height >= 2 * rim + 3 { rim..height - rim } else { 0..height },
+            back: height.saturating_sub(face + 1)..height,
+        }
+    }
+}
+
+/// Share of the cells of each column, within some rows of cells, for which `is` holds.
+fn column_shares(row: &Patch, lines: &Range<usize>, is: fn(Cell) -> bool) -> Vec<f64> {
+    let mut counts = vec![0_u32; row.width];
+    for line in lines.clone() {
+        for (count, &cell) in counts.iter_mut().zip(row.row(line)) {
+            *count += u32::from(is(cell));
+        }
+    }
+    counts.iter().map(|&count| f64::from(count) / lines.len().max(1) as f64).collect()
+}
+
+/// How much of a post stands at each column, 0 to 1, by the occupied shares of the front, the back and the middle.
+fn posts([front, back]: [Vec<f64>; 2], middle: &[f64], cell: f64) -> Vec<f64> {
+    let any = |share: &f64| f64::from(u8::from(*share > 0.0));
+    let faces: Vec<f64> = front.iter().zip(&back).map(|(front, back)| f64::midpoint(any(front), any(back))).collect();
+    let middle = gaussian(middle, MIDDLE_SIGMA_M / cell);
+    let posts = gaussian(&faces, POST_SIGMA_M / cell);
+    posts.iter().zip(&middle).map(|(post, middle)| if *middle < MIDDLE_CONTENT { *post } else { 0.0 }).collect()
+}
+
+/// Evidence for a border at each column; `hidden` is the unknown share of the middle of the row.
+fn border(content: &[f64], posts: &[f64], hidden: f64, cell: f64) -> Vec<f64> {
+    let mean = mean_filter(content, MEAN_WINDOW_M / cell);
+    let above: Vec<f64> = content.iter().zip(&mean).map(|(content, mean)| content - mean).collect();
+    let squares: Vec<f64> = above.iter().map(|above| above * above).collect();
+    let spread = mean_filter(&squares, SPREAD_WINDOW_M / cell);
+    let mean_posts = mean_filter(posts, MEAN_WINDOW_M / cell);
+    let gap = |x: usize| {
+        let deviations = -above[x] / (spread[x].max(0.0).sqrt() + LEAST_SPREAD);
+        GAP_WEIGHT * deviations.clamp(GAP_LIMITS[0], GAP_LIMITS[1])
+    };
+    let [bare, covered] = POST_WEIGHTS;
+    let post_weight = bare + (covered - bare) * (hidden / HIDDEN_SHARE).min(1.0);
+    (0..content.len()).map(|x| gap(x) + post_weight * (posts[x] - mean_posts[x])).collect()
 }
 
 /// Content as a share of its root mean square around each cell, so that the three legs of a pallet say as much as the
