@@ -21,7 +21,7 @@ use stillage_core::{GridFrame, Occupancy, OccupancyGrid, Point, Stage, StopFlag,
 const CELL_M: f64 = 0.1;
 /// Depth of a row, and of a row with its aisle, cells.
 const ROW: usize = 11;
-const PERIOD: usize = 26;
+const PERIOD: usize = 30;
 /// Width of a place and of the box in it, places before a gap, and width of the gap, cells.
 const PLACE: usize = 12;
 const BOX: usize = 10;
@@ -32,8 +32,8 @@ const DRIFT: usize = 2;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut arguments = std::env::args().skip(1).map(|argument| argument.parse());
-    let side: usize = arguments.next().unwrap_or(Ok(5_000))?;
-    let stops: u32 = arguments.next().unwrap_or(Ok(40))?;
+    let side: usize = arguments.next().unwrap_or(Ok(6_000))?;
+    let stops = arguments.next().unwrap_or(Ok(30))?;
     let grid = site(side);
     let (result, whole) = decomposed(&grid, None);
     let found = result?;
@@ -43,7 +43,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     println!("whole decomposition: {:.2} s on {} threads", whole.as_secs_f64(), rayon::current_num_threads());
     let mut longest = Duration::ZERO;
     for stop in 0..stops {
-        let after = whole.mul_f64((f64::from(stop) + 0.5) / f64::from(stops));
+        let after = whole.mul_f64((stop as f64 + 0.5) / stops as f64);
         let (result, delay) = decomposed(&grid, Some(after));
         if result.is_err() {
             longest = longest.max(delay);

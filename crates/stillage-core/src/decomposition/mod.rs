@@ -95,7 +95,7 @@ fn decompose_region(
     let cut = aisles::cut(&frame, watch)?;
     let parcels = rows::lay_out(&frame, cut, &SizeHints::of(options), watch)?;
     let parcels = trim::trimmed(&frame, parcels, watch)?;
-    let lines = lines::of_parcels(&frame, region, &parcels);
+    let lines = lines::of_parcels(&frame, region, &parcels, watch)?;
     let plots = parcels.iter().map(|parcel| plot::plot(&frame, region, parcel)).collect();
     Ok(Decomposition { lines, plots })
 }

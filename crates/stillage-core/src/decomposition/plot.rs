@@ -15,7 +15,7 @@ pub enum PlotKind {
     Place,
     /// A drivable band with places along it.
     Aisle,
-    /// Open floor: across the ends of rows, beside them, around them.
+    /// Open floor: cross aisles, and floor beside and around rows.
     OpenFloor,
     /// A passage through a row.
     Passage,
@@ -31,7 +31,7 @@ pub(crate) struct Parcel {
     pub rect: Rect,
     pub kind: PlotKind,
     pub axis: Option<Axis>,
-    /// The layers of a piece of several rows one behind the other, as ranges across them; none of any other.
+    /// The layers of a piece that is cut through several of them, as ranges across the rows; empty for any other parcel.
     pub layers: Vec<Range<usize>>,
 }
 
@@ -40,7 +40,7 @@ impl Parcel {
         Self { rect, kind, axis, layers: Vec::new() }
     }
 
-    /// Each layer by itself.
+    /// Each of its layers as a parcel of its own.
     pub(crate) fn into_layers(self) -> Vec<Self> {
         match self.axis {
             Some(axis) if self.layers.len() > 1 => {

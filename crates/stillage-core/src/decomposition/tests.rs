@@ -8,7 +8,7 @@ use crate::geometry::{OrientedBox, Point};
 use crate::grid::{GridFrame, Occupancy};
 use crate::segmentation::Region;
 
-/// Pallets of nine blocks on places of 1.2 x 1.2 m, in double rows along x, aisles of 3 m and lanes of 3 m around them.
+/// Pallets of nine blocks on places of 1.2 x 1.2 m, in double rows along x, with aisles of 3 m, and 3 m of open floor around them.
 struct PalletHall {
     places: usize,
     double_rows: usize,
@@ -16,12 +16,12 @@ struct PalletHall {
 }
 
 const PITCH: f64 = 1.2;
-const LANE: f64 = 3.0;
+const CLEARANCE: f64 = 3.0;
 
 impl PalletHall {
     fn size(&self) -> [f64; 2] {
-        let thickness = 2.0 * PITCH + LANE;
-        [self.places as f64 * PITCH + 2.0 * LANE, self.double_rows as f64 * thickness + LANE]
+        let thickness = 2.0 * PITCH + CLEARANCE;
+        [self.places as f64 * PITCH + 2.0 * CLEARANCE, self.double_rows as f64 * thickness + CLEARANCE]
     }
 
     fn at(&self, x: f64, y: f64) -> Occupancy {
@@ -29,11 +29,11 @@ impl PalletHall {
         if x < 0.1 || y < 0.1 || x > width - 0.1 || y > height - 0.1 {
             return Occupancy::Occupied;
         }
-        let (along, across) = (x - LANE, (y - LANE).rem_euclid(2.0 * PITCH + LANE));
-        if along < 0.0 || along >= self.places as f64 * PITCH || across >= 2.0 * PITCH || y < LANE {
+        let (along, across) = (x - CLEARANCE, (y - CLEARANCE).rem_euclid(2.0 * PITCH + CLEARANCE));
+        if along < 0.0 || along >= self.places as f64 * PITCH || across >= 2.0 * PITCH || y < CLEARANCE {
             return Occupancy::Free;
         }
-        let row = 2 * ((y - LANE) / (2.0 * PITCH + LANE)) as usize + (across / PITCH) as usize;
+        let row = 2 * ((y - CLEARANCE) / (2.0 * PITCH + CLEARANCE)) as usize + (across / PITCH) as usize;
         let place = (along / PITCH) as usize + row * self.places;
         // Blocks of 0.1 m at the sides and in the middle of 1 m.
         let is_block = |offset: f64| [0.1, 0.55, 1.0].iter().any(|&start| (start..start + 0.1).contains(&offset));
@@ -163,7 +163,7 @@ fn a_passage_goes_through_every_row_that_has_room_for_it() {
     let is_empty = |place: usize| (7..10).contains(&(place % 16)) && place / 16 > 0;
     let hall = PalletHall { places: 16, double_rows: 3, is_empty };
     let found = decomposed(&hall.grid());
-    let in_passage = |plot: &&Plot| (plot.bounds.center.x - (LANE + 8.5 * PITCH)).abs() < 1.5 * PITCH;
+    let in_passage = |plot: &&Plot| (plot.bounds.center.x - (CLEARANCE + 8.5 * PITCH)).abs() < 1.5 * PITCH;
     let of = |kind: PlotKind| found.plots.iter().filter(in_passage).filter(|plot| plot.kind == kind).count();
     assert_eq!(of(PlotKind::Place), 3, "those of the first row");
     assert!(of(PlotKind::Passage) >= 5, "one piece of each other row at least");

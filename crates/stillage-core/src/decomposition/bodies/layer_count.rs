@@ -1,13 +1,12 @@
 //! How many layers a deep body has, and where they lie.
 //!
-//! Both sides of a body between aisles are sides of places, and so is the side of a body before a wall that faces the
-//! aisle. So its layers are equally deep from there on, with a flue in the middle where they are reached from two sides,
-//! and all numbers of layers can be tried. A number is judged by how well places that are alike explain the body: the
-//! body is seen strip by strip, for goods end at one layer in one lane and at another in the next; what all places of a
-//! number of layers have in common is their shape, each place of each strip has as much of it as it likes, and what this
-//! leaves unexplained is noise: a likelihood, with a price for each place (minimum description length, J. Rissanen 1978,
-//! doi 10.1016/0005-1098(78)90005-5). Bodies of one direction hold places of one depth, unless another explains one of
-//! them much better.
+//! The side of a body that faces an aisle is a side of places. So its layers are equally deep from there on, with a flue in
+//! the middle where they are reached from two sides, and all numbers of layers can be tried. Each is scored by how well
+//! places of one shape explain the body. The body is divided into strips across its rows, since goods end at one layer in
+//! one storage lane and at another in the next. The shape is what all places of a number of layers have in common, each
+//! place of each strip has its own amplitude of it, and what this leaves is noise: a likelihood, less the description
+//! length of the places ([`crate::decomposition::likelihood`]). Bodies of one direction hold places of one depth, unless
+//! another depth explains one of them much better.
 //!
 //! Cost: O(cells of the bodies x depths x flues). Limits: layers are straight and equally deep in each body.
 
@@ -21,28 +20,28 @@ use crate::decomposition::ground::{self, Cell, Patch, RegionFrame};
 use crate::decomposition::likelihood::{self, LEAST_NOISE, LOAD_COST, PLACE_COST};
 use crate::watch::{Stopped, Watch};
 
-/// Width of a strip, metres: goods show in every one, and few lanes lie in it.
+/// Width of a strip, metres: wide enough to show goods, narrow enough to hold parts of few storage lanes.
 const STRIP_M: f64 = 0.5;
-/// Step of the depths that are tried, metres, and how far depths of one kind are apart.
+/// Step of the depths that are tried, metres, and largest difference between depths that count as equal.
 const DEPTH_STEP_M: f64 = 0.025;
 const ALIKE_M: f64 = 0.04;
-/// Thicker bodies are halls, no storage: lanes are at most twelve places deep from either side.
+/// Most layers: storage lanes are at most twelve places deep from either side, and thicker bodies are halls.
 const MOST_LAYERS: usize = 24;
 /// Widest flue between layers that are reached from two sides, and its step, metres.
 const FLUE_M: f64 = 0.4;
 const FLUE_STEP_M: f64 = 0.05;
 /// Share of the last layer before a wall that may lie in what stands behind it.
 const BEHIND_SHARE: f64 = 0.1;
-/// Share of the energy that goods explain at least: walls that run across a body are explained by less.
+/// Least share of the energy that goods explain; walls across a body are explained by less.
 const LEAST_EXPLAINED: f64 = 0.5;
 
 /// A deep body as strips across its rows.
-pub(crate) struct Strips {
+pub(super) struct Strips {
     /// Content by strip and line, from the low side on.
     content: Vec<Vec<f64>>,
-    /// Line of the frame that the first one is.
+    /// Line of the frame where the strips begin.
     low: usize,
-    /// The lines of the frame that the layers fill: one of these.
+    /// The extents that the layers may fill, lines of the frame.
     extents: Vec<Range<usize>>,
     cell: f64,
     fronts: [bool; 2],
@@ -68,7 +67,7 @@ impl LayerLattice {
         [start, start + self.depth]
     }
 
-    /// Distances from the middle of a place.
+    /// Number of distances from the middle of a place.
     fn bins(&self) -> usize {
         (self.depth.ceil() as usize).max(1)
     }
@@ -78,7 +77,7 @@ impl LayerLattice {
         if self.from_high { self.extent.end - 1 - line } else { self.extent.start + line }
     }
 
-    /// Lines of each layer, each with its distance from the middle of the place: goods are even.
+    /// Lines of each layer, each with its distance from the middle of the place; shapes are even.
     fn lines(&self) -> Vec<Vec<(usize, usize)>> {
         let bins = self.bins();
         let of_layer = |layer: usize| {
@@ -117,7 +116,7 @@ impl LayerLattice {
 
 impl Strips {
     /// Cuts a body into strips across its rows; its layers fill one of some extents, which may reach out of it.
-    pub(crate) fn of(frame: &RegionFrame, body: &Body, extents: &[Range<usize>]) -> Self {
+    pub(super) fn of(frame: &RegionFrame, body: &Body, extents: &[Range<usize>]) -> Self {
         let low = extents.iter().map(|extent| extent.start).min().unwrap_or(0);
         let high = extents.iter().map(|extent| extent.end).max().unwrap_or(low);
         let patch = frame.patch(&body.rect.with(body.axis.other(), low..high), body.axis);
@@ -176,7 +175,7 @@ impl Strips {
         lattices
     }
 
-    /// Energy that alike places on a lattice explain in each layer.
+    /// Energy that places of one shape on a lattice explain in each layer.
     fn explained(&self, lattice: &LayerLattice) -> Vec<f64> {
         let layers = lattice.lines();
         let (mut shape, mut sizes) = (vec![0.0; lattice.bins()], vec![0.0_f64; lattice.bins()]);
@@ -208,16 +207,16 @@ impl Strips {
         let cells = self.content.iter().map(Vec::len).sum::<usize>().max(1) as f64;
         let noise = (energy - most).max(LEAST_NOISE * energy).max(f64::MIN_POSITIVE) / cells;
         let weight = likelihood::weight(noise, self.cell);
-        let price = PLACE_COST * self.content.len() as f64;
+        let cost = PLACE_COST * self.content.len() as f64;
         let score = |(lattice, layers): (LayerLattice, Vec<f64>)| {
-            let score = layers.iter().map(|explained| explained * weight - price).sum();
+            let score = layers.iter().map(|explained| explained * weight - cost).sum();
             (score, lattice)
         };
         lattices.into_iter().zip(explained).map(score).collect()
     }
 }
 
-/// Share of a line of a strip that is occupied or unknown; none where nobody looked.
+/// Content of a line of a strip.
 fn content(patch: &Patch, line: usize, columns: &Range<usize>) -> f64 {
     let cells = &patch.row(line)[columns.clone()];
     let share =
@@ -226,15 +225,19 @@ fn content(patch: &Patch, line: usize, columns: &Range<usize>) -> f64 {
     ground::content(share(Cell::is_occupied), unknown, 1.0 - unknown)
 }
 
-/// The layers of bodies, as ranges of lines of the frame, ascending; depths in metres. None where nothing fits.
-pub(crate) fn layers(bodies: &[Strips], range: [f64; 2], watch: &Watch<'_>) -> Result<Vec<Vec<Range<usize>>>, Stopped> {
+/// The layers of bodies, as ranges of lines of the frame, ascending; depths in metres. Empty where nothing fits.
+pub(super) fn layers(bodies: &[Strips], range: [f64; 2], watch: &Watch<'_>) -> Result<Vec<Vec<Range<usize>>>, Stopped> {
     let score = |body: &Strips| watch.check().map(|()| ScoredLattices { scored: body.scored(range), cell: body.cell });
     let choices: Vec<ScoredLattices> = bodies.par_iter().map(score).collect::<Result<_, _>>()?;
     let steps = ((range[1] - range[0]) / DEPTH_STEP_M).round() as usize;
-    let depths = (0..=steps).map(|step| range[0] + step as f64 * DEPTH_STEP_M);
-    let total = |depth: f64| choices.iter().filter_map(|choice| choice.at(depth)).map(|(score, _)| score).sum::<f64>();
-    let better = |best: (f64, f64), other: (f64, f64)| if other.0 > best.0 { other } else { best };
-    let usual = depths.map(|depth| (total(depth), depth)).reduce(better).map_or(range[0], |(_, depth)| depth);
+    let (mut usual, mut most) = (range[0], f64::NEG_INFINITY);
+    for depth in (0..=steps).map(|step| range[0] + step as f64 * DEPTH_STEP_M) {
+        watch.check()?;
+        let total = choices.iter().filter_map(|choice| choice.at(depth)).map(|(score, _)| score).sum::<f64>();
+        if total > most {
+            (usual, most) = (depth, total);
+        }
+    }
     let ranges = |choice: &ScoredLattices| choice.at(usual).map_or_else(Vec::new, |(_, lattice)| lattice.ranges());
     Ok(choices.iter().map(ranges).collect())
 }
@@ -246,14 +249,15 @@ struct ScoredLattices {
 }
 
 impl ScoredLattices {
-    /// The best lattice where others have places of a depth, metres; none if goods do not pay for their places.
+    /// The best lattice where other bodies have places of a depth, metres; `None` if no lattice explains more than the
+    /// description length of its places.
     fn at(&self, depth: f64) -> Option<(f64, &LayerLattice)> {
-        let price = |lattice: &LayerLattice| {
+        let cost = |lattice: &LayerLattice| {
             let is_alike = (lattice.depth * self.cell - depth).abs() <= ALIKE_M;
             if is_alike { 0.0 } else { LOAD_COST }
         };
-        let priced = self.scored.iter().map(|(score, lattice)| (score - price(lattice), lattice));
-        priced.filter(|(score, _)| *score > 0.0).reduce(|best, other| if other.0 > best.0 { other } else { best })
+        let scored = self.scored.iter().map(|(score, lattice)| (score - cost(lattice), lattice));
+        scored.filter(|(score, _)| *score > 0.0).reduce(|best, other| if other.0 > best.0 { other } else { best })
     }
 }
 

@@ -1,13 +1,13 @@
-//! How the bodies between aisles are cut into rows, one behind the other.
+//! How the bodies between aisles are divided into rows, one behind the other.
 //!
-//! Every place of a rack must be reached, so what is thin enough between two aisles is one row, or two back to back. What
-//! is deeper - double-deep racks, block storage, marked floors - and what stands before a wall may have any number of
-//! layers. How many there are and how deep, [`super::layer_count`] finds; where goods show too little to tell, the thickness of
-//! the body decides. BodyLayers that are reached from one side form a stack: their lanes run through all
-//! of them, so they are cut together, and end together.
+//! Every place of a rack must be reached, so a thin body between two aisles is one row, or two back to back. A deeper one
+//! (double-deep racks, block storage, marked floors) and one before a wall may have any number of layers.
+//! [`super::layer_count`] finds how many there are and how deep; where goods show too little for that, the thickness of the
+//! body decides. Layers that are reached from one side form a group: their storage lanes run through all of them, so they
+//! are cut together and end together.
 //!
-//! Cost: O(cells of the bodies), and that of the layers. Limits: where goods hide what is behind them, the usual depth of
-//! a pallet decides.
+//! Cost: O(cells of the bodies), and that of [`super::layer_count`]. Limits: where goods hide what is behind them, the
+//! usual depth of a pallet decides.
 
 use std::ops::Range;
 
@@ -21,13 +21,13 @@ use crate::watch::{Stopped, Watch};
 /// The layers of a body that are reached from one side, as ranges across its rows.
 pub(crate) type LayerGroup = Vec<Range<usize>>;
 
-/// The rows of a body, and what is left beside them, as ranges across.
+/// The layers of a body, and what is left beside them, as ranges across its rows.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(crate) struct BodyLayers {
     pub groups: Vec<LayerGroup>,
-    /// On the side of an aisle: floor.
+    /// What is left on the side of an aisle: floor.
     pub floors: Vec<Range<usize>>,
-    /// On the other side: anything.
+    /// What is left on the side of a wall.
     pub others: Vec<Range<usize>>,
 }
 
@@ -36,7 +36,7 @@ impl BodyLayers {
         Self { others: vec![body.across()], ..Self::default() }
     }
 
-    /// BodyLayers from the low side on, one at least; those between two aisles are reached from the nearer one.
+    /// From layers in the order of lines, one at least; between two aisles each is reached from the nearer one.
     fn of(body: &Body, mut layers: LayerGroup) -> Self {
         let (across, count) = (body.across(), layers.len());
         let (start, end) = (layers[0].start, layers[count - 1].end);
@@ -53,7 +53,7 @@ impl BodyLayers {
     }
 }
 
-/// Cuts the bodies of one direction into rows of about a depth, metres, within a range.
+/// Divides the bodies of one direction into layers of about a depth, metres, within a range.
 pub(crate) fn cut(
     frame: &RegionFrame,
     bodies: &[&Body],
@@ -61,11 +61,16 @@ pub(crate) fn cut(
     range: [f64; 2],
     watch: &Watch<'_>,
 ) -> Result<Vec<BodyLayers>, Stopped> {
-    let extents: Vec<Vec<Range<usize>>> = bodies.iter().map(|body| extents(frame, body, depth, range)).collect();
-    let strips = bodies.iter().zip(&extents).map(|(body, extents)| Strips::of(frame, body, extents));
-    let found = layer_count::layers(&strips.collect::<Vec<_>>(), range, watch)?;
+    let (mut all_extents, mut strips) = (Vec::with_capacity(bodies.len()), Vec::with_capacity(bodies.len()));
+    for body in bodies {
+        watch.check()?;
+        let extents = extents(frame, body, depth, range);
+        strips.push(Strips::of(frame, body, &extents));
+        all_extents.push(extents);
+    }
+    let found = layer_count::layers(&strips, range, watch)?;
     let mut layers = Vec::with_capacity(bodies.len());
-    for ((body, extents), found) in bodies.iter().zip(extents).zip(found) {
+    for ((body, extents), found) in bodies.iter().zip(all_extents).zip(found) {
         let room = &extents[0];
         layers.push(if !found.is_empty() {
             BodyLayers::of(body, found)

@@ -1,7 +1,8 @@
 //! A region in its own frame: u along its first direction, v to the left of it, in square cells of a few centimetres.
 //!
-//! Free and unknown cells are the nearest ones of the grid; occupied cells are carried over one by one as well, since
-//! dots of a cell or two would get lost between the samples. Cost: O(cells of the frame).
+//! A cell of the frame takes the state of the grid cell at its centre. Occupied cells of the grid are carried over one by
+//! one as well, since objects of a cell or two could lie between the samples. Cost: O(cells of the frame + cells of the
+//! grid).
 
 use crate::geometry::{Point, direction, normal};
 use crate::grid::{Occupancy, OccupancyGrid};
@@ -13,11 +14,11 @@ use super::cell::Cell;
 use super::patch::Patch;
 use super::rect::{Axis, Rect};
 
-/// Side of a cell of the frame, metres: posts of 0.09 m are two cells wide, and combs need that (accuracy study).
-pub(crate) const CELL_M: f64 = 0.05;
-/// Coarse grids are not refined beyond half their cell.
+/// Side of a cell of the frame, metres: posts of 0.09 m are then two cells wide, which the comb needs (accuracy study).
+const CELL_M: f64 = 0.05;
+/// Side of a frame cell as a share of a grid cell, at least: coarse grids are not refined further.
 const FINEST_SHARE: f64 = 0.5;
-/// Room around the region, metres: wider than a vehicle, so that its border does not close a passage.
+/// Margin around the region, metres: wider than a vehicle, so that the border of the frame does not close a passage.
 const MARGIN_M: f64 = 2.0;
 
 /// A region in its own frame.
@@ -57,7 +58,7 @@ impl RegionFrame {
                 place = [place[0] + step[0], place[1] + step[1]];
             }
         }
-        frame.splat(grid, watch)?;
+        frame.carry_occupied_over(grid, watch)?;
         Ok(frame)
     }
 
@@ -105,8 +106,8 @@ impl RegionFrame {
         Self { angle, cell, start: low.map(|low| low - MARGIN_M), columns: size[0], rows: size[1], cells }
     }
 
-    /// Carries the occupied cells of the grid over.
-    fn splat(&mut self, grid: &OccupancyGrid, watch: &Watch<'_>) -> Result<(), Stopped> {
+    /// Marks the cells that occupied cells of the grid have their centre in.
+    fn carry_occupied_over(&mut self, grid: &OccupancyGrid, watch: &Watch<'_>) -> Result<(), Stopped> {
         let (along, across) = (direction(self.angle), normal(self.angle));
         for row in 0..grid.height() {
             watch.check()?;
@@ -136,18 +137,18 @@ impl RegionFrame {
         Rect { u: 0..self.columns, v: 0..self.rows }
     }
 
-    /// Number of the cells of a rectangle that are so.
+    /// Number of the cells of a rectangle for which `is` holds.
     pub fn count(&self, rect: &Rect, is: impl Fn(Cell) -> bool) -> usize {
         let row = |v| self.row(v)[rect.u.clone()].iter().filter(|&&cell| is(cell)).count();
         rect.v.clone().map(row).sum()
     }
 
-    /// The same as a share of all of them; 0 of none.
+    /// Share of the cells of a rectangle for which `is` holds; 0 for an empty one.
     pub fn share(&self, rect: &Rect, is: impl Fn(Cell) -> bool) -> f64 {
         self.count(rect, is) as f64 / (rect.u.len() * rect.v.len()).max(1) as f64
     }
 
-    /// How many cells of each line of a rectangle along `axis` are so.
+    /// Number of the cells of each line of a rectangle along `axis` for which `is` holds.
     pub fn counts(&self, rect: &Rect, axis: Axis, is: impl Fn(Cell) -> bool) -> Vec<u32> {
         let rows = rect.v.clone().map(|row| &self.row(row)[rect.u.clone()]);
         match axis {
@@ -180,10 +181,10 @@ impl RegionFrame {
     }
 }
 
-/// Bits behind the point of places in the grid, cells: the error after 30,000 steps is below a hundred-thousandth.
+/// Fractional bits of positions in the grid, cells: after 30,000 steps the error is below 1e-5 of a cell.
 const FRACTION_BITS: u32 = 32;
 
-/// A place with [`FRACTION_BITS`] bits behind the point, which can be stepped and floored as a whole number.
+/// A position with [`FRACTION_BITS`] fractional bits, which is stepped and floored as a whole number.
 fn fixed(place: f64) -> i64 {
     (place * (1_u64 << FRACTION_BITS) as f64).round() as i64
 }

@@ -42,7 +42,7 @@ impl Rect {
         }
     }
 
-    /// What a hole leaves of it: its full width beside the hole along `axis`, and what is before and behind the hole.
+    /// What a hole leaves of it: the parts beside the hole along `axis`, full width, then those on its other two sides.
     pub fn without(&self, hole: &Self, axis: Axis) -> Vec<Self> {
         let common = |axis: Axis| {
             let (own, other) = (self.range(axis), hole.range(axis));

@@ -48,14 +48,13 @@ const LEAST_CONTENT: f64 = 0.5;
 const CLEAR_SHARE: f64 = 0.9;
 
 /// Evidence along a row, one number per cell.
-/// RowEvidence along a row, one number per cell.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub(crate) struct RowEvidence {
-    /// How much the cells speak for a border here: about 1 at a gap with posts, below 0 within goods.
+pub(super) struct RowEvidence {
+    /// Evidence for a border: about 1 at a gap with posts, below 0 within goods.
     pub border: Vec<f64>,
-    /// Nothing stands here, in the whole depth.
+    /// Whether nothing stands there in the whole depth.
     pub is_clear: Vec<bool>,
-    /// Share of the depth that is occupied or unknown, beside its usual size hereabouts, none where nobody looked: of each
+    /// Share of the depth that is occupied or unknown, divided by its usual size nearby; 0 where nothing is known. Of each
     /// row of a bundle in turn.
     pub content: Vec<f64>,
     /// How far the content of a place differs from its mirror image: by first cell, then by width from `least_width`.
@@ -69,7 +68,7 @@ pub(crate) struct RowEvidence {
 impl RowEvidence {
     /// Measures a row; `cell` is the side of its cells and `widths` the range of widths of places that are compared with
     /// their mirror image, metres.
-    pub(crate) fn of(row: &Patch, cell: f64, widths: [f64; 2]) -> Self {
+    pub(super) fn of(row: &Patch, cell: f64, widths: [f64; 2]) -> Self {
         let Depth { front, middle, back } = Depth::of(row.height, cell);
         let occupied = column_shares(row, &middle, Cell::is_occupied);
         let unknown = column_shares(row, &middle, Cell::is_unknown);
@@ -98,8 +97,8 @@ impl RowEvidence {
         }
     }
 
-    /// Rows of one length that are cut alike, as one row: the mean of what speaks for borders, and the content of each.
-    pub(crate) fn bundle(rows: impl IntoIterator<Item = Self>) -> Self {
+    /// Rows of one length that are cut alike, as one row: the mean of their evidence for borders, and the content of each.
+    pub(super) fn bundle(rows: impl IntoIterator<Item = Self>) -> Self {
         let mut rows = rows.into_iter();
         let mut bundle = rows.next().unwrap_or_default();
         let mut count = 1.0;
@@ -120,23 +119,23 @@ impl RowEvidence {
     }
 
     /// The content of each row of a bundle.
-    pub(crate) fn contents(&self) -> impl Iterator<Item = &[f64]> {
+    pub(super) fn contents(&self) -> impl Iterator<Item = &[f64]> {
         self.content.chunks(self.len().max(1))
     }
 
     /// Number of cells along the row.
-    pub(crate) fn len(&self) -> usize {
+    pub(super) fn len(&self) -> usize {
         self.border.len()
     }
 
     /// Length of the row, metres.
-    pub(crate) fn length(&self) -> f64 {
+    pub(super) fn length(&self) -> f64 {
         self.len() as f64 * self.cell
     }
 
     /// How far the content of a place differs from its mirror image: 0 for even goods and for none, 1 where all the
     /// goods of a place stand on one side. Goods that are cut in two are uneven, whatever they are.
-    pub(crate) fn unevenness(&self, start: usize, width: usize) -> f64 {
+    pub(super) fn unevenness(&self, start: usize, width: usize) -> f64 {
         let at = width.saturating_sub(self.least_width).min(self.widths.saturating_sub(1));
         self.mirror.get(start * self.widths + at).copied().map_or(0.0, f64::from)
     }
@@ -197,8 +196,8 @@ fn border(content: &[f64], posts: &[f64], hidden: f64, cell: f64) -> Vec<f64> {
     (0..content.len()).map(|x| gap(x) + post_weight * (posts[x] - mean_posts[x])).collect()
 }
 
-/// Content as a share of its root mean square around each cell, so that the three legs of a pallet say as much as the
-/// solid box beside it, which has some ten times the content.
+/// Content as a share of its root mean square around each cell, so that the three legs of a pallet count as much as the
+/// solid box beside it, which has about ten times the content.
 fn levelled(content: &[f64], cell: f64) -> Vec<f64> {
     let squares: Vec<f64> = content.iter().map(|content| content * content).collect();
     let level = mean_filter(&squares, LEVEL_WINDOW_M / cell);

@@ -105,6 +105,7 @@ mod tests {
 
     use super::*;
     use crate::decomposition::ground::{Axis, RectIndex, drivable};
+    use crate::watch::{Observer, Stage, StopFlag};
 
     /// The same step by step from one place, as often as it is asked for.
     fn simple(frame: &RegionFrame, places: &[Rect], place: &Rect, axis: Axis, side: usize) -> AisleNeed {
@@ -131,9 +132,9 @@ mod tests {
             places in proptest::collection::vec((0_usize..90, 1_usize..30, 0_usize..90, 1_usize..30), 0..40),
             is_upright: bool,
         ) {
-            // Cells of 0.1 m, eight to the side of a character.
+            // Cells of 0.05 m, eight to the side of a character.
             let wide = |line: &String| (line.chars().flat_map(|cell| [cell; 8]).collect::<String>() + "\n").repeat(8);
-            let (mut frame, whole) = RegionFrame::of_picture(&picture.iter().map(wide).collect::<String>(), 0.1);
+            let (mut frame, whole) = RegionFrame::of_picture(&picture.iter().map(wide).collect::<String>(), 0.05);
             drivable::mark(&mut frame, 6, &Watch::unwatched()).expect("nobody stops it");
             let rects: Vec<Rect> = places.into_iter().map(|(u, width, v, height)| {
                 let (u, v) = (whole.u.start + u, whole.v.start + v);
@@ -150,5 +151,49 @@ mod tests {
                 }
             }
         }
+    }
+
+    /// A block of 50,000 places, 4 cells wide and 16 deep, with 1.2 m of floor all around.
+    fn block_of_places() -> (RegionFrame, Vec<Rect>) {
+        let (columns, layers) = (250, 200);
+        let beside = ".".repeat(24);
+        let goods = format!("{beside}{}{beside}\n", "#".repeat(4 * columns));
+        let floor = (".".repeat(4 * columns + 48) + "\n").repeat(24);
+        let (mut frame, whole) =
+            RegionFrame::of_picture(&[&floor[..], &goods.repeat(16 * layers), &floor].concat(), 0.05);
+        drivable::mark(&mut frame, 12, &Watch::unwatched()).expect("nobody stops it");
+        let place = |number: usize| {
+            let (u, v) = (whole.u.start + 24 + number % columns * 4, whole.v.start + 24 + number / columns * 16);
+            Rect { u: u..u + 4, v: v..v + 16 }
+        };
+        (frame, (0..columns * layers).map(place).collect())
+    }
+
+    struct Nobody;
+
+    impl Observer for Nobody {
+        fn progress(&self, _stage: Stage, _fraction: f64) {}
+    }
+
+    #[test]
+    fn each_of_fifty_thousand_places_is_stepped_from_once() {
+        let (frame, rects) = block_of_places();
+        let places = RectIndex::of(rects, &Watch::unwatched()).expect("nobody stops it");
+        let index = PlaceIndex { axis: Axis::U, contact: 16, places };
+        let (stop, count) = (StopFlag::default(), index.places.rects().len());
+        let watch = Watch::new(&stop, &Nobody);
+        let mut needs = AisleNeeds::new(&frame, &index, &watch);
+        // The first place of a column is stepped from through all 200 layers, and these are known from then on.
+        let from_low = |needs: &mut AisleNeeds<'_>, place: usize| needs.of_place(place, 1);
+        assert_eq!(from_low(&mut needs, 0), Ok(AisleNeed::RowsBehind));
+        assert_eq!(needs.known[1].iter().flatten().count(), 200);
+        for place in 0..count - 1 {
+            assert_eq!(
+                from_low(&mut needs, place),
+                Ok(if place < count - 250 { AisleNeed::RowsBehind } else { AisleNeed::OpenBehind })
+            );
+        }
+        stop.raise();
+        assert_eq!(from_low(&mut needs, count - 1), Err(Stopped));
     }
 }
