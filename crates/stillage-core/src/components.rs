@@ -6,7 +6,7 @@
 
 use std::ops::Range;
 
-use crate::disjoint_sets::DisjointSets;
+use crate::geometry::DisjointSets;
 use crate::watch::{Stopped, Watch};
 
 /// Which cells touch.

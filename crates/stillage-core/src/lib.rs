@@ -60,11 +60,9 @@ pub mod routing;
 pub mod evaluation;
 
 mod components;
-mod disjoint_sets;
 mod morphology;
 mod runs;
 mod site_ground;
-mod smallest_box;
 pub mod spec;
 pub mod stage_shares;
 mod walls;

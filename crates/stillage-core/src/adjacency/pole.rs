@@ -9,7 +9,7 @@ use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 use std::f64::consts::SQRT_2;
 
-use crate::geometry::{Point, Vector, ring_area};
+use crate::geometry::{Bounds, Point, Vector, polygon, segment};
 
 /// How much better than the best a square must promise to be, to be split.
 const WORTHWHILE: f64 = 1.05;
@@ -18,19 +18,15 @@ const MOST_PROBES: usize = 500;
 
 /// A point well inside a polygon: an outer ring and holes (first points not repeated). The origin without corners.
 pub(crate) fn pole(rings: &[Vec<Point>]) -> Point {
-    let polygon = Polygon { rings };
-    let Some(bounds) = polygon.bounds() else { return Point::origin() };
-    let area: f64 = rings.iter().map(|ring| ring_area(ring)).sum();
-    let perimeter: f64 = polygon.sides().map(|(start, end)| (end - start).norm()).sum();
-    let centroid = polygon.centroid(area);
-    if polygon.clearance(centroid) >= area / perimeter {
-        return centroid;
+    let bounds = Bounds::around(rings.iter().flatten());
+    if bounds.is_empty() {
+        return Point::origin();
     }
-    polygon.search(bounds)
-}
-
-struct Polygon<'a> {
-    rings: &'a [Vec<Point>],
+    let perimeter: f64 = polygon::sides(rings).map(|[start, end]| (end - start).norm()).sum();
+    match polygon::centroid(rings) {
+        Some(centroid) if clearance(rings, centroid) >= polygon::area(rings) / perimeter => centroid,
+        _ => search(rings, bounds),
+    }
 }
 
 /// A square of the search, ordered by the clearance that its best point may have.
@@ -70,90 +66,58 @@ impl PartialEq for Square {
 
 impl Eq for Square {}
 
-impl Polygon<'_> {
-    fn corners(&self) -> impl Iterator<Item = Point> + '_ {
-        self.rings.iter().flatten().copied()
+/// Distance to the nearest side, negative outside.
+fn clearance(rings: &[Vec<Point>], point: Point) -> f64 {
+    let mut is_inside = false;
+    let mut nearest = f64::INFINITY;
+    for side in polygon::sides(rings) {
+        is_inside ^= segment::x_at_level(side, point.y).is_some_and(|x| point.x < x);
+        nearest = nearest.min(segment::squared_distance(point, side));
     }
+    if is_inside { nearest.sqrt() } else { -nearest.sqrt() }
+}
 
-    fn sides(&self) -> impl Iterator<Item = (Point, Point)> + '_ {
-        self.rings
-            .iter()
-            .flat_map(|ring| ring.iter().zip(ring.iter().cycle().skip(1)).map(|(&start, &end)| (start, end)))
-    }
+/// The middle of the widest stretch inside, at a level between corners near half height.
+fn some_inner_point(rings: &[Vec<Point>], Bounds { low, high }: Bounds) -> Point {
+    let middle = f64::midpoint(low.y, high.y);
+    let heights = || rings.iter().flatten().map(|corner| corner.y);
+    let below = heights().filter(|&y| y <= middle).fold(low.y, f64::max);
+    let above = heights().filter(|&y| y > middle).fold(high.y, f64::min);
+    let level = f64::midpoint(below, above);
+    let mut crossings: Vec<f64> = polygon::sides(rings).filter_map(|side| segment::x_at_level(side, level)).collect();
+    crossings.sort_unstable_by(f64::total_cmp);
+    let widest = crossings
+        .as_chunks::<2>()
+        .0
+        .iter()
+        .max_by(|first, second| (first[1] - first[0]).total_cmp(&(second[1] - second[0])));
+    Point::new(widest.map_or(middle, |[left, right]| f64::midpoint(*left, *right)), level)
+}
 
-    /// Lower left and upper right corner of the box around it.
-    fn bounds(&self) -> Option<(Point, Point)> {
-        let first = self.corners().next()?;
-        Some(self.corners().fold((first, first), |(low, high), corner| (low.inf(&corner), high.sup(&corner))))
-    }
-
-    fn centroid(&self, area: f64) -> Point {
-        let Some(anchor) = self.corners().next() else { return Point::origin() };
-        let moment = |(start, end): (Point, Point)| {
-            let (from, to) = (start - anchor, end - anchor);
-            (from + to) * from.perp(&to)
-        };
-        anchor + self.sides().map(moment).sum::<Vector>() / (6.0 * area)
-    }
-
-    /// Distance to the nearest side, negative outside.
-    fn clearance(&self, point: Point) -> f64 {
-        let mut inside = false;
-        let mut nearest = f64::INFINITY;
-        for (start, end) in self.sides() {
-            if (start.y > point.y) != (end.y > point.y) {
-                let x = start.x + (point.y - start.y) / (end.y - start.y) * (end.x - start.x);
-                inside ^= point.x < x;
-            }
-            let side = end - start;
-            let share = ((point - start).dot(&side) / side.norm_squared()).clamp(0.0, 1.0);
-            nearest = nearest.min((start + side * share - point).norm_squared());
+/// Splits squares until none promises more than the best point found.
+fn search(rings: &[Vec<Point>], bounds: Bounds) -> Point {
+    let Bounds { low, high } = bounds;
+    let size = high - low;
+    let grain = size.min().max(size.max() / 32.0);
+    let square = |center: Point, half: f64| Square { center, half, clearance: clearance(rings, center) };
+    let [columns, rows] = [size.x, size.y].map(|extent| (extent / grain).ceil() as usize);
+    let mut queue: BinaryHeap<Square> = (0..rows * columns)
+        .map(|number| Vector::new((number % columns) as f64 + 0.5, (number / columns) as f64 + 0.5) * grain)
+        .map(|offset| square(low + offset, grain / 2.0))
+        .collect();
+    let mut best = square(some_inner_point(rings, bounds), 0.0);
+    for _ in 0..MOST_PROBES / 4 {
+        let Some(next) = queue.pop() else { break };
+        if next.promise() <= best.clearance * WORTHWHILE {
+            break;
         }
-        if inside { nearest.sqrt() } else { -nearest.sqrt() }
-    }
-
-    /// The middle of the widest stretch inside, at a level between corners near half height.
-    fn some_inner_point(&self, (low, high): (Point, Point)) -> Point {
-        let middle = f64::midpoint(low.y, high.y);
-        let below = self.corners().map(|corner| corner.y).filter(|&y| y <= middle).fold(low.y, f64::max);
-        let above = self.corners().map(|corner| corner.y).filter(|&y| y > middle).fold(high.y, f64::min);
-        let level = f64::midpoint(below, above);
-        let crossed = self.sides().filter(|(start, end)| (start.y > level) != (end.y > level));
-        let mut crossings: Vec<f64> =
-            crossed.map(|(start, end)| start.x + (level - start.y) / (end.y - start.y) * (end.x - start.x)).collect();
-        crossings.sort_unstable_by(f64::total_cmp);
-        let widest = crossings
-            .as_chunks::<2>()
-            .0
-            .iter()
-            .max_by(|first, second| (first[1] - first[0]).total_cmp(&(second[1] - second[0])));
-        Point::new(widest.map_or(middle, |[left, right]| f64::midpoint(*left, *right)), level)
-    }
-
-    /// Splits squares until none promises more than the best point found.
-    fn search(&self, (low, high): (Point, Point)) -> Point {
-        let size = high - low;
-        let grain = size.min().max(size.max() / 32.0);
-        let square = |center: Point, half: f64| Square { center, half, clearance: self.clearance(center) };
-        let [columns, rows] = [size.x, size.y].map(|extent| (extent / grain).ceil() as usize);
-        let mut queue: BinaryHeap<Square> = (0..rows * columns)
-            .map(|number| Vector::new((number % columns) as f64 + 0.5, (number / columns) as f64 + 0.5) * grain)
-            .map(|offset| square(low + offset, grain / 2.0))
-            .collect();
-        let mut best = square(self.some_inner_point((low, high)), 0.0);
-        for _ in 0..MOST_PROBES / 4 {
-            let Some(next) = queue.pop() else { break };
-            if next.promise() <= best.clearance * WORTHWHILE {
-                break;
-            }
-            let half = next.half / 2.0;
-            for (x, y) in [(-half, -half), (half, -half), (-half, half), (half, half)] {
-                queue.push(square(next.center + Vector::new(x, y), half));
-            }
-            if next.clearance > best.clearance {
-                best = next;
-            }
+        let half = next.half / 2.0;
+        for (x, y) in [(-half, -half), (half, -half), (-half, half), (half, half)] {
+            queue.push(square(next.center + Vector::new(x, y), half));
         }
-        best.center
+        if next.clearance > best.clearance {
+            best = next;
+        }
     }
+    best.center
 }

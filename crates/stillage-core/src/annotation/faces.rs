@@ -13,10 +13,9 @@ use super::{CellFaces, Evidence, FaceAnnotation, FaceCategories};
 use crate::adjacency::pole;
 use crate::arrangement::{FaceId, Subdivision};
 use crate::categorization::CategoryMap;
-use crate::geometry::{Point, ring_area};
+use crate::geometry::{OrientedBox, Point, polygon};
 use crate::grid::{Occupancy, OccupancyGrid};
 use crate::segmentation::RegionMap;
-use crate::smallest_box::SmallestBox;
 use crate::watch::{Stopped, Watch};
 
 /// What stands nearer than this to the border of a face may be a post of its rack or overhang of a neighbour, metres.
@@ -198,7 +197,7 @@ fn face_annotation(tally: &Tally, rings: &[Vec<Point>], categories: &CategoryMap
         None if occupied > free => (kinds.occupied(), share(occupied, tally.known())),
         None => (kinds.unknown(), 0.0),
     };
-    let smallest_box = SmallestBox::around(rings.first().map_or(&[], Vec::as_slice));
+    let smallest_box = OrientedBox::smallest_around(rings.first().map_or(&[], Vec::as_slice));
     let total = tally.total();
     let region = mode(&tally.regions).filter(|&slot| slot + 1 < tally.regions.len());
     FaceAnnotation {
@@ -210,11 +209,10 @@ fn face_annotation(tally: &Tally, rings: &[Vec<Point>], categories: &CategoryMap
         occupied_fraction: share(occupied, total),
         inside_occupied_fraction: share(tally.inside, total),
         unknown_fraction: if total == 0 { 1.0 } else { share(unknown, total) },
-        // Not `sum`, which makes nothing of it -0.
-        area: rings.iter().fold(0.0, |area, ring| area + ring_area(ring)),
+        area: polygon::area(rings),
         elongation: smallest_box.elongation(),
-        heading: smallest_box.heading,
-        extent: smallest_box.extent,
+        heading: smallest_box.angle,
+        extent: smallest_box.sides(),
         region: region.map_or(RegionMap::NONE, |region| region as u8),
         kind: None,
         confidence,

@@ -92,8 +92,7 @@ fn adjacency(subdivision: &Subdivision) -> Adjacency {
     for edge in subdivision.edges() {
         let [left, right] = subdivision.sides(edge);
         if left != FaceId::OUTER && right != FaceId::OUTER {
-            let [start, end] = subdivision.segment(edge);
-            let length = (end - start).norm();
+            let length = subdivision.length(edge);
             adjacency[left.index()].push((right.index(), length));
             adjacency[right.index()].push((left.index(), length));
         }

@@ -17,7 +17,7 @@ use super::roles::PlotIndex;
 use crate::adjacency::AdjacencyGraph;
 use crate::arrangement::{EdgeId, FaceId, Subdivision};
 use crate::decomposition::{Plot, PlotKind};
-use crate::disjoint_sets::DisjointSets;
+use crate::geometry::DisjointSets;
 use crate::geometry::line_angle_between;
 use crate::grid::OccupancyGrid;
 use crate::segmentation::RegionMap;

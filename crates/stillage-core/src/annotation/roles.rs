@@ -6,7 +6,7 @@ use super::FaceAnnotation;
 use crate::adjacency::AdjacencyGraph;
 use crate::arrangement::FaceId;
 use crate::decomposition::{Plot, PlotKind};
-use crate::geometry::{Point, direction, normal};
+use crate::geometry::Point;
 
 /// Share of open floor that is free at least: the rest is what the frame of a region has beyond its walls.
 const OPEN_SHARE: f64 = 0.5;
@@ -62,17 +62,12 @@ impl<'a> PlotIndex<'a> {
     /// The first plot of a region that holds a point.
     pub(super) fn at(&self, point: Point, region: u8) -> Option<Plot> {
         let near = self.buckets.get(&bucket(point))?;
-        near.iter().map(|&number| self.plots[number as usize]).find(|plot| plot.region == region && holds(plot, point))
+        near.iter()
+            .map(|&number| self.plots[number as usize])
+            .find(|plot| plot.region == region && plot.bounds.contains(point))
     }
 }
 
 fn bucket(point: Point) -> (i64, i64) {
     ((point.x / BUCKET_M).floor() as i64, (point.y / BUCKET_M).floor() as i64)
-}
-
-fn holds(plot: &Plot, point: Point) -> bool {
-    let offset = point - plot.bounds.center;
-    let along = direction(plot.bounds.angle).dot(&offset).abs();
-    let across = normal(plot.bounds.angle).dot(&offset).abs();
-    along <= plot.bounds.half_extents[0] && across <= plot.bounds.half_extents[1]
 }

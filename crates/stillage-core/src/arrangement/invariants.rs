@@ -2,7 +2,7 @@
 
 use super::ids::{FaceId, HalfEdgeId, VertexId};
 use super::subdivision::Subdivision;
-use crate::geometry::Point;
+use crate::geometry::{DisjointSets, Point};
 
 /// Answers with an error unless a condition holds.
 macro_rules! ensure {
@@ -125,22 +125,11 @@ impl Subdivision {
 
     /// Number of connected components of the edges, by merging sets of vertices.
     fn component_count(&self) -> usize {
-        let mut parents: Vec<usize> = (0..self.vertex_count()).collect();
-        let root = |parents: &mut Vec<usize>, mut vertex: usize| {
-            while parents[vertex] != vertex {
-                parents[vertex] = parents[parents[vertex]];
-                vertex = parents[vertex];
-            }
-            vertex
+        let mut sets = DisjointSets::new(self.vertex_count());
+        let joins = |edge| {
+            let [first, second] = self.ends(edge).map(VertexId::index);
+            sets.join(first, second)
         };
-        let mut count = parents.len();
-        for edge in self.edges() {
-            let [first, second] = self.ends(edge).map(|vertex| root(&mut parents, vertex.index()));
-            if first != second {
-                parents[first.max(second)] = first.min(second);
-                count -= 1;
-            }
-        }
-        count
+        self.vertex_count() - self.edges().map(joins).filter(|&is_new| is_new).count()
     }
 }

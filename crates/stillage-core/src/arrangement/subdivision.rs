@@ -1,11 +1,9 @@
 //! The doubly connected edge list: topology in `half_edges` and `cycles`, positions beside it.
 
-use std::collections::BTreeMap;
-
 use serde::{Deserialize, Serialize};
 
 use super::ids::{EdgeId, FaceId, HalfEdgeId, VertexId};
-use crate::geometry::{Point, ring_area};
+use crate::geometry::{Point, polygon, ring_area};
 
 /// What an edge comes from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
@@ -161,8 +159,8 @@ impl Subdivision {
     /// apart there, as GeoJSON and OGC Simple Features want it.
     #[must_use]
     pub fn rings(&self, face: FaceId) -> Vec<Vec<Point>> {
-        let vertices = |&start: &HalfEdgeId| self.cycle(start).map(|half| self.half_edge(half).origin).collect();
-        let simple = self.cycles(face).iter().flat_map(|start| split_at_repeats(vertices(start)));
+        let vertices = |&start: &HalfEdgeId| self.cycle(start).map(|half| self.half_edge(half).origin);
+        let simple = self.cycles(face).iter().flat_map(|start| polygon::simple_rings(vertices(start)));
         let mut rings: Vec<Vec<Point>> =
             simple.map(|ring| ring.into_iter().map(|vertex| self.position(vertex)).collect()).collect();
         rings.sort_by_key(|ring| ring_area(ring) < 0.0);
@@ -172,31 +170,6 @@ impl Subdivision {
     /// Area of a bounded face, square metres.
     #[must_use]
     pub fn area(&self, face: FaceId) -> f64 {
-        self.rings(face).iter().map(|ring| ring_area(ring)).sum()
+        polygon::area(&self.rings(face))
     }
-}
-
-/// Takes a closed way apart where it comes through a vertex again.
-fn split_at_repeats(cycle: Vec<VertexId>) -> Vec<Vec<VertexId>> {
-    let mut sorted = cycle.clone();
-    sorted.sort_unstable();
-    if sorted.windows(2).all(|pair| pair[0] != pair[1]) {
-        return vec![cycle];
-    }
-    let mut rings = Vec::new();
-    let mut way: Vec<VertexId> = Vec::new();
-    let mut place_in_way = BTreeMap::new();
-    for vertex in cycle {
-        if let Some(&place) = place_in_way.get(&vertex) {
-            let ring = way.split_off(place);
-            for visited in &ring {
-                place_in_way.remove(visited);
-            }
-            rings.push(ring);
-        }
-        place_in_way.insert(vertex, way.len());
-        way.push(vertex);
-    }
-    rings.push(way);
-    rings
 }

@@ -8,9 +8,9 @@
 
 use rayon::prelude::*;
 
-use super::overlap::{Bounds, BoxIndex, holds};
+use super::overlap::BoxIndex;
 use crate::arrangement::Subdivision;
-use crate::geometry::Point;
+use crate::geometry::{Bounds, Point, polygon, segment};
 use crate::watch::{Stopped, Watch};
 
 /// Nearby, metres: three cells of a common map, as in the study of the method's accuracy.
@@ -35,17 +35,9 @@ impl Segments {
     /// Whether one lies within a distance of a point.
     fn near(&self, point: Point, distance: f64) -> bool {
         let bounds = Bounds { low: point, high: point }.grown(distance);
-        let within = |&number: &u32| gap(self.segments[number as usize], point) <= distance;
+        let within = |&number: &u32| segment::distance(point, self.segments[number as usize]) <= distance;
         self.index.meeting(&bounds).iter().any(within)
     }
-}
-
-/// Distance of a point from a segment.
-fn gap([from, to]: [Point; 2], point: Point) -> f64 {
-    let (along, offset) = (to - from, point - from);
-    let squared = along.norm_squared();
-    let share = if squared > 0.0 { (along.dot(&offset) / squared).clamp(0.0, 1.0) } else { 0.0 };
-    (offset - along * share).norm()
 }
 
 /// The middles of the equal steps of a segment, and their length.
@@ -85,7 +77,7 @@ pub(super) fn compare(
     let whole = BoxIndex::new(places.iter().map(|rings| Bounds::around(rings.iter().flatten())).collect());
     let in_place = |point: Point| {
         let here = Bounds { low: point, high: point };
-        whole.meeting(&here).iter().any(|&place| holds(&places[place as usize], point))
+        whole.meeting(&here).iter().any(|&place| polygon::contains(&places[place as usize], point))
     };
     let tally = |segment: &[Point; 2], counts: &(dyn Fn(Point) -> bool + Sync), other: &Segments| {
         watch.check()?;

@@ -8,40 +8,10 @@
 //! Cost: O(points of the area) for each convex piece of a face whose box meets the area's.
 
 use crate::arrangement::{FaceId, Subdivision};
-use crate::geometry::{Point, ring_area};
+use crate::geometry::{Bounds, Point, polygon, ring_area};
 
 /// Intersection over union above which a face is a place: at one half it can be at most one.
 const SAME: f64 = 0.5;
-
-/// An axis-parallel box.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Bounds {
-    pub(super) low: Point,
-    pub(super) high: Point,
-}
-
-impl Bounds {
-    /// Around points; empty without any.
-    pub(super) fn around<'a>(points: impl IntoIterator<Item = &'a Point>) -> Self {
-        let start = Self {
-            low: Point::new(f64::INFINITY, f64::INFINITY),
-            high: Point::new(f64::NEG_INFINITY, f64::NEG_INFINITY),
-        };
-        points.into_iter().fold(start, |Self { low, high }, point| Self { low: low.inf(point), high: high.sup(point) })
-    }
-
-    pub(super) fn grown(self, by: f64) -> Self {
-        let by = crate::geometry::Vector::new(by, by);
-        Self { low: self.low - by, high: self.high + by }
-    }
-
-    pub(super) fn meets(&self, other: &Self) -> bool {
-        self.low.x <= other.high.x
-            && other.low.x <= self.high.x
-            && self.low.y <= other.high.y
-            && other.low.y <= self.high.y
-    }
-}
 
 /// Side of a bucket, metres: a few pallets.
 const BUCKET: f64 = 2.0;
@@ -63,7 +33,7 @@ pub(super) struct BoxIndex {
 
 impl BoxIndex {
     pub(super) fn new(boxes: Vec<Bounds>) -> Self {
-        let corners = boxes.iter().filter(|bounds| bounds.low.x <= bounds.high.x);
+        let corners = boxes.iter().filter(|bounds| !bounds.is_empty());
         let Bounds { low, high } = Bounds::around(corners.flat_map(|bounds| [&bounds.low, &bounds.high]));
         let extent = [high.x - low.x, high.y - low.y].map(|extent| if extent.is_finite() { extent } else { 0.0 });
         let count = extent.map(|extent| ((extent / BUCKET) as usize + 1).min(MOST_BUCKETS));
@@ -128,7 +98,7 @@ impl FaceAreas {
         let rings: Vec<Vec<Vec<Point>>> = (0..subdivision.face_count() as u32)
             .map(|face| if face == FaceId::OUTER.0 { Vec::new() } else { subdivision.rings(FaceId(face)) })
             .collect();
-        let areas = rings.iter().map(|rings| rings.iter().map(|ring| ring_area(ring)).sum()).collect();
+        let areas = rings.iter().map(|rings| polygon::area(rings)).collect();
         let index = BoxIndex::new(rings.iter().map(|rings| Bounds::around(rings.iter().flatten())).collect());
         Self { pieces: rings.iter().map(|rings| pieces(rings)).collect(), rings, areas, index }
     }
@@ -147,7 +117,7 @@ impl FaceAreas {
 
     /// Whether a face holds a point (even-odd rule over its rings).
     pub(super) fn holds(&self, face: u32, point: Point) -> bool {
-        holds(&self.rings[face as usize], point)
+        polygon::contains(&self.rings[face as usize], point)
     }
 }
 
@@ -172,21 +142,6 @@ impl Match {
         let found = self.overlaps.iter().find(|&&overlap| self.fits(overlap, face_areas));
         found.map(|&(face, _)| face)
     }
-}
-
-/// Whether rings hold a point (even-odd rule).
-pub(super) fn holds(rings: &[Vec<Point>], point: Point) -> bool {
-    let mut inside = false;
-    for ring in rings {
-        for (index, current) in ring.iter().enumerate() {
-            let next = ring[(index + 1) % ring.len()];
-            if (current.y > point.y) != (next.y > point.y) {
-                let along = (point.y - current.y) / (next.y - current.y);
-                inside ^= point.x < current.x + along * (next.x - current.x);
-            }
-        }
-    }
-    inside
 }
 
 /// A face as a signed sum of convex windows.
@@ -289,7 +244,7 @@ mod tests {
         let frame = [square(0.0, 0.0, 4.0), hole];
         assert!((common(&frame, &frame) - 12.0).abs() < 1e-12);
         assert!((common(&frame, &[square(0.0, 0.0, 2.0)]) - 3.0).abs() < 1e-12);
-        assert!(holds(&frame, Point::new(0.5, 2.0)) && !holds(&frame, Point::new(2.0, 2.0)));
+        assert!(polygon::contains(&frame, Point::new(0.5, 2.0)) && !polygon::contains(&frame, Point::new(2.0, 2.0)));
     }
 
     proptest! {
@@ -320,7 +275,7 @@ mod tests {
             let steps = 200;
             let at = |index: usize| (index as f64 + 0.5) / steps as f64 * 8.0;
             let cells = (0..steps).flat_map(|i| (0..steps).map(move |j| Point::new(at(i), at(j))));
-            let both = |point: &Point| holds(&star, *point) && holds(&window, *point);
+            let both = |point: &Point| polygon::contains(&star, *point) && polygon::contains(&window, *point);
             let counted = cells.filter(both).count() as f64 * (8.0 / steps as f64).powi(2);
             for exact in [common(&window, &star), common(&star, &window)] {
                 prop_assert!((exact - counted).abs() < 0.3, "{exact} {counted}");

@@ -1,6 +1,6 @@
 //! What is true of a site, as somebody surveyed or generated it.
 
-use crate::geometry::{Point, Vector, ring_area};
+use crate::geometry::{Point, Vector, polygon, ring_area};
 use crate::grid::GridFrame;
 
 /// An area of the map frame: one or more polygons, with or without holes.
@@ -28,25 +28,18 @@ impl TrueArea {
     /// Square metres.
     #[must_use]
     pub fn area(&self) -> f64 {
-        self.rings.iter().map(|ring| ring_area(ring)).sum()
+        polygon::area(&self.rings)
     }
 
     /// Centre of mass; the mean of the points where there is no area.
     #[must_use]
     pub fn centroid(&self) -> Option<Point> {
-        let anchor = *self.rings.iter().flatten().next()?;
-        let (mut moment, mut area) = (Vector::zeros(), 0.0);
-        for ring in &self.rings {
-            for (index, point) in ring.iter().enumerate() {
-                let (from, to) = (point - anchor, ring[(index + 1) % ring.len()] - anchor);
-                let double = from.perp(&to);
-                moment += (from + to) * double;
-                area += double;
-            }
-        }
-        let points: Vec<&Point> = self.rings.iter().flatten().collect();
-        let mean = || points.iter().map(|&point| point - anchor).sum::<Vector>() / points.len() as f64;
-        Some(anchor + if area == 0.0 { mean() } else { moment / (3.0 * area) })
+        let mean = || {
+            let points: Vec<&Point> = self.rings.iter().flatten().collect();
+            let sum: Vector = points.iter().map(|point| point.coords).sum();
+            (!points.is_empty()).then(|| Point::from(sum / points.len() as f64))
+        };
+        polygon::centroid(&self.rings).or_else(mean)
     }
 
     /// The rings in the grid frame of a map.

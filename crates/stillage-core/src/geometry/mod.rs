@@ -1,86 +1,30 @@
-//! Points and angles shared by every stage.
+//! Points, segments, polygons and boxes of the plane: each formula once, for every stage and for the service.
+//!
+//! | module | what it answers |
+//! | --- | --- |
+//! | [`point`] | points, displacements, directions and normals of lines |
+//! | [`segment`] | distance from a point, crossing with a line, whether a ray crosses |
+//! | [`polygon`] | area, centroid, point in polygon, rings of a walk that touches itself |
+//! | [`bounds`] | boxes along the axes: around points, whether they meet a box or a segment |
+//! | [`oriented_box`] | boxes of any direction, and the smallest one around points |
+//! | [`disjoint_sets`] | union-find |
+//! | [`hash`] | pseudo-random numbers from indices |
+//!
+//! A *ring* is a closed polygon line whose first point is not repeated. A *polygon* is a list of rings: outlines
+//! counter-clockwise, holes clockwise. Everything is deterministic and works in `f64` without tolerance.
 
-use std::f64::consts::PI;
+pub mod bounds;
+mod convex_hull;
+pub(crate) mod disjoint_sets;
+pub(crate) mod hash;
+pub mod oriented_box;
+pub mod point;
+pub mod polygon;
+pub mod segment;
 
-/// A point in the grid frame, metres.
-pub type Point = nalgebra::Point2<f64>;
-/// A displacement in the grid frame, metres.
-pub type Vector = nalgebra::Vector2<f64>;
+pub use bounds::Bounds;
+pub use oriented_box::OrientedBox;
+pub use point::{Point, Vector, direction, fold_half_turn, line_angle_between, normal};
+pub use polygon::ring_area;
 
-/// The unit vector along `angle` (radians).
-#[must_use]
-pub fn direction(angle: f64) -> Vector {
-    Vector::new(angle.cos(), angle.sin())
-}
-
-/// The unit normal of lines that run along `angle`: `direction` turned left by 90 degrees.
-///
-/// The signed *offset* of a line is the dot product of this normal with any of its points.
-#[must_use]
-pub fn normal(angle: f64) -> Vector {
-    Vector::new(-angle.sin(), angle.cos())
-}
-
-/// Folds the direction of an undirected line into `[-pi/2, pi/2)`.
-#[must_use]
-pub fn fold_half_turn(angle: f64) -> f64 {
-    let folded = (angle + PI / 2.0).rem_euclid(PI) - PI / 2.0;
-    // rem_euclid may round up to the modulus itself.
-    if folded >= PI / 2.0 { folded - PI } else { folded }
-}
-
-/// Smallest angle between two undirected lines, in `[0, pi/2]`.
-#[must_use]
-pub fn line_angle_between(first: f64, second: f64) -> f64 {
-    fold_half_turn(first - second).abs()
-}
-
-/// Signed area of a ring (first point not repeated), square metres; positive when counter-clockwise.
-#[must_use]
-pub fn ring_area(ring: &[Point]) -> f64 {
-    let Some(anchor) = ring.first() else { return 0.0 };
-    ring.windows(2).map(|pair| (pair[0] - anchor).perp(&(pair[1] - anchor))).sum::<f64>() / 2.0
-}
-
-/// A rectangle of any orientation.
-#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
-pub struct OrientedBox {
-    /// Centre, metres.
-    pub center: Point,
-    /// Half the side along `angle` and half the side across it, metres.
-    pub half_extents: [f64; 2],
-    /// Direction of the first side, radians.
-    pub angle: f64,
-}
-
-impl OrientedBox {
-    /// Smallest box of the given direction around the points; `None` without points.
-    #[must_use]
-    pub fn around(points: impl IntoIterator<Item = Point>, angle: f64) -> Option<Self> {
-        let (along, across) = (direction(angle), normal(angle));
-        let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
-        for point in points {
-            for (axis, unit) in [along, across].iter().enumerate() {
-                let value = unit.dot(&point.coords);
-                low[axis] = low[axis].min(value);
-                high[axis] = high[axis].max(value);
-            }
-        }
-        let half_extents = [(high[0] - low[0]) / 2.0, (high[1] - low[1]) / 2.0];
-        let center = Point::from(along * (low[0] + high[0]) / 2.0 + across * (low[1] + high[1]) / 2.0);
-        half_extents.iter().all(|extent| extent.is_finite()).then_some(Self { center, half_extents, angle })
-    }
-
-    /// The four corners, counter-clockwise.
-    #[must_use]
-    pub fn corners(&self) -> [Point; 4] {
-        let along = direction(self.angle) * self.half_extents[0];
-        let across = normal(self.angle) * self.half_extents[1];
-        [
-            self.center - along - across,
-            self.center + along - across,
-            self.center + along + across,
-            self.center - along + across,
-        ]
-    }
-}
+pub(crate) use disjoint_sets::DisjointSets;

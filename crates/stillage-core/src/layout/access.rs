@@ -7,7 +7,7 @@
 use super::ApproachPose;
 use crate::analysis::Analysis;
 use crate::arrangement::{EdgeId, FaceId, HalfEdgeId};
-use crate::geometry::{OrientedBox, Point, Vector, direction, ring_area};
+use crate::geometry::{OrientedBox, Point, Vector, direction, polygon, segment};
 use crate::semantics::{Cogency, SemanticMap};
 
 /// Where the middle of a robot stands before an access edge, metres: our choice, half a robot of 1.2 m and some room.
@@ -58,7 +58,7 @@ impl Access {
         let half_extents = OrientedBox::around(outline, heading).map_or([0.0; 2], |extent| extent.half_extents);
         Self {
             face,
-            center: centroid(&rings),
+            center: center(&rings),
             width: 2.0 * half_extents[1],
             depth: 2.0 * half_extents[0],
             heading,
@@ -122,27 +122,15 @@ fn room_ahead(from: Point, ahead: Vector, face: FaceId, analysis: &Analysis) -> 
     const NEXT_TO_NOTHING: f64 = 1e-6;
     let subdivision = &analysis.subdivision;
     let hits = subdivision.boundary(face).filter_map(|half| {
-        let [start, end] = subdivision.segment(half.edge());
-        let (along, offset) = (end - start, start - from);
-        let turn = ahead.perp(&along);
-        let (distance, share) = (offset.perp(&along) / turn, offset.perp(&ahead) / turn);
         // Parallel edges give no number, and no hit.
+        let [distance, share] = segment::crossing(from, ahead, subdivision.segment(half.edge()));
         (distance > NEXT_TO_NOTHING && (0.0..=1.0).contains(&share)).then_some(distance)
     });
     let room = hits.fold(f64::INFINITY, f64::min);
     if room.is_finite() { room } else { 0.0 }
 }
 
-/// Centroid of a polygon with holes; the first point where it has no area.
-fn centroid(rings: &[Vec<Point>]) -> Point {
-    let Some(&anchor) = rings.iter().flatten().next() else { return Point::origin() };
-    let (mut moment, mut area) = (Vector::zeros(), 0.0);
-    for ring in rings {
-        area += ring_area(ring);
-        for (index, &start) in ring.iter().enumerate() {
-            let (start, end) = (start - anchor, ring[(index + 1) % ring.len()] - anchor);
-            moment += (start + end) * (start.perp(&end) / 6.0);
-        }
-    }
-    if area > 0.0 { anchor + moment / area } else { anchor }
+/// Centroid of a face; its first point where it has no area.
+fn center(rings: &[Vec<Point>]) -> Point {
+    polygon::centroid(rings).or_else(|| rings.iter().flatten().next().copied()).unwrap_or_else(Point::origin)
 }

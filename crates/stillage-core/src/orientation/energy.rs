@@ -15,6 +15,7 @@
 
 use rayon::prelude::*;
 
+use crate::geometry::hash::{split_mix, unit};
 use crate::geometry::{fold_half_turn, line_angle_between};
 use crate::grid::{Occupancy, OccupancyGrid};
 use crate::signal::{self, Boundary};
@@ -74,12 +75,12 @@ impl OccupiedSample {
         let mut samples: Vec<Self> = cells.iter().map(with_copies).collect();
         for_each_occupied(grid, watch, |column, row| {
             let Some(part) = part_of(column, row) else { return };
-            let mut hash = mix((row * grid.width() + column) as u64);
-            if unit(mix(hash)) < shares[part] {
+            let mut hash = split_mix((row * grid.width() + column) as u64);
+            if unit(split_mix(hash)) < shares[part] {
                 let sample = &mut samples[part];
                 for _ in 0..sample.copies {
                     sample.points.push([column as f32 + unit(hash) as f32, row as f32 + unit(hash << 32) as f32]);
-                    hash = mix(hash);
+                    hash = split_mix(hash);
                 }
             }
         })?;
@@ -194,19 +195,6 @@ fn for_each_occupied(
         }
     }
     Ok(())
-}
-
-/// The finalizer of `SplitMix64` (G. L. Steele, D. Lea and C. H. Flood, OOPSLA 2014, doi 10.1145/2660193.2660195).
-pub(crate) fn mix(value: u64) -> u64 {
-    let value = value.wrapping_add(0x9E37_79B9_7F4A_7C15);
-    let value = (value ^ (value >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-    let value = (value ^ (value >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-    value ^ (value >> 31)
-}
-
-/// A number in `[0, 1)` from the upper half of a hash.
-fn unit(hash: u64) -> f64 {
-    (hash >> 32) as f64 / 4_294_967_296.0
 }
 
 /// The energies over all directions and what they stand out from.

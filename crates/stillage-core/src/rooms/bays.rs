@@ -12,10 +12,9 @@ use super::flood::{Passage, WIDEST_M};
 use super::ground::Ground;
 use super::nearest::Nearest;
 use crate::components::{Component, Components, Neighbours};
-use crate::geometry::{Point, Vector, direction};
+use crate::geometry::{OrientedBox, Point, Vector, direction};
 use crate::grid::{Occupancy, OccupancyGrid};
 use crate::site_ground::CoarseGrid;
-use crate::smallest_box::SmallestBox;
 use crate::watch::{Stopped, Watch};
 
 /// Diameter of the disc, metres: a gate and the walls beside it.
@@ -70,18 +69,18 @@ fn gate(
     if floor.is_empty() || (walls as f64) < WALL_SHARE * (walls + unseen) as f64 {
         return None;
     }
-    let shape = SmallestBox::around(&floor);
+    let shape = OrientedBox::smallest_around(&floor);
     let middle = middle(&floor);
     let hall = middle_of_neighbours(blocks, component, juts_out)?;
     let inwards = [0.0, 1.0, 2.0, 3.0]
-        .map(|quarter| direction(shape.heading + quarter * std::f64::consts::FRAC_PI_2))
+        .map(|quarter| direction(shape.angle + quarter * std::f64::consts::FRAC_PI_2))
         .into_iter()
         .max_by(|one, other| one.dot(&(hall - middle)).total_cmp(&other.dot(&(hall - middle))))?;
     gate_towards(ground, middle, inwards, &shape)
 }
 
 /// Walks from the middle of a bay to its gate, in cells.
-fn gate_towards(ground: &Ground, middle: Point, inwards: Vector, shape: &SmallestBox) -> Option<Passage> {
+fn gate_towards(ground: &Ground, middle: Point, inwards: Vector, shape: &OrientedBox) -> Option<Passage> {
     let most = DISC_M / ground.cell;
     let across = Vector::new(-inwards.y, inwards.x);
     let line = |step: usize| {
@@ -91,8 +90,8 @@ fn gate_towards(ground: &Ground, middle: Point, inwards: Vector, shape: &Smalles
         Some(([left, right], (right - left).norm()))
     };
     let (first, width) = line(0)?;
-    let narrow_side = usize::from(inwards.dot(&direction(shape.heading)).abs() > 0.5);
-    if width < EMPTY_SHARE * shape.extent[narrow_side] {
+    let narrow_side = usize::from(inwards.dot(&direction(shape.angle)).abs() > 0.5);
+    if width < EMPTY_SHARE * shape.sides()[narrow_side] {
         return None;
     }
     let is_within = |(_, here): &([Point; 2], f64)| *here <= OPENING * width && *here <= most;

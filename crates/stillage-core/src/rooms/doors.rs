@@ -5,7 +5,7 @@
 
 use super::Door;
 use crate::arrangement::{EdgeId, Subdivision};
-use crate::geometry::Point;
+use crate::geometry::{Point, segment};
 
 /// An edge runs through a passage when it is nearer than this to its middle, metres: half of what a wall is thick.
 const REACH_M: f64 = 0.3;
@@ -19,17 +19,10 @@ pub(super) fn of(passages: &[[Point; 2]], subdivision: &Subdivision, rooms: &[Op
     let borders: Vec<EdgeId> = subdivision.edges().filter(is_border).collect();
     let door = |&ends: &[Point; 2]| {
         let middle = nalgebra::center(&ends[0], &ends[1]);
-        let is_through = |&edge: &EdgeId| distance(middle, subdivision.segment(edge)) < REACH_M;
+        let is_through = |&edge: &EdgeId| segment::distance(middle, subdivision.segment(edge)) < REACH_M;
         let edges: Vec<EdgeId> = borders.iter().copied().filter(is_through).collect();
         let faces = subdivision.sides(*edges.first()?);
         Some(Door { ends, edges, faces })
     };
     passages.iter().filter_map(door).collect()
-}
-
-/// Distance of a point from a segment, metres.
-fn distance(point: Point, [start, end]: [Point; 2]) -> f64 {
-    let along = end - start;
-    let share = ((point - start).dot(&along) / along.norm_squared()).clamp(0.0, 1.0);
-    (point - (start + along * share)).norm()
 }

@@ -13,6 +13,7 @@
 
 use super::ground::Ground;
 use super::nearest::Nearest;
+use crate::geometry::DisjointSets;
 use crate::watch::{Stopped, Watch};
 
 /// A neck parts two rooms when it is narrower than this share of the narrower one at its widest, by the number of its
@@ -60,7 +61,8 @@ pub(super) fn passages(ground: &Ground, watch: &Watch<'_>) -> Result<Vec<Passage
         clearance: &clearance,
         basin_of: vec![NO_BASIN; ground.is_free.len()],
         is_ridge: vec![false; ground.is_free.len()],
-        basins: Vec::new(),
+        basins: DisjointSets::default(),
+        peaks: Vec::new(),
         passages: Vec::new(),
     };
     for cells in widest_first(ground, &clearance).chunks(4096) {
@@ -96,21 +98,16 @@ fn widest_first(ground: &Ground, clearance: &Nearest) -> Vec<u32> {
 
 const NO_BASIN: u32 = u32::MAX;
 
-/// Ground around a widest place, or several that were joined.
-struct Basin {
-    /// The basin it was joined with, or itself.
-    parent: u32,
-    /// Squared distance of its widest place to the nearest obstacle, cells.
-    peak: u32,
-}
-
 struct Flood<'a> {
     ground: &'a Ground,
     clearance: &'a Nearest,
     basin_of: Vec<u32>,
     /// Cells where two rooms meet: each neck is looked at once.
     is_ridge: Vec<bool>,
-    basins: Vec<Basin>,
+    /// Ground around a widest place each; those without a neck between them are joined. Wider ones come first.
+    basins: DisjointSets,
+    /// By basin: squared distance of its widest place to the nearest obstacle, cells.
+    peaks: Vec<u32>,
     passages: Vec<Passage>,
 }
 
@@ -127,17 +124,15 @@ impl Flood<'_> {
                 continue;
             }
             last = basin;
-            let basin = self.root(basin);
+            let basin = self.basins.find(basin as usize) as u32;
             if !met[..count].contains(&basin) {
                 met[count] = basin;
                 count += 1;
             }
         }
-        let Some(&widest) =
-            met[..count].iter().min_by_key(|&&basin| (std::cmp::Reverse(self.basins[basin as usize].peak), basin))
-        else {
-            self.basin_of[cell] = self.basins.len() as u32;
-            self.basins.push(Basin { parent: self.basins.len() as u32, peak: self.clearance.squared[cell] });
+        let Some(&widest) = met[..count].iter().min() else {
+            self.basin_of[cell] = self.basins.add() as u32;
+            self.peaks.push(self.clearance.squared[cell]);
             return;
         };
         self.basin_of[cell] = widest;
@@ -147,8 +142,8 @@ impl Flood<'_> {
         let is_known_neck = around.iter().any(|&near| self.is_ridge[near]);
         self.is_ridge[cell] = is_known_neck;
         for &basin in met[..count].iter().filter(|&&basin| basin != widest) {
-            match self.neck(cell, self.basins[basin as usize].peak, is_known_neck) {
-                Neck::Open => self.basins[basin as usize].parent = widest,
+            match self.neck(cell, self.peaks[basin as usize], is_known_neck) {
+                Neck::Open => _ = self.basins.join(basin as usize, widest as usize),
                 Neck::Parts(passage) => {
                     self.is_ridge[cell] = true;
                     self.passages.push(passage);
@@ -156,15 +151,6 @@ impl Flood<'_> {
                 Neck::Known => {}
             }
         }
-    }
-
-    fn root(&mut self, mut basin: u32) -> u32 {
-        while self.basins[basin as usize].parent != basin {
-            let above = self.basins[basin as usize].parent;
-            self.basins[basin as usize].parent = self.basins[above as usize].parent;
-            basin = above;
-        }
-        basin
     }
 
     /// What becomes of a basin of some peak that meets a wider one at a cell.

@@ -6,7 +6,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::geometry::Point;
+use crate::geometry::{Point, segment};
 
 /// Corners that stick out less than this are no corners, metres: the roughness of scanned walls.
 const TOLERANCE_M: f64 = 0.1;
@@ -131,11 +131,8 @@ fn simplified(chain: &[[i64; 2]], tolerance: f64) -> Vec<[i64; 2]> {
     chain.iter().zip(is_kept).filter(|&(_, is_kept)| is_kept).map(|(&corner, _)| corner).collect()
 }
 
-/// Distance of a point from a segment, which may be a point.
-fn distance(point: [i64; 2], start: [i64; 2], end: [i64; 2]) -> f64 {
-    let [along, offset] = [end, point].map(|to| [to[0] - start[0], to[1] - start[1]].map(|side| side as f64));
-    let squared = along[0] * along[0] + along[1] * along[1];
-    let share = if squared > 0.0 { (offset[0] * along[0] + offset[1] * along[1]) / squared } else { 0.0 };
-    let share = share.clamp(0.0, 1.0);
-    (offset[0] - share * along[0]).hypot(offset[1] - share * along[1])
+/// Distance of a corner from the segment between two others.
+fn distance(corner: [i64; 2], start: [i64; 2], end: [i64; 2]) -> f64 {
+    let from_start = |to: [i64; 2]| Point::new((to[0] - start[0]) as f64, (to[1] - start[1]) as f64);
+    segment::distance(from_start(corner), [Point::origin(), from_start(end)])
 }

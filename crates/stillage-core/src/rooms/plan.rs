@@ -15,7 +15,7 @@ use super::outline;
 use super::partition::Partition;
 use super::stacks::Stacks;
 use crate::decomposition::{self, Decomposition, Plot, PlotKind};
-use crate::disjoint_sets::DisjointSets;
+use crate::geometry::DisjointSets;
 use crate::geometry::{OrientedBox, Point, direction, fold_half_turn, normal};
 use crate::grid::{Occupancy, OccupancyGrid};
 use crate::radiography::Line;

@@ -18,7 +18,6 @@ use super::nearest::Nearest;
 use crate::components::{Component, Components, Neighbours};
 use crate::geometry::{OrientedBox, Point, direction};
 use crate::grid::{Occupancy, OccupancyGrid};
-use crate::smallest_box::SmallestBox;
 use crate::watch::{Stopped, Watch};
 
 /// Stacks are as thick as this at least, metres: walls are thinner, shelves of a shop have 0.5.
@@ -129,9 +128,10 @@ pub(super) fn footprint(thing: Component<'_>, closed: usize, cell: f64) -> Optio
         let [low, high] = [f64::from(run.row), f64::from(run.row) + 1.0];
         [(left, low), (right, low), (left, high), (right, high)].map(|(x, y)| Point::new(x, y) * cell)
     });
-    let SmallestBox { center, extent: [long, short], heading } = SmallestBox::around(&corners.collect::<Vec<_>>());
+    let smallest = OrientedBox::smallest_around(&corners.collect::<Vec<_>>());
+    let [long, short] = smallest.sides();
     let is_stack = short >= STACK_M && area_of(thing.len()) >= STACK_FILL * long * short;
-    is_stack.then_some(OrientedBox { center, half_extents: [long / 2.0, short / 2.0], angle: heading })
+    is_stack.then_some(smallest)
 }
 
 /// The cells that discs of some diameter cover, cells, which lie in those given (G. Matheron 1975); beyond the map is no

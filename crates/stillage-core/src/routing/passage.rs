@@ -7,7 +7,7 @@
 
 use super::RoutingMap;
 use crate::arrangement::{EdgeId, FaceId};
-use crate::geometry::Point;
+use crate::geometry::{Point, segment};
 use crate::grid::Occupancy;
 
 /// The rule of a path's steps. Cells are indices, row-major, lowest row first.
@@ -114,10 +114,7 @@ impl<'a> Passage<'a> {
         let (mut face, mut gone, mut crossed) = (before, 0.0, Vec::new());
         while face != behind {
             let exits = subdivision.boundary(face).filter_map(|half| {
-                let [first, second] = subdivision.segment(half.edge());
-                let (along, offset) = (second - first, first - start);
-                let turn = way.perp(&along);
-                let (share, on_edge) = (offset.perp(&along) / turn, offset.perp(&way) / turn);
+                let [share, on_edge] = segment::crossing(start, way, subdivision.segment(half.edge()));
                 let hit = share > gone + NEXT_TO_NOTHING && share <= 1.0 && (0.0..=1.0).contains(&on_edge);
                 hit.then_some((share, half))
             });
@@ -135,12 +132,7 @@ impl<'a> Passage<'a> {
     /// The edge between two faces that comes closest to a point.
     fn nearest_edge(&self, before: FaceId, behind: FaceId, point: Point) -> Option<EdgeId> {
         let links = self.map.analysis.graph.links(before).iter().filter(|link| link.1 == behind);
-        let distance = |edge: EdgeId| {
-            let [start, end] = self.map.analysis.subdivision.segment(edge);
-            let along = end - start;
-            let share = ((point - start).dot(&along) / along.norm_squared()).clamp(0.0, 1.0);
-            (point - (start + along * share)).norm()
-        };
+        let distance = |edge: EdgeId| segment::distance(point, self.map.analysis.subdivision.segment(edge));
         links.map(|&(edge, _)| edge).min_by(|&first, &second| distance(first).total_cmp(&distance(second)))
     }
 }

@@ -9,7 +9,7 @@ use super::{Assignment, AssignmentProblem, Cogency, Connectivity, LabelId, Place
 use crate::analysis::Analysis;
 use crate::annotation::{EdgeAnnotation, FaceAnnotation};
 use crate::arrangement::FaceId;
-use crate::disjoint_sets::DisjointSets;
+use crate::geometry::DisjointSets;
 
 /// Share of the length of an edge beyond which the cells along it outvote its cogency: the majority, as everywhere in
 /// the paper's annotation ("winner takes all").

@@ -32,7 +32,7 @@ use super::evidence::RowEvidence;
 use super::rack_row::RackRow;
 use super::row_model::Fit;
 use crate::decomposition::ground::{Patch, RegionFrame};
-use crate::orientation::energy::mix;
+use crate::geometry::hash::split_mix;
 use crate::watch::{Stopped, Watch};
 
 /// What the mean excess of rows must reach, logarithms of a likelihood per metre of a layer.
@@ -195,7 +195,7 @@ fn holds_goods(row: &Patch) -> bool {
 
 /// The columns of a row in another order: cut into short pieces, and these shuffled.
 fn shuffled(width: usize, cell: f64, seed: u64) -> Vec<usize> {
-    let mut random = (0_u64..).map(|turn| mix(mix(seed) ^ turn));
+    let mut random = (0_u64..).map(|turn| split_mix(split_mix(seed) ^ turn));
     let mut below = |limit: usize| random.next().unwrap_or_default() as usize % limit.max(1);
     let [shortest, longest] = PIECE_M.map(|metres| (metres / cell).round().max(1.0) as usize);
     let mut pieces = Vec::new();

@@ -1,0 +1,115 @@
+//! Rings and polygons. A ring does not repeat its first point; a polygon is its outlines (counter-clockwise) and holes
+//! (clockwise), in any order.
+
+use std::collections::BTreeMap;
+
+use super::point::{Point, Vector};
+
+use super::segment::x_at_level;
+
+/// Signed area of a ring, square metres; positive when counter-clockwise.
+#[must_use]
+pub fn ring_area(ring: &[Point]) -> f64 {
+    let Some(anchor) = ring.first() else { return 0.0 };
+    ring.windows(2).map(|pair| (pair[0] - anchor).perp(&(pair[1] - anchor))).sum::<f64>() / 2.0
+}
+
+/// Area of a polygon, square metres; 0 without rings.
+#[must_use]
+pub fn area(rings: &[Vec<Point>]) -> f64 {
+    // Not `sum`, which gives -0 for no rings.
+    rings.iter().fold(0.0, |area, ring| area + ring_area(ring))
+}
+
+/// The sides of all rings, in order.
+pub fn sides(rings: &[Vec<Point>]) -> impl Iterator<Item = [Point; 2]> + '_ {
+    rings.iter().flat_map(|ring| ring.iter().zip(ring.iter().cycle().skip(1)).map(|(&start, &end)| [start, end]))
+}
+
+/// Whether a point lies in a polygon: a ray to the right crosses its sides an odd number of times. Rings may turn either
+/// way. O(corners).
+#[must_use]
+pub fn contains(rings: &[Vec<Point>], point: Point) -> bool {
+    sides(rings).filter(|&side| x_at_level(side, point.y).is_some_and(|x| point.x < x)).count() % 2 == 1
+}
+
+/// Centroid of a polygon; `None` where it has no area.
+#[must_use]
+pub fn centroid(rings: &[Vec<Point>]) -> Option<Point> {
+    let anchor = *rings.iter().flatten().next()?;
+    let moment = |[start, end]: [Point; 2]| {
+        let (from, to) = (start - anchor, end - anchor);
+        (from + to) * from.perp(&to)
+    };
+    let area = area(rings);
+    (area != 0.0).then(|| anchor + sides(rings).map(moment).sum::<Vector>() / (6.0 * area))
+}
+
+/// Cuts a closed walk into rings wherever it comes back to a place: a ring that touches itself in a corner becomes two.
+/// What has fewer than three places (a dangling edge, walked there and back) bounds nothing and is dropped.
+/// O(n log n) for n places.
+pub fn simple_rings<K: Copy + Ord>(walk: impl IntoIterator<Item = K>) -> Vec<Vec<K>> {
+    let walk: Vec<K> = walk.into_iter().collect();
+    let mut sorted = walk.clone();
+    sorted.sort_unstable();
+    if walk.len() >= 3 && sorted.windows(2).all(|pair| pair[0] != pair[1]) {
+        return vec![walk];
+    }
+    let mut rings = Vec::new();
+    let mut path: Vec<K> = Vec::new();
+    let mut index_in_path: BTreeMap<K, usize> = BTreeMap::new();
+    for place in walk {
+        if let Some(&index) = index_in_path.get(&place) {
+            let ring = path.split_off(index);
+            for passed in &ring {
+                index_in_path.remove(passed);
+            }
+            rings.push(ring);
+        }
+        index_in_path.insert(place, path.len());
+        path.push(place);
+    }
+    rings.push(path);
+    rings.retain(|ring| ring.len() >= 3);
+    rings
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn square(low: f64, high: f64) -> Vec<Point> {
+        [(low, low), (high, low), (high, high), (low, high)].map(|(x, y)| Point::new(x, y)).to_vec()
+    }
+
+    fn with_a_hole() -> Vec<Vec<Point>> {
+        let mut hole = square(1.0, 2.0);
+        hole.reverse();
+        vec![square(0.0, 4.0), hole]
+    }
+
+    #[test]
+    fn a_hole_is_not_inside_and_takes_its_area() {
+        let polygon = with_a_hole();
+        assert_eq!(area(&polygon), 15.0);
+        let is_inside = |place: f64| contains(&polygon, Point::new(place, place));
+        assert_eq!([0.5, 1.5, 3.0, 5.0].map(is_inside), [true, false, true, false]);
+        assert_eq!(area(&[]).to_bits(), 0.0_f64.to_bits());
+    }
+
+    #[test]
+    fn the_centroid_is_the_mean_of_the_area() {
+        // 16 square metres around (2, 2) without one around (1.5, 1.5).
+        let expected = (16.0 * 2.0 - 1.5) / 15.0;
+        let found = centroid(&with_a_hole()).expect("it has an area");
+        assert!((found - Point::new(expected, expected)).norm() < 1e-12);
+        assert_eq!(centroid(&[square(1.0, 1.0)]), None);
+    }
+
+    #[test]
+    fn a_walk_is_cut_where_it_comes_back() {
+        assert_eq!(simple_rings([1, 2, 3, 1, 4, 5]), [vec![1, 2, 3], vec![1, 4, 5]]);
+        assert_eq!(simple_rings([1, 2, 3, 9, 3, 4]), [[1, 2, 3, 4]]);
+        assert_eq!(simple_rings([1, 2]), [[0; 0]; 0]);
+    }
+}
