@@ -61,7 +61,7 @@ fn site(side: usize) -> OccupancyGrid {
         let along = (column + row / PERIOD * DRIFT) % (PLACES * PLACE + GAP);
         let (depth, margin) = (row % PERIOD, PERIOD);
         let is_row = depth < ROW && (margin..side - margin).contains(&row) && (margin..side - margin).contains(&column);
-        let is_outline = depth == 0 || depth + 1 == ROW || along % PLACE == 0 || along % PLACE + 1 == BOX;
+        let is_outline = depth == 0 || depth + 1 == ROW || along.is_multiple_of(PLACE) || along % PLACE + 1 == BOX;
         match (is_wall, is_row && along < PLACES * PLACE && along % PLACE < BOX) {
             (true, _) => Occupancy::Occupied,
             (false, true) if is_outline => Occupancy::Occupied,

@@ -85,6 +85,9 @@ struct BandCandidate {
     score: f64,
 }
 
+/// A direction and the bands along it, ascending.
+type AxisBands = (Axis, Vec<Range<usize>>);
+
 impl XyCut<'_> {
     fn cut(&mut self, area: &BodyArea, depth: usize) -> Result<(), Stopped> {
         let Some(rect) = self.trimmed(&area.rect)? else { return Ok(()) };
@@ -106,9 +109,9 @@ impl XyCut<'_> {
         }
     }
 
-    /// The direction whose bands have the largest area, weighted by clearness, and the best of these bands, ascending;
-    /// `None` where there are none.
-    fn best_bands(&self, area: &BodyArea) -> Result<Option<(Axis, Vec<Range<usize>>)>, Stopped> {
+    /// The direction whose bands have the largest area, weighted by clearness, and the best of these bands; `None` where
+    /// there are none.
+    fn best_bands(&self, area: &BodyArea) -> Result<Option<AxisBands>, Stopped> {
         let (mut best, mut most) = (None, 0.0);
         for axis in Axis::BOTH {
             let bands = self.bands(area, axis)?;

@@ -1,6 +1,6 @@
 //! Where a vehicle finds room: the opening of the free cells by a square as wide as the vehicle.
 
-use super::RegionFrame;
+use super::frame::RegionFrame;
 use crate::morphology;
 use crate::watch::{Stopped, Watch};
 

@@ -119,7 +119,7 @@ impl Periodicity {
                 let of_layer = |layer: &Patch| RowEvidence::of(&layer.in_order(&order), real.cell, widths);
                 chance += score(&RowEvidence::bundle(layers.iter().map(of_layer)))?;
             }
-            // A row below chance is no row of places; how far below says nothing about the others.
+            // A row below chance is no row of places; how far below is no evidence about the others.
             let total = (score(real)? - chance / SHUFFLES as f64).max(0.0);
             Ok(Excess { total, length: real.length() * layers.len() as f64 })
         };

@@ -21,7 +21,7 @@ const MOST_MODELS: usize = 6;
 const ENOUGH_M: f64 = 400.0;
 /// The pitch of a single row is known to this, metres.
 const NEAR_M: f64 = 0.03;
-/// Rows shorter than this many places do not tell their pitch.
+/// Rows shorter than this many places do not determine their pitch.
 const LEAST_PLACES: f64 = 2.2;
 
 /// Rows of one direction.
@@ -35,7 +35,7 @@ pub(super) struct RowSet<'a> {
 type Learnt = (usize, RowModel, FitSummary);
 
 impl RowSet<'_> {
-    /// The model that explains all rows best; `None` where they are too short to tell.
+    /// The model that explains all rows best; `None` where they are too short.
     pub fn common_model(&self, watch: &Watch<'_>) -> Result<Option<RowModel>, Stopped> {
         let all: Vec<usize> = (0..self.rows.len()).collect();
         self.best(&self.sample(&all), watch)

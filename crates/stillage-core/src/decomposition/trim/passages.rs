@@ -1,6 +1,6 @@
 //! Passages through rows that lie beside one another.
 //!
-//! Empty places and open floor look alike; only several rows together tell them apart. A run of pieces on which vehicles
+//! Empty places and open floor look alike; only several rows together distinguish them. A run of pieces on which vehicles
 //! find room is a passage where it goes on, at the same place, through three rows and across an aisle, or where the comb
 //! found a passage in one row and such a run in the next. Its sides are the medians of the sides of its runs.
 //!
@@ -229,7 +229,9 @@ mod tests {
                 next += 1;
             }
             if let Some(range) = passage(&members, LENGTHS.pair) {
-                members.iter().for_each(|member| of_rows[member.row].push(range));
+                for member in members {
+                    of_rows[member.row].push(range);
+                }
             }
         }
         for ranges in &mut of_rows {

@@ -5,8 +5,8 @@
 //!   is a few empty places. So is a bare piece between places that is as wide as they are.
 //! - A row ends with its last goods, and no row goes through a wall: bare pieces beyond are open floor.
 //!
-//! Cost: O(cells of the rows). Limits: an empty place at the end of a row without a post is given up, since nothing tells
-//! it from floor.
+//! Cost: O(cells of the rows). Limits: an empty place at the end of a row without a post is given up, since it looks
+//! like floor.
 
 use super::passages::Passages;
 use super::piece_row::PieceRow;
