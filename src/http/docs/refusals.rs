@@ -1,7 +1,7 @@
 //! The refusals of an operation, as the document shows them.
 //!
 //! A handler names its own in `responses(...)`, such as `NotFound` or `NotAnalysed`. Those that follow from the shape of
-//! an operation (it is a write, has a body, has a condition) are added by [`super::openapi`]. Each is one component of
+//! an operation (it is a write, has a body, has a condition) are added by [`mod@super::openapi`]. Each is one component of
 //! the document that the operations refer to.
 
 use std::collections::BTreeMap;
