@@ -6,7 +6,7 @@ FROM rust:1.95.0-bookworm AS build
 ENV RUSTUP_TOOLCHAIN=1.95.0
 WORKDIR /stillage
 COPY . .
-RUN cargo build --release --locked --bin stillage
+RUN cargo build --release --locked --bin stillage && strip target/release/stillage
 
 # Run: a small Debian with the same libc, a user without rights, curl for the health check.
 FROM debian:bookworm-slim

@@ -40,18 +40,30 @@ pub use maps::evaluations::EvaluationView;
 const BODY_BYTES: usize = 8 << 20;
 
 /// The list of routes.
+///
+/// What holds for one route only stands at the route: the length of its body and the time for its answer here, the
+/// refusals it can answer and its headers at its handler. The document is made from both.
 fn routes(upload_bytes: usize) -> OpenApiRouter<Arc<App>> {
     // Refuses by the declared length before anything is read, and while reading where none was declared.
     let upload_limit =
         ServiceBuilder::new().layer(RequestBodyLimitLayer::new(upload_bytes)).layer(DefaultBodyLimit::disable());
+    // A large upload takes as long as its pace allows: no clock runs for its answer.
+    let uploads = OpenApiRouter::new().routes(routes!(maps::map::create).layer(upload_limit));
     OpenApiRouter::with_openapi(docs::openapi::head())
+        .merge(answered_in_time().layer(from_fn(guard::in_time)))
+        .merge(uploads)
+}
+
+/// The routes whose answers come within [`guard::in_time`].
+fn answered_in_time() -> OpenApiRouter<Arc<App>> {
+    OpenApiRouter::new()
         .routes(routes!(docs::landing))
         .routes(routes!(docs::openapi))
-        .routes(routes!(problem::describe))
+        .routes(routes!(docs::problem_types::describe))
         .routes(routes!(admin::health::live))
         .routes(routes!(admin::health::ready))
         .routes(routes!(guard::observe::metrics))
-        .routes(routes!(maps::map::list, maps::map::create).layer(upload_limit))
+        .routes(routes!(maps::map::list))
         .routes(routes!(maps::map::get, maps::map::update, maps::map::delete))
         .routes(routes!(maps::analyses::list, maps::analyses::create))
         .routes(routes!(maps::analyses::diagnostics))
@@ -106,7 +118,7 @@ pub fn router(app: Arc<App>) -> Router {
         .layer(CatchPanicLayer::custom(problem::of_panic))
         .layer(from_fn(guard::one_host))
         .layer(from_fn(guard::other_origins))
-        .layer(from_fn(guard::in_time))
+        .layer(from_fn(guard::at_pace))
         .layer(from_fn_with_state(known, guard::known_parameters))
         .layer(from_fn(extract::negotiation::negotiate))
         .layer(DefaultBodyLimit::max(BODY_BYTES))
@@ -114,7 +126,7 @@ pub fn router(app: Arc<App>) -> Router {
         .layer(Extension(docs::Document(docs::openapi::write(&document).into())));
     router
         // Clients that take a map for the root of an API ask for it with a slash.
-        .route("/v1/maps/{mapId}/", get(maps::map::get))
+        .route("/v1/maps/{mapId}/", get(maps::map::get).layer(from_fn(guard::in_time)))
         .merge(docs::reference_page())
         .layer(layers)
         .with_state(app)

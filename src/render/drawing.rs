@@ -1,4 +1,4 @@
-//! A drawing: shapes in pixels, y down, from which [`png`](super::png) and [`svg`](super::svg) make the same picture.
+//! A drawing: shapes in pixels, y down, from which [`png`](super::raster) and [`svg`](super::svg) make the same picture.
 
 use stillage_core::OccupancyGrid;
 

@@ -87,7 +87,7 @@ fn scale(width: usize, height: usize) -> Scale {
         return Scale::Enlarged(ENLARGED_SIDE.div_ceil(width.max(height).max(1)).min(LARGEST_CELL));
     }
     let fits = |&divisor: &usize| width.div_ceil(divisor).saturating_mul(height.div_ceil(divisor)) <= MOST_PIXELS;
-    Scale::Reduced((2..).find(fits).unwrap_or(usize::MAX))
+    Scale::Reduced((2..=usize::MAX).find(fits).unwrap_or(usize::MAX))
 }
 
 /// From the grid frame to the picture.

@@ -1,35 +1,323 @@
-//! The OpenAPI document is true: every read in it answers as it says.
+//! The OpenAPI document is true: every operation answers as it says, and says all that it answers.
+//!
+//! [`valid`] has one good request for each operation of the document. [`wrongs`] spoils it in every way that fits the shape of
+//! the operation. Each answer must be documented, and each documented refusal must be among the answers.
 
-use serde_json::Value;
+use std::collections::{BTreeMap, BTreeSet};
 
-use crate::client::Api;
+use axum::body::Body;
+use axum::http::{HeaderName, Method, Request};
+use serde_json::{Value, json};
+
+use crate::client::{Answer, Api, HALL, METADATA, pgm, upload};
+
+/// No resource has this id.
+const NOBODY: &str = "00000000-0000-7000-8000-000000000000";
+/// Longer than every body may be.
+const TOO_LONG_BYTES: u64 = 1 << 40;
+/// Longer than the body of any operation but an upload may be.
+const LONG_BYTES: usize = 9 << 20;
+/// Faults of the network, of the service and of its disk: a request by itself cannot provoke them.
+const FAULTS: [&str; 4] = ["408", "500", "503", "507"];
+
+/// A request that can be sent more than once, and spoilt.
+#[derive(Debug, Clone, PartialEq)]
+struct Sent {
+    method: Method,
+    path: String,
+    headers: BTreeMap<&'static str, String>,
+    body: Vec<u8>,
+}
+
+impl Sent {
+    fn new(method: Method, path: impl Into<String>) -> Self {
+        Self { method, path: path.into(), headers: BTreeMap::new(), body: Vec::new() }
+    }
+
+    fn with(mut self, name: &'static str, value: impl Into<String>) -> Self {
+        self.headers.insert(name, value.into());
+        self
+    }
+
+    fn without(mut self, name: &str) -> Self {
+        self.headers.remove(name);
+        self
+    }
+
+    fn json(self, body: &Value) -> Self {
+        Self { body: body.to_string().into_bytes(), ..self }.with("content-type", "application/json")
+    }
+
+    fn at(self, path: impl Into<String>) -> Self {
+        Self { path: path.into(), ..self }
+    }
+
+    async fn to(&self, api: &Api) -> Answer {
+        let mut request = Request::new(Body::from(self.body.clone()));
+        *request.method_mut() = self.method.clone();
+        *request.uri_mut() = self.path.parse().expect("is an address");
+        for (name, value) in &self.headers {
+            request.headers_mut().insert(HeaderName::from_static(name), value.parse().expect("is a header"));
+        }
+        api.send(request).await
+    }
+}
+
+/// What the requests are about.
+struct Site {
+    api: Api,
+    /// Path of a map that is analysed.
+    map: String,
+    /// Path of a map that waits for its analysis.
+    waiting: String,
+    /// Job of the first one, which is over.
+    over: String,
+}
+
+impl Site {
+    async fn new() -> Self {
+        let api = Api::new().await;
+        let map = api.hall().await;
+        let over = api.get("/v1/jobs").await.json()["jobs"][0]["jobID"].as_str().expect("an id").to_owned();
+        let waiting = waiting_map(&api).await;
+        Self { api, map, waiting, over }
+    }
+
+    /// Works on the queue until it is empty, and puts another map in it.
+    async fn work(&mut self) {
+        self.api.app.run_until_empty().await.expect("the queue can be worked on");
+        self.waiting = waiting_map(&self.api).await;
+    }
+
+    /// A job that waits.
+    async fn job(&self) -> String {
+        let answer = self.api.send(upload(&pgm(HALL), METADATA)).await;
+        answer.json()["jobID"].as_str().expect("an id").to_owned()
+    }
+
+    /// A rule set that may be written; its path and tag.
+    async fn rule_set(&self, id: &str) -> (String, String) {
+        let made = Sent::new(Method::POST, "/v1/rule-sets").json(&rule_set(id)).to(&self.api).await;
+        assert_eq!(made.status, 201, "{}", made.text());
+        (format!("/v1/rule-sets/{id}"), made.header("etag").to_owned())
+    }
+}
+
+/// Uploads the hall; the path of the map.
+async fn waiting_map(api: &Api) -> String {
+    let answer = api.send(upload(&pgm(HALL), METADATA)).await.json();
+    format!("/v1/maps/{}", answer["mapId"].as_str().expect("an id"))
+}
+
+fn rule_set(id: &str) -> Value {
+    json!({"id": id, "labels": [
+        {"id": "co", "name": "corridor", "color": "#1f77b4", "functionality": ["drivable"], "connectsTo": ["co"]},
+        {"id": "un", "name": "unidentified", "color": "#999999"}]})
+}
+
+/// A good request for each operation, and the statuses that answer it. An operation without one fails the test.
+async fn valid(site: &Site, operation: &str) -> (Sent, &'static [u16]) {
+    let map = &site.map;
+    let get = |path: String| (Sent::new(Method::GET, path), [200].as_slice());
+    match operation {
+        "getLandingPage" => get("/".into()),
+        "getLiveness" => get("/health/live".into()),
+        "getReadiness" => get("/health/ready".into()),
+        "getMetrics" => get("/metrics".into()),
+        "getOpenApi" => get("/openapi.json".into()),
+        "getProblemType" => get("/problems/busy".into()),
+        "listJobs" => get("/v1/jobs".into()),
+        "getJob" => get(format!("/v1/jobs/{}", site.over)),
+        "watchJob" => get(format!("/v1/jobs/{}/events", site.over)),
+        "dismissJob" => (Sent::new(Method::DELETE, format!("/v1/jobs/{}", site.job().await)), &[200]),
+        "listMaps" => get("/v1/maps".into()),
+        "createMap" => {
+            let message = json!({"info": {"resolution": 0.05, "width": 2, "height": 1, "origin": {
+                "position": {"x": 0, "y": 0, "z": 0}, "orientation": {"x": 0, "y": 0, "z": 0, "w": 1}}}, "data": [0, 100]});
+            (Sent::new(Method::POST, "/v1/maps").json(&message), &[202])
+        }
+        "getMap" => get(map.clone()),
+        "updateMap" => (Sent::new(Method::PATCH, map).json(&json!({"name": "Hall"})).with("if-match", "*"), &[200]),
+        "deleteMap" => (Sent::new(Method::DELETE, waiting_map(&site.api).await), &[204]),
+        "listAnalyses" => get(format!("{map}/analyses")),
+        "createAnalysis" => (Sent::new(Method::POST, format!("{map}/analyses")).json(&json!({"seed": 7})), &[202, 200]),
+        "getDiagnostics" => get(format!("{map}/diagnostics")),
+        "evaluate" => {
+            let truth = json!({"type": "FeatureCollection", "features": [{"type": "Feature", "properties": {"label": "corridor"},
+                "geometry": {"type": "Polygon", "coordinates": [[[0, 0], [2, 0], [2, 1], [0, 1], [0, 0]]]}}]});
+            let sent = Sent::new(Method::POST, format!("{map}/evaluations")).json(&truth);
+            (sent.with("content-type", "application/geo+json"), &[200])
+        }
+        "getImage" => get(format!("{map}/image.png")),
+        "getCategoriesImage" => get(format!("{map}/categories.png")),
+        "getRegionsImage" => get(format!("{map}/regions.png")),
+        "getSemanticImage" => get(format!("{map}/semantic.png")),
+        "getSemanticDrawing" => get(format!("{map}/semantic.svg")),
+        "listCategories" => get(format!("{map}/categories")),
+        "getSemantics" => get(format!("{map}/semantics")),
+        "assignSemantics" => {
+            let assignment = json!({"assignment": {"0": "co"}});
+            (Sent::new(Method::PUT, format!("{map}/semantics")).json(&assignment).with("if-match", "*"), &[200])
+        }
+        "listSemanticsVersions" => get(format!("{map}/semantics/versions")),
+        "listCollections" => get(format!("{map}/collections")),
+        "getCollection" => get(format!("{map}/collections/doors")),
+        "getFeatures" => get(format!("{map}/collections/faces/items")),
+        "getFeature" => get(format!("{map}/collections/vertices/items/0")),
+        "getRoute" => {
+            // Robots may drive wherever cells are free.
+            let every = json!({"assignment": site.api.all_labelled(map, "co").await});
+            let labelled = Sent::new(Method::PUT, format!("{map}/semantics")).json(&every).with("if-match", "*");
+            assert_eq!(labelled.to(&site.api).await.status, 200);
+            get(format!("{map}/routes?from=-1,3.5&to=12,0&crs=EPSG:3857"))
+        }
+        "listRuleSets" => get("/v1/rule-sets".into()),
+        "createRuleSet" => (Sent::new(Method::POST, "/v1/rule-sets").json(&rule_set("new")), &[201]),
+        "getRuleSet" => get("/v1/rule-sets/office".into()),
+        "replaceRuleSet" => {
+            let (path, tag) = site.rule_set("replaced").await;
+            (Sent::new(Method::PUT, path).json(&rule_set("replaced")).with("if-match", tag), &[200])
+        }
+        "deleteRuleSet" => {
+            let (path, tag) = site.rule_set("deleted").await;
+            (Sent::new(Method::DELETE, path).with("if-match", tag), &[204])
+        }
+        new => panic!("{new} has no example: add a good request for it here"),
+    }
+}
+
+/// The good request, spoilt in every way that fits its shape, before it is sent itself.
+fn wrongs(site: &Site, operation: &str, good: &Sent) -> Vec<Sent> {
+    let sent = || good.clone();
+    let parameter = if good.path.contains('?') { "&stranger=1" } else { "?stranger=1" };
+    let mut wrongs = vec![
+        sent().at(format!("{}{parameter}", good.path)),
+        sent().with("origin", "https://elsewhere.example"),
+        sent().at(good.path.replace(&site.map, &site.waiting)),
+    ];
+    if good.method == Method::GET {
+        wrongs.push(sent().with("accept", "image/x-nothing"));
+    }
+    if good.headers.contains_key("if-match") {
+        wrongs.extend([sent().with("if-match", "\"of yesterday\""), sent().without("if-match")]);
+    }
+    if let Some(id) = good.path.split('/').find(|part| part.len() == NOBODY.len()) {
+        wrongs.push(sent().at(good.path.replace(id, NOBODY)));
+    }
+    if !good.body.is_empty() {
+        let misfit = Sent { body: br#"{"stranger": 1}"#.to_vec(), ..sent() };
+        let broken = Sent { body: b"{".to_vec(), ..sent() };
+        let long = Sent { body: vec![b' '; LONG_BYTES], ..sent() };
+        wrongs.extend([misfit, broken, long, sent().with("content-type", "text/plain")]);
+    }
+    let own = |path: &str| sent().at(path.to_owned());
+    wrongs.extend(match operation {
+        "getProblemType" => vec![own("/problems/none")],
+        "getRuleSet" | "replaceRuleSet" | "deleteRuleSet" => {
+            vec![own("/v1/rule-sets/none"), own("/v1/rule-sets/office")]
+        }
+        "getCollection" => vec![own(&format!("{}/collections/none", site.map))],
+        "getFeature" => vec![own(&format!("{}/collections/vertices/items/999999", site.map))],
+        "getRoute" => vec![own(&format!("{}/routes?from=face:1&to=face:9999", site.map))],
+        "dismissJob" => vec![own(&format!("/v1/jobs/{}", site.over))],
+        "createRuleSet" => vec![sent().json(&rule_set("office"))],
+        "createMap" => vec![
+            sent().with("content-length", TOO_LONG_BYTES.to_string()),
+            sent().with("idempotency-key", "k"),
+            Sent { body: b"[]".to_vec(), ..sent().with("idempotency-key", "k") },
+        ],
+        "watchJob" => vec![sent().with("last-event-id", i64::MAX.to_string())],
+        _ => Vec::new(),
+    });
+    // Another map changes nothing where the request is not about the first one.
+    wrongs.retain(|wrong| wrong != good);
+    wrongs
+}
+
+/// The operations of a document: id and description.
+fn operations(document: &Value) -> Vec<(String, Value)> {
+    let items = document["paths"].as_object().into_iter().flatten();
+    let of_item =
+        |(_, item): (&String, &Value)| item.as_object().expect("operations").values().cloned().collect::<Vec<_>>();
+    let operations = items.flat_map(of_item);
+    operations.map(|operation| (operation["operationId"].as_str().expect("an id").to_owned(), operation)).collect()
+}
+
+/// What the document says of an answer, its component looked up.
+fn documented<'a>(document: &'a Value, operation: &'a Value, status: &str) -> Option<&'a Value> {
+    let answer = operation["responses"].get(status)?;
+    match answer.get("$ref").and_then(Value::as_str) {
+        Some(reference) => document.pointer(reference.trim_start_matches('#')),
+        None => Some(answer),
+    }
+}
+
+/// An answer is documented, with its media type and its headers.
+fn check(document: &Value, (id, operation): (&str, &Value), sent: &Sent, answer: &Answer) {
+    let Sent { method, path, headers, .. } = sent;
+    let told = || format!("{id}: {method} {path} {headers:?} -> {}: {}", answer.status, answer.text());
+    let described = documented(document, operation, answer.status.as_str());
+    let described = described.unwrap_or_else(|| panic!("not documented: {}", told()));
+    let media_type = answer.header("content-type");
+    match described.get("content").and_then(Value::as_object) {
+        Some(content) => assert!(content.contains_key(media_type), "{media_type} is not documented: {}", told()),
+        None => assert!(answer.body.is_empty(), "content is not documented: {}", told()),
+    }
+    for (name, header) in described["headers"].as_object().into_iter().flatten() {
+        // A header whose type allows null may be missing.
+        let may_be_missing = header["schema"]["type"].as_array().is_some_and(|types| types.contains(&json!("null")));
+        assert!(may_be_missing || !answer.header(name).is_empty(), "{name} is missing: {}", told());
+    }
+}
 
 #[tokio::test]
-async fn every_read_answers_as_documented() {
-    let api = Api::new().await;
-    let map = api.hall().await;
-    let job = api.get("/v1/jobs").await.json()["jobs"][0]["jobID"].as_str().expect("an id").to_owned();
-    let document = api.get("/openapi.json").await.json();
-    for (template, item) in document["paths"].as_object().expect("paths") {
-        let Some(operation) = item.get("get") else { continue };
-        let path = template
-            .replace("/v1/maps/{mapId}", &map)
-            .replace("{collectionId}", "vertices")
-            .replace("{featureId}", "0")
-            .replace("{jobId}", &job)
-            .replace("{ruleSetId}", "office")
-            .replace("{problem}", "busy");
-        let query = if path.ends_with("/routes") { "?from=face:1&to=face:1" } else { "" };
-        let answer = api.get(&format!("{path}{query}")).await;
-        let documented = operation["responses"].get(answer.status.as_str());
-        let documented = documented.unwrap_or_else(|| panic!("{path}: {} is not documented", answer.status));
-        assert!(answer.status.is_success() || path.ends_with("/routes"), "{path}: {}", answer.text());
-        if let Some(content) = documented.get("content").and_then(Value::as_object) {
-            assert!(content.contains_key(answer.header("content-type")), "{path}: {}", answer.header("content-type"));
+async fn every_operation_answers_as_documented_and_every_refusal_occurs() {
+    let mut site = Site::new().await;
+    let document = site.api.get("/openapi.json").await.json();
+    let mut never: Vec<String> = Vec::new();
+    for (id, operation) in operations(&document) {
+        let (good, statuses) = valid(&site, &id).await;
+        let mut seen = BTreeSet::new();
+        for wrong in wrongs(&site, &id, &good) {
+            let answer = wrong.to(&site.api).await;
+            check(&document, (&id, &operation), &wrong, &answer);
+            seen.insert(answer.status.as_str().to_owned());
         }
-        for header in documented["headers"].as_object().into_iter().flatten().map(|(name, _)| name) {
-            assert!(header == "Link" || !answer.header(header).is_empty(), "{path}: {header}");
+        for &status in statuses {
+            let answer = good.to(&site.api).await;
+            assert_eq!(answer.status, status, "{id}: {}", answer.text());
+            check(&document, (&id, &operation), &good, &answer);
+            seen.insert(answer.status.as_str().to_owned());
+            if status == 202 {
+                site.work().await;
+            }
+            let tag = answer.header("etag").to_owned();
+            if good.method == Method::GET && !tag.is_empty() {
+                let again = good.clone().with("if-none-match", tag);
+                let answer = again.to(&site.api).await;
+                check(&document, (&id, &operation), &again, &answer);
+                seen.insert(answer.status.as_str().to_owned());
+            }
         }
+        let documented = operation["responses"].as_object().expect("responses").keys().map(String::as_str);
+        let provoked = documented.filter(|status| !FAULTS.contains(status));
+        never.extend(provoked.filter(|status| !seen.contains(*status)).map(|status| format!("{id}: {status}")));
+    }
+    assert!(never.is_empty(), "documented and never answered: {never:?}");
+}
+
+#[tokio::test]
+async fn a_short_disk_and_a_full_queue_are_documented() {
+    let document = Api::new().await.get("/openapi.json").await.json();
+    let operations = operations(&document);
+    let (id, operation) = operations.iter().find(|(id, _)| id == "createMap").expect("maps can be uploaded");
+    let short = Api::with(|config| config.min_free_bytes = u64::MAX).await;
+    let full = Api::with(|config| config.max_queued_jobs = 0).await;
+    for (api, status) in [(&short, 507), (&full, 503)] {
+        let request = upload(&pgm(HALL), METADATA);
+        let answer = api.send(request).await;
+        assert_eq!(answer.status, status, "{}", answer.text());
+        check(&document, (id, operation), &Sent::new(Method::POST, "/v1/maps"), &answer);
     }
 }
 
@@ -56,12 +344,20 @@ async fn the_document_needs_nothing_from_elsewhere() {
         assert!(document.pointer(pointer).is_some(), "{reference} leads nowhere");
     }
     assert_eq!(document["info"]["license"]["identifier"], "MIT OR Apache-2.0");
-    let mut ids = std::collections::BTreeSet::new();
-    for operation in
-        document["paths"].as_object().into_iter().flatten().filter_map(|(_, item)| item.as_object()).flatten()
-    {
-        let id = operation.1["operationId"].as_str().expect("every operation has an id");
-        assert!(ids.insert(id.to_owned()), "{id} is there twice");
-        assert!(operation.1["tags"][0].is_string() && operation.1["summary"].is_string(), "{id}");
+    let mut ids = BTreeSet::new();
+    for (id, operation) in operations(&document) {
+        assert!(ids.insert(id.clone()), "{id} is there twice");
+        assert!(operation["tags"][0].is_string() && operation["summary"].is_string(), "{id}");
     }
+}
+
+#[tokio::test]
+async fn the_list_of_collections_is_that_of_the_service() {
+    let api = Api::new().await;
+    let map = api.hall().await;
+    let document = api.get("/openapi.json").await.json();
+    let listed = api.get(&format!("{map}/collections")).await.json();
+    let listed: Vec<&Value> = listed["collections"].as_array().expect("a list").iter().map(|one| &one["id"]).collect();
+    let documented = document["components"]["schemas"]["CollectionId"]["enum"].as_array().expect("an enum");
+    assert_eq!(documented.iter().collect::<Vec<_>>(), listed);
 }

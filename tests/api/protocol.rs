@@ -150,7 +150,7 @@ async fn the_document_is_served_compressed_and_conditionally() {
     let tag = answer.header("etag").to_owned();
     let answer = api.get_with("/openapi.json", &[("if-none-match", &tag)]).await;
     assert_eq!((answer.status.as_u16(), answer.header("etag"), answer.body.len()), (304, tag.as_str(), 0));
-    for coding in ["gzip", "br", "zstd"] {
+    for coding in ["gzip", "zstd"] {
         let answer = api.get_with("/openapi.json", &[("accept-encoding", coding)]).await;
         assert_eq!(answer.header("content-encoding"), coding);
         assert_eq!(answer.header("etag"), tag.trim_end_matches('"').to_owned() + "-" + coding + "\"");

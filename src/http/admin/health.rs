@@ -8,6 +8,7 @@ use serde::Serialize;
 use utoipa::ToSchema;
 
 use crate::app::App;
+use crate::http::docs::refusals::NoSpace;
 use crate::http::problem::Problem;
 
 /// State of the service.
@@ -32,8 +33,7 @@ pub async fn live() -> Json<Health> {
 /// 503 or 507 while the store does not answer, is not migrated, is short of space, or the service is stopping.
 #[utoipa::path(get, path = "/health/ready", tag = "service", operation_id = "getReadiness",
     responses((status = 200, description = "The service takes work", body = Health),
-        (status = 507, description = "Short of disk space", body = crate::http::problem::ProblemDocument,
-            content_type = "application/problem+json")))]
+        NoSpace))]
 pub async fn ready(State(app): State<Arc<App>>) -> Result<Json<Health>, Problem> {
     app.ready().await?;
     Ok(Json(Health { status: "ready" }))

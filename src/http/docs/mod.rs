@@ -1,6 +1,8 @@
 //! The front door, the OpenAPI document and the reference page made of it. Nothing loads from elsewhere.
 
 pub mod openapi;
+pub mod problem_types;
+pub mod refusals;
 
 use axum::Json;
 use axum::response::{IntoResponse, Response};

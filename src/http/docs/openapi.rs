@@ -4,12 +4,16 @@ use serde_json::Value;
 use stillage_core::AnalysisOptions;
 use utoipa::openapi::path::{Operation, Parameter, ParameterBuilder, ParameterIn};
 use utoipa::openapi::schema::Type;
-use utoipa::openapi::{ContentBuilder, OpenApi, Ref, RefOr, Required, Response, ResponseBuilder, Schema};
-use utoipa::{OpenApi as _, ToSchema as _};
+use utoipa::openapi::{OpenApi, RefOr, Required, ResponseBuilder, Schema};
+use utoipa::{IntoResponses as _, OpenApi as _};
 
+use super::refusals::{
+    BadRequest, Forbidden, Internal, Invalid, NotAcceptable, PreconditionFailed, Timeout, TooLarge, Unavailable,
+    UnsupportedMediaType,
+};
 use crate::http::extract::crs::CrsName;
-use crate::http::ogc::collections::CollectionIdView;
-use crate::http::problem::{PROBLEM_JSON, ProblemDocument};
+use crate::http::ogc::collections::CollectionId;
+use crate::http::problem::ProblemDocument;
 
 /// What the document says of itself.
 #[derive(utoipa::OpenApi)]
@@ -23,7 +27,7 @@ use crate::http::problem::{PROBLEM_JSON, ProblemDocument};
     ),
     servers((url = "/", description = "This service")),
     // Beside the problems, what occurs in parameters only.
-    components(schemas(ProblemDocument, CollectionIdView, CrsName)),
+    components(schemas(ProblemDocument, CollectionId, CrsName)),
     tags(
         (name = "maps", description = "Upload maps and look at them"),
         (name = "jobs", description = "Watch and dismiss analyses"),
@@ -43,7 +47,7 @@ pub fn head() -> OpenApi {
 
 /// Completes the document once all routes are in it.
 pub fn complete(document: &mut OpenApi) {
-    for (path, item) in &mut document.paths.paths {
+    for item in document.paths.paths.values_mut() {
         let operations = [
             (&mut item.get, true),
             (&mut item.put, false),
@@ -53,46 +57,18 @@ pub fn complete(document: &mut OpenApi) {
         ];
         for (operation, is_read) in operations {
             if let Some(operation) = operation {
-                complete_operation(operation, path, is_read);
+                complete_operation(operation, is_read);
             }
         }
     }
     let components = document.components.get_or_insert_default();
-    for (name, status, description) in PROBLEMS {
-        components.responses.insert((*name).to_owned(), problem_response(*status, description).into());
+    for (name, response) in super::refusals::components() {
+        components.responses.insert(name.to_owned(), response.into());
     }
 }
 
-/// The problems that follow from the shape of an operation, by the name of their component.
-const PROBLEMS: &[(&str, u16, &str)] = &[
-    ("BadRequest", 400, "The request is malformed, or a parameter is unknown or has a bad value"),
-    ("Forbidden", 403, "A page of another site tried to write, or the resource is read-only"),
-    ("NotFound", 404, "There is no such resource"),
-    ("NotAcceptable", 406, "No representation of an accepted media type"),
-    ("Timeout", 408, "The body arrived too slowly"),
-    ("NotAnalysed", 409, "The map has no finished analysis yet"),
-    ("PreconditionFailed", 412, "The resource has changed since the ETag in If-Match was read"),
-    ("TooLarge", 413, "The request is over a limit"),
-    ("UnsupportedMediaType", 415, "The format is not supported"),
-    ("Invalid", 422, "The content is invalid"),
-    ("Internal", 500, "The service failed"),
-    ("Unavailable", 503, "The service cannot answer now, or the queue is full"),
-];
-
-fn problem_response(status: u16, description: &str) -> Response {
-    let schema = Ref::from_schema_name(ProblemDocument::name());
-    let builder = ResponseBuilder::new().description(description);
-    let builder = builder.content(PROBLEM_JSON, ContentBuilder::new().schema(Some(schema)).build());
-    let seconds = utoipa::openapi::ObjectBuilder::new().schema_type(Type::Integer);
-    let retry_after = utoipa::openapi::HeaderBuilder::new().schema(Some(seconds)).description(Some("Seconds to wait"));
-    match status {
-        503 => builder.header("Retry-After", retry_after.build()).build(),
-        _ => builder.build(),
-    }
-}
-
-/// Adds what follows from the shape of an operation: the problems it can answer, and the conditional read.
-fn complete_operation(operation: &mut Operation, path: &str, is_read: bool) {
+/// Adds what follows from the shape of an operation: the refusals of its kind, and the conditional read.
+fn complete_operation(operation: &mut Operation, is_read: bool) {
     for parameter in operation.parameters.iter_mut().flatten() {
         // A header is there or not; it is never null.
         if let RefOr::T(parameter @ Parameter { parameter_in: ParameterIn::Header, .. }) = parameter
@@ -101,30 +77,24 @@ fn complete_operation(operation: &mut Operation, path: &str, is_read: bool) {
             schema.schema_type = Type::String.into();
         }
     }
-    let below_map = path.starts_with("/v1/maps/{mapId}/") && !path.ends_with("/analyses");
     let has_if_match = operation.parameters.iter().flatten().any(|parameter| {
         matches!(parameter, RefOr::T(Parameter { name, parameter_in: ParameterIn::Header, .. }) if name == "If-Match")
     });
+    let has_body = operation.request_body.is_some();
     let rules = [
-        (true, "BadRequest"),
-        (!is_read, "Forbidden"),
-        (path.contains('{'), "NotFound"),
-        (is_read, "NotAcceptable"),
-        (operation.request_body.is_some(), "Timeout"),
-        (below_map, "NotAnalysed"),
-        (has_if_match, "PreconditionFailed"),
-        (operation.request_body.is_some(), "TooLarge"),
-        (operation.request_body.is_some(), "UnsupportedMediaType"),
-        (operation.request_body.is_some(), "Invalid"),
-        (true, "Internal"),
-        (true, "Unavailable"),
+        (true, BadRequest::responses()),
+        (!is_read, Forbidden::responses()),
+        (is_read, NotAcceptable::responses()),
+        (has_body, Timeout::responses()),
+        (has_if_match, PreconditionFailed::responses()),
+        (has_body, TooLarge::responses()),
+        (has_body, UnsupportedMediaType::responses()),
+        (has_body, Invalid::responses()),
+        (true, Internal::responses()),
+        (true, Unavailable::responses()),
     ];
-    for ((holds, name), (component, status, _)) in rules.into_iter().zip(PROBLEMS) {
-        debug_assert_eq!(name, *component, "the rules follow the order of the problems");
-        if holds {
-            let reference = || RefOr::Ref(Ref::from_response_name(*component));
-            operation.responses.responses.entry(status.to_string()).or_insert_with(reference);
-        }
+    for (status, refusal) in rules.into_iter().filter(|(holds, _)| *holds).flat_map(|(_, responses)| responses) {
+        operation.responses.responses.entry(status).or_insert(refusal);
     }
     let has_tag =
         matches!(operation.responses.responses.get("200"), Some(RefOr::T(ok)) if ok.headers.contains_key("ETag"));

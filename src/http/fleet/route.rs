@@ -14,6 +14,7 @@ use utoipa::{IntoParams, ToSchema};
 
 use crate::app::{App, Caller, MapContext};
 use crate::geojson::{Geometry, Transform};
+use crate::http::docs::refusals::{NotAnalysed, NotFound};
 use crate::http::extract::crs::CrsName;
 use crate::http::extract::{MapPath, Path, Query};
 use crate::http::links::GEO_JSON;
@@ -119,7 +120,8 @@ pub struct RouteProperties {
 #[utoipa::path(get, path = "/v1/maps/{mapId}/routes", tag = "fleet", operation_id = "getRoute",
     params(MapPath, RouteQuery),
     responses((status = 200, description = "The route", body = RouteView, content_type = "application/geo+json",
-        headers(("Content-Crs" = String, description = "System of the coordinates")))))]
+        headers(("Content-Crs" = String, description = "System of the coordinates"))),
+        NotFound, NotAnalysed))]
 pub async fn get(
     State(app): State<Arc<App>>,
     caller: Caller,

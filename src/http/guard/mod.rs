@@ -139,19 +139,16 @@ pub async fn known_parameters(
     }
 }
 
-/// Middleware: a body has to keep a pace, and an answer has to come in time.
-///
-/// An upload may be large, so no clock runs while its body arrives; [`Paced`] ends the slow ones. Streams of events
-/// are answered at once and go on as long as they like.
-pub async fn in_time(path: Option<MatchedPath>, request: Request, next: Next) -> Response {
-    let is_upload = request.method() == Method::POST && path.is_some_and(|path| path.as_str() == "/v1/maps");
+/// Middleware: a body has to keep a pace; [`Paced`] ends the slow ones.
+pub async fn at_pace(request: Request, next: Next) -> Response {
     let is_read = request.method().is_safe();
     let paced = |body| Body::from_stream(Paced::new(body, PACE_GRACE, PACE));
-    let answer = next.run(if is_read { request } else { request.map(paced) });
-    if is_upload {
-        return answer.await;
-    }
-    tokio::time::timeout(PATIENCE, answer).await.unwrap_or_else(|_| {
+    next.run(if is_read { request } else { request.map(paced) }).await
+}
+
+/// Middleware: the answer has to come in time. Streams of events begin at once and go on as long as they like.
+pub async fn in_time(request: Request, next: Next) -> Response {
+    tokio::time::timeout(PATIENCE, next.run(request)).await.unwrap_or_else(|_| {
         Problem::new(ProblemType::Unavailable, "the answer took too long").retry_after(10).into_response()
     })
 }

@@ -14,6 +14,7 @@ use stillage_core::declutter::Removed;
 use utoipa::ToSchema;
 
 use crate::app::{AnalysisRecord, AnalysisTicket, App, Caller, MapContext};
+use crate::http::docs::refusals::{NoSpace, NotAnalysed, NotFound};
 use crate::http::extract::conditional::{EntityTag, IfNoneMatch};
 use crate::http::extract::{Id, JsonBody, MapPath, Path};
 use crate::http::links::{Base, JSON, Link};
@@ -65,7 +66,8 @@ pub struct AnalysisList {
 ///
 /// Every analysis of the map, one per set of options.
 #[utoipa::path(get, path = "/v1/maps/{mapId}/analyses", tag = "maps", operation_id = "listAnalyses", params(MapPath),
-    responses((status = 200, description = "The analyses", body = AnalysisList)))]
+    responses((status = 200, description = "The analyses", body = AnalysisList),
+        NotFound))]
 pub async fn list(
     State(app): State<Arc<App>>,
     caller: Caller,
@@ -86,8 +88,7 @@ pub async fn list(
         (status = 200, description = "These options were analysed before", body = AnalysisView),
         (status = 202, description = "The job will do it", body = JobView,
             headers(("Location" = String, description = "The job"))),
-        (status = 507, description = "Short of disk space", body = crate::http::problem::ProblemDocument,
-            content_type = "application/problem+json")))]
+        NotFound, NoSpace))]
 pub async fn create(
     State(app): State<Arc<App>>,
     caller: Caller,
@@ -204,7 +205,8 @@ pub struct RadiogramView {
 #[utoipa::path(get, path = "/v1/maps/{mapId}/diagnostics", tag = "maps", operation_id = "getDiagnostics",
     params(MapPath),
     responses((status = 200, description = "The diagnostics", body = Diagnostics,
-        headers(("ETag" = String, description = "Changes with the analysis")))))]
+        headers(("ETag" = String, description = "Changes with the analysis"))),
+        NotFound, NotAnalysed))]
 pub async fn diagnostics(
     State(app): State<Arc<App>>,
     caller: Caller,

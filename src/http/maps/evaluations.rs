@@ -10,6 +10,7 @@ use stillage_core::evaluation::{Evaluation, GeometryScores, LabelScores, Occupan
 use utoipa::ToSchema;
 
 use crate::app::{App, AppError, Caller};
+use crate::http::docs::refusals::{NotAnalysed, NotFound};
 use crate::http::extract::{JsonBody, MapPath, Path};
 use crate::http::problem::Problem;
 use crate::ingest;
@@ -258,7 +259,8 @@ pub struct TruthProperties {
 /// force where a person assigned them. Coordinates are metres of the map frame. Nothing is stored.
 #[utoipa::path(post, path = "/v1/maps/{mapId}/evaluations", tag = "maps", operation_id = "evaluate", params(MapPath),
     request_body(content = TruthBody, content_type = "application/geo+json"),
-    responses((status = 200, description = "The figures", body = EvaluationView)))]
+    responses((status = 200, description = "The figures", body = EvaluationView),
+        NotFound, NotAnalysed))]
 pub async fn create(
     State(app): State<Arc<App>>,
     caller: Caller,

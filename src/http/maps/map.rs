@@ -12,6 +12,7 @@ use utoipa::{IntoParams, ToSchema};
 
 use super::{pictures, upload};
 use crate::app::{App, Caller, MapPatch, MapRecord};
+use crate::http::docs::refusals::{NoSpace, NotFound};
 use crate::http::extract::conditional::{EntityTag, IfMatch, IfNoneMatch};
 use crate::http::extract::{Id, JsonBody, MapPath, Name, Paging, Path, Query, present};
 use crate::http::links::{Base, JSON, Link};
@@ -119,10 +120,7 @@ pub struct UploadQuery {
         (status = 202, description = "Stored; the job will analyse it", body = JobView,
             headers(("Location" = String, description = "The job"),
                 ("Idempotent-Replayed" = Option<String>, description = "`true` when the key had been seen before"))),
-        (status = 409, description = "The key was used with other content", body = crate::http::problem::ProblemDocument,
-            content_type = "application/problem+json"),
-        (status = 507, description = "Short of disk space", body = crate::http::problem::ProblemDocument,
-            content_type = "application/problem+json")))]
+        NoSpace))]
 pub async fn create(
     State(app): State<Arc<App>>,
     caller: Caller,
@@ -166,7 +164,8 @@ pub async fn list(
 /// Its landing page: what it is, and links to all that can be asked of it.
 #[utoipa::path(get, path = "/v1/maps/{mapId}", tag = "maps", operation_id = "getMap", params(MapPath),
     responses((status = 200, description = "The map", body = MapView,
-        headers(("ETag" = String, description = "Its version")))))]
+        headers(("ETag" = String, description = "Its version"))),
+        NotFound))]
 pub async fn get(
     State(app): State<Arc<App>>,
     caller: Caller,
@@ -198,7 +197,8 @@ pub struct MapPatchBody {
     params(MapPath, ("If-Match" = Option<String>, Header, description = "The ETag that was read")),
     request_body(content((MapPatchBody = "application/merge-patch+json"), (MapPatchBody = "application/json"))),
     responses((status = 200, description = "The map as it is now", body = MapView,
-        headers(("ETag" = String, description = "Its version")))))]
+        headers(("ETag" = String, description = "Its version"))),
+        NotFound))]
 pub async fn update(
     State(app): State<Arc<App>>,
     caller: Caller,
@@ -225,7 +225,8 @@ pub async fn update(
 ///
 /// Dismisses its jobs and deletes everything of it.
 #[utoipa::path(delete, path = "/v1/maps/{mapId}", tag = "maps", operation_id = "deleteMap", params(MapPath),
-    responses((status = 204, description = "Deleted")))]
+    responses((status = 204, description = "Deleted"),
+        NotFound))]
 pub async fn delete(
     State(app): State<Arc<App>>,
     caller: Caller,

@@ -7,6 +7,7 @@ use axum::http::header;
 use axum::response::{IntoResponse, Response};
 
 use crate::app::{App, Caller, MapContext};
+use crate::http::docs::refusals::{NotAnalysed, NotFound};
 use crate::http::extract::conditional::{EntityTag, IfNoneMatch};
 use crate::http::extract::{Id, MapPath, Path};
 use crate::http::links::{PNG, SVG};
@@ -47,7 +48,8 @@ async fn picture(
 /// is uploaded; thresholds of the options count once an analysis with them is in force.
 #[utoipa::path(get, path = "/v1/maps/{mapId}/image.png", tag = "maps", operation_id = "getImage", params(MapPath),
     responses((status = 200, description = "The picture", body = Vec<u8>, content_type = "image/png",
-        headers(("ETag" = String, description = "Changes with the picture")))))]
+        headers(("ETag" = String, description = "Changes with the picture"))),
+        NotFound))]
 pub async fn image(
     State(app): State<Arc<App>>,
     caller: Caller,
@@ -67,7 +69,8 @@ pub async fn image(
 #[utoipa::path(get, path = "/v1/maps/{mapId}/categories.png", tag = "maps", operation_id = "getCategoriesImage",
     params(MapPath),
     responses((status = 200, description = "The picture", body = Vec<u8>, content_type = "image/png",
-        headers(("ETag" = String, description = "Changes with the picture")))))]
+        headers(("ETag" = String, description = "Changes with the picture"))),
+        NotFound, NotAnalysed))]
 pub async fn categories(
     State(app): State<Arc<App>>,
     caller: Caller,
@@ -84,7 +87,8 @@ pub async fn categories(
 #[utoipa::path(get, path = "/v1/maps/{mapId}/regions.png", tag = "maps", operation_id = "getRegionsImage",
     params(MapPath),
     responses((status = 200, description = "The picture", body = Vec<u8>, content_type = "image/png",
-        headers(("ETag" = String, description = "Changes with the picture")))))]
+        headers(("ETag" = String, description = "Changes with the picture"))),
+        NotFound, NotAnalysed))]
 pub async fn regions(
     State(app): State<Arc<App>>,
     caller: Caller,
@@ -101,7 +105,8 @@ pub async fn regions(
 #[utoipa::path(get, path = "/v1/maps/{mapId}/semantic.png", tag = "maps", operation_id = "getSemanticImage",
     params(MapPath),
     responses((status = 200, description = "The picture", body = Vec<u8>, content_type = "image/png",
-        headers(("ETag" = String, description = "Changes with the picture")))))]
+        headers(("ETag" = String, description = "Changes with the picture"))),
+        NotFound, NotAnalysed))]
 pub async fn semantic(
     State(app): State<Arc<App>>,
     caller: Caller,
@@ -120,7 +125,8 @@ pub async fn semantic(
 #[utoipa::path(get, path = "/v1/maps/{mapId}/semantic.svg", tag = "maps", operation_id = "getSemanticDrawing",
     params(MapPath),
     responses((status = 200, description = "The picture", body = String, content_type = "image/svg+xml",
-        headers(("ETag" = String, description = "Changes with the picture")))))]
+        headers(("ETag" = String, description = "Changes with the picture"))),
+        NotFound, NotAnalysed))]
 pub async fn semantic_svg(
     State(app): State<Arc<App>>,
     caller: Caller,

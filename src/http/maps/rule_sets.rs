@@ -12,6 +12,7 @@ use stillage_core::semantics::{Cogency, CogencyRule, Functionality, Label, RuleS
 use utoipa::{IntoParams, ToSchema};
 
 use crate::app::{App, Caller, RuleSetRecord};
+use crate::http::docs::refusals::{Conflict, NotFound, PreconditionRequired};
 use crate::http::extract::conditional::{EntityTag, IfMatch, IfNoneMatch};
 use crate::http::extract::{JsonBody, Path};
 use crate::http::links::{Base, JSON, Link};
@@ -204,8 +205,7 @@ pub async fn list(State(app): State<Arc<App>>, caller: Caller, base: Base) -> Re
     responses(
         (status = 201, description = "Created", body = RuleSetView,
             headers(("Location" = String, description = "The rule set"), ("ETag" = String, description = "Changes with the rule set"))),
-        (status = 409, description = "The id is in use", body = crate::http::problem::ProblemDocument,
-            content_type = "application/problem+json")))]
+        Conflict))]
 pub async fn create(
     State(app): State<Arc<App>>,
     caller: Caller,
@@ -229,7 +229,8 @@ fn is_rule_set_id(id: &str) -> bool {
 #[utoipa::path(get, path = "/v1/rule-sets/{ruleSetId}", tag = "semantics", operation_id = "getRuleSet",
     params(RuleSetPath),
     responses((status = 200, description = "The rule set", body = RuleSetView,
-        headers(("ETag" = String, description = "Changes with the rule set")))))]
+        headers(("ETag" = String, description = "Changes with the rule set"))),
+        NotFound))]
 pub async fn get(
     State(app): State<Arc<App>>,
     caller: Caller,
@@ -259,8 +260,7 @@ async fn writable(app: &App, caller: &Caller, id: &str) -> Result<RuleSetRecord,
     request_body = RuleSetBody,
     responses((status = 200, description = "The rule set as it is now", body = RuleSetView,
             headers(("ETag" = String, description = "Changes with the rule set"))),
-        (status = 428, description = "If-Match is missing", body = crate::http::problem::ProblemDocument,
-            content_type = "application/problem+json")))]
+        NotFound, PreconditionRequired))]
 pub async fn replace(
     State(app): State<Arc<App>>,
     caller: Caller,
@@ -284,8 +284,7 @@ pub async fn replace(
 #[utoipa::path(delete, path = "/v1/rule-sets/{ruleSetId}", tag = "semantics", operation_id = "deleteRuleSet",
     params(RuleSetPath, ("If-Match" = Option<String>, Header, description = "The ETag that was read; 428 without it")),
     responses((status = 204, description = "Deleted"),
-        (status = 428, description = "If-Match is missing", body = crate::http::problem::ProblemDocument,
-            content_type = "application/problem+json")))]
+        NotFound, PreconditionRequired))]
 pub async fn delete(
     State(app): State<Arc<App>>,
     caller: Caller,

@@ -16,6 +16,7 @@ use utoipa::ToSchema;
 use uuid::Uuid;
 
 use crate::app::{App, Caller, MapContext, NewSemantics, SemanticsOrigin, SemanticsRecord};
+use crate::http::docs::refusals::{NotAnalysed, NotFound, PreconditionRequired};
 use crate::http::extract::conditional::{EntityTag, IfMatch, IfNoneMatch};
 use crate::http::extract::{JsonBody, MapPath, Path, pointer_step};
 use crate::http::links::{Base, JSON, Link};
@@ -102,7 +103,8 @@ pub struct CategoryList {
 #[utoipa::path(get, path = "/v1/maps/{mapId}/categories", tag = "semantics", operation_id = "listCategories",
     params(MapPath),
     responses((status = 200, description = "The categories", body = CategoryList,
-        headers(("ETag" = String, description = "Changes with the analysis and the labels")))))]
+        headers(("ETag" = String, description = "Changes with the analysis and the labels"))),
+        NotFound, NotAnalysed))]
 pub async fn categories(
     State(app): State<Arc<App>>,
     caller: Caller,
@@ -281,7 +283,8 @@ impl SemanticsBody {
 #[utoipa::path(get, path = "/v1/maps/{mapId}/semantics", tag = "semantics", operation_id = "getSemantics",
     params(MapPath),
     responses((status = 200, description = "The labels", body = SemanticsView,
-        headers(("ETag" = String, description = "Changes with them")))))]
+        headers(("ETag" = String, description = "Changes with them"))),
+        NotFound, NotAnalysed))]
 pub async fn get(
     State(app): State<Arc<App>>,
     caller: Caller,
@@ -302,8 +305,7 @@ pub async fn get(
     request_body = SemanticsBody,
     responses((status = 200, description = "The labels as they are now", body = SemanticsView,
             headers(("ETag" = String, description = "Changes with them"))),
-        (status = 428, description = "If-Match is missing", body = crate::http::problem::ProblemDocument,
-            content_type = "application/problem+json")))]
+        NotFound, NotAnalysed, PreconditionRequired))]
 pub async fn assign(
     State(app): State<Arc<App>>,
     caller: Caller,
@@ -344,7 +346,8 @@ pub struct SemanticsHistory {
 /// Every version that a person made, newest first.
 #[utoipa::path(get, path = "/v1/maps/{mapId}/semantics/versions", tag = "semantics",
     operation_id = "listSemanticsVersions", params(MapPath),
-    responses((status = 200, description = "The versions", body = SemanticsHistory)))]
+    responses((status = 200, description = "The versions", body = SemanticsHistory),
+        NotFound))]
 pub async fn versions(
     State(app): State<Arc<App>>,
     caller: Caller,

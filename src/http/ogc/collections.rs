@@ -7,10 +7,13 @@ use axum::extract::State;
 use axum::response::{IntoResponse, Response};
 use serde::{Deserialize, Serialize};
 use stillage_core::Point;
-use utoipa::{IntoParams, ToSchema};
+use utoipa::openapi::RefOr;
+use utoipa::openapi::schema::{ObjectBuilder, Schema, Type};
+use utoipa::{IntoParams, PartialSchema, ToSchema};
 
 use crate::app::{App, Caller, MapContext};
 use crate::geojson::{Collection, Crs, Transform};
+use crate::http::docs::refusals::{NotAnalysed, NotFound};
 use crate::http::extract::conditional::{EntityTag, IfNoneMatch};
 use crate::http::extract::crs::{CRS84, EPSG_3857};
 use crate::http::extract::{Id, MapPath, Path};
@@ -18,10 +21,18 @@ use crate::http::links::{Base, CSV, GEO_JSON, JSON, Link};
 use crate::http::problem::Problem;
 
 /// A collection as a part of a path.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, ToSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(try_from = "String")]
-#[schema(value_type = CollectionIdView)]
 pub struct CollectionId(pub Collection);
+
+impl PartialSchema for CollectionId {
+    fn schema() -> RefOr<Schema> {
+        let ids = Collection::ALL.map(Collection::id);
+        ObjectBuilder::new().schema_type(Type::String).enum_values(Some(ids)).into()
+    }
+}
+
+impl ToSchema for CollectionId {}
 
 impl TryFrom<String> for CollectionId {
     type Error = &'static str;
@@ -29,22 +40,6 @@ impl TryFrom<String> for CollectionId {
     fn try_from(text: String) -> Result<Self, Self::Error> {
         Collection::find(&text).map(Self).ok_or("is no collection")
     }
-}
-
-/// The collections, for the document.
-#[derive(Debug, ToSchema)]
-#[schema(as = CollectionId, rename_all = "lowercase")]
-#[allow(dead_code, reason = "it describes what CollectionId reads")]
-pub enum CollectionIdView {
-    Faces,
-    Edges,
-    Vertices,
-    Nodes,
-    Links,
-    Lines,
-    Regions,
-    Places,
-    Locations,
 }
 
 /// `/v1/maps/{mapId}/collections/{collectionId}`
@@ -188,7 +183,8 @@ pub async fn off_the_runtime<T: Send + 'static>(
 #[utoipa::path(get, path = "/v1/maps/{mapId}/collections", tag = "features", operation_id = "listCollections",
     params(MapPath),
     responses((status = 200, description = "The collections", body = CollectionList,
-        headers(("ETag" = String, description = "Changes with the map, its analysis and its labels")))))]
+        headers(("ETag" = String, description = "Changes with the map, its analysis and its labels"))),
+        NotFound, NotAnalysed))]
 pub async fn list(
     State(app): State<Arc<App>>,
     caller: Caller,
@@ -214,7 +210,8 @@ pub async fn list(
 #[utoipa::path(get, path = "/v1/maps/{mapId}/collections/{collectionId}", tag = "features",
     operation_id = "getCollection", params(CollectionPath),
     responses((status = 200, description = "The collection", body = CollectionView,
-        headers(("ETag" = String, description = "Changes with the map, its analysis and its labels")))))]
+        headers(("ETag" = String, description = "Changes with the map, its analysis and its labels"))),
+        NotFound, NotAnalysed))]
 pub async fn get(
     State(app): State<Arc<App>>,
     caller: Caller,

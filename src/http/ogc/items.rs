@@ -12,6 +12,7 @@ use utoipa::{IntoParams, ToSchema};
 
 use crate::app::{App, Caller, MapContext};
 use crate::geojson::{Collection, Feature, FeatureId, MapView, Transform, locations_csv};
+use crate::http::docs::refusals::{NotAnalysed, NotFound};
 use crate::http::extract::conditional::IfNoneMatch;
 use crate::http::extract::crs::CrsName;
 use crate::http::extract::negotiation::Accept;
@@ -123,7 +124,8 @@ pub enum FeatureIdView {
         content((FeatureCollectionView = "application/geo+json"), (String = "text/csv")),
         headers(("ETag" = String, description = "Changes with the map, its analysis and its labels"),
             ("Content-Crs" = String, description = "System of the coordinates"),
-            ("Link" = Option<String>, description = "The next page")))))]
+            ("Link" = Option<String>, description = "The next page"))),
+        NotFound, NotAnalysed))]
 pub async fn list(
     State(app): State<Arc<App>>,
     caller: Caller,
@@ -305,7 +307,8 @@ pub struct ItemQuery {
     operation_id = "getFeature", params(FeaturePath, ItemQuery),
     responses((status = 200, description = "The feature", body = FeatureView, content_type = "application/geo+json",
         headers(("ETag" = String, description = "Changes with the map, its analysis and its labels"),
-            ("Content-Crs" = String, description = "System of the coordinates")))))]
+            ("Content-Crs" = String, description = "System of the coordinates"))),
+        NotFound, NotAnalysed))]
 pub async fn get(
     State(app): State<Arc<App>>,
     caller: Caller,

@@ -15,6 +15,7 @@ use serde::{Deserialize, Serialize};
 use utoipa::{IntoParams, ToSchema};
 
 use crate::app::{App, Caller, JobFilter, JobRecord, JobState};
+use crate::http::docs::refusals::{Conflict, NotFound};
 use crate::http::extract::{Id, ListLimit, Path, Query};
 use crate::http::links::{Base, JSON, Link};
 use crate::http::problem::Problem;
@@ -233,7 +234,8 @@ pub async fn list(
 
 /// A job
 #[utoipa::path(get, path = "/v1/jobs/{jobId}", tag = "jobs", operation_id = "getJob", params(JobPath),
-    responses((status = 200, description = "The job", body = JobView)))]
+    responses((status = 200, description = "The job", body = JobView),
+        NotFound))]
 pub async fn get(
     State(app): State<Arc<App>>,
     caller: Caller,
@@ -249,8 +251,7 @@ pub async fn get(
 /// A queued job is dismissed at once, a running one within a second. A job that is over stays as it is: 409.
 #[utoipa::path(delete, path = "/v1/jobs/{jobId}", tag = "jobs", operation_id = "dismissJob", params(JobPath),
     responses((status = 200, description = "The job, dismissed or about to be", body = JobView),
-        (status = 409, description = "The job is over", body = crate::http::problem::ProblemDocument,
-            content_type = "application/problem+json")))]
+        NotFound, Conflict))]
 pub async fn dismiss(
     State(app): State<Arc<App>>,
     caller: Caller,
@@ -283,7 +284,8 @@ pub struct JobEvent {
 #[utoipa::path(get, path = "/v1/jobs/{jobId}/events", tag = "jobs", operation_id = "watchJob",
     params(JobPath, ("Last-Event-ID" = Option<String>, Header, description = "Id of the last event that arrived")),
     responses((status = 200, description = "The events", body = JobEvent, content_type = "text/event-stream"),
-        (status = 204, description = "The job is over, and the client knows")))]
+        (status = 204, description = "The job is over, and the client knows"),
+        NotFound))]
 pub async fn events(
     State(app): State<Arc<App>>,
     caller: Caller,

@@ -25,15 +25,16 @@ mod semantics;
 #[cfg(test)]
 pub(crate) mod tests;
 
+use std::sync::LazyLock;
 use std::time::Duration;
 
 use async_trait::async_trait;
 use sqlx::error::DatabaseError;
-use sqlx::migrate::{MigrateError, Migrator};
+use sqlx::migrate::{MigrateError, Migration, MigrationType, Migrator};
 use sqlx::sqlite::{
     SqliteConnectOptions, SqliteError, SqliteJournalMode, SqlitePool, SqlitePoolOptions, SqliteSynchronous,
 };
-use sqlx::{Connection, Row, Transaction};
+use sqlx::{Connection, Row, SqlSafeStr, Transaction};
 use tokio::sync::RwLock;
 
 use super::{BlobId, Blobs, LocalBlobs, Store, StoreError};
@@ -50,7 +51,20 @@ const ACQUIRE_TIMEOUT: Duration = Duration::from_secs(6);
 /// The write-ahead log is cut back to this size after a checkpoint, bytes.
 const LOG_SIZE_LIMIT: &str = "67108864";
 
-static MIGRATIONS: Migrator = sqlx::migrate!("migrations/sqlite");
+/// The migrations, oldest first. A released one is never edited: the database remembers its hash.
+static MIGRATIONS: LazyLock<Migrator> = LazyLock::new(|| {
+    let migration = |version, name: &'static str, sql: &'static str| {
+        Migration::new(version, name.into(), MigrationType::Simple, sql.into_sql_str(), false)
+    };
+    Migrator::with_migrations(vec![
+        migration(1, "start", include_str!("../../../migrations/sqlite/0001_start.sql")),
+        migration(
+            2,
+            "tenants and processes",
+            include_str!("../../../migrations/sqlite/0002_tenants_and_processes.sql"),
+        ),
+    ])
+});
 
 /// The open store.
 #[derive(Debug)]

@@ -1,0 +1,34 @@
+//! What the `type` of a problem detail leads to.
+
+use axum::Json;
+use axum::extract::Path;
+use serde::Serialize;
+use utoipa::ToSchema;
+
+use super::refusals::NotFound;
+use crate::http::problem::{Problem, ProblemType};
+
+/// A kind of problem, described.
+#[derive(Debug, Serialize, ToSchema)]
+pub struct ProblemTypeView {
+    /// Its URI.
+    #[schema(example = "/problems/not-found")]
+    r#type: String,
+    /// The kind, for people.
+    title: &'static str,
+    /// The HTTP status.
+    status: u16,
+}
+
+/// A kind of problem
+///
+/// What the `type` of a problem detail leads to.
+#[utoipa::path(get, path = "/problems/{problem}", tag = "service", operation_id = "getProblemType",
+    params(("problem" = String, Path, description = "Last part of the type's URI", example = "not-found")),
+    responses((status = 200, description = "The kind of problem", body = ProblemTypeView),
+        NotFound))]
+pub async fn describe(Path(slug): Path<String>) -> Result<Json<ProblemTypeView>, Problem> {
+    let missing = || Problem::not_found(format!("there is no kind of problem {slug}"));
+    let kind = ProblemType::find(&slug).ok_or_else(missing)?;
+    Ok(Json(ProblemTypeView { r#type: kind.uri(), title: kind.title(), status: kind.status().as_u16() }))
+}
