@@ -1,0 +1,270 @@
+//! The structure that `ARCHITECTURE.md` promises: no circles between files, and no two types of one name in a crate.
+//!
+//! Reads the sources of the core and of the service. A file refers to another when a `use` or a path in it leads to
+//! something that the other defines; re-exports are followed, `mod` lines and calls of methods do not count. What only
+//! tests see is exempt.
+
+mod circles;
+mod files;
+mod tokens;
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use circles::circle_through;
+use files::{Files, Sources};
+
+/// Files that still lie on a circle; this list only shrinks.
+const STANDING: &[&str] = &[
+    "crates/stillage-core/src/annotation/edges.rs",
+    "crates/stillage-core/src/annotation/faces.rs",
+    "crates/stillage-core/src/annotation/kinds.rs",
+    "crates/stillage-core/src/annotation/membership.rs",
+    "crates/stillage-core/src/annotation/merge.rs",
+    "crates/stillage-core/src/annotation/mod.rs",
+    "crates/stillage-core/src/annotation/outside.rs",
+    "crates/stillage-core/src/annotation/roles.rs",
+    "crates/stillage-core/src/categorization/mod.rs",
+    "crates/stillage-core/src/categorization/parts.rs",
+    "crates/stillage-core/src/categorization/spread.rs",
+    "crates/stillage-core/src/clustering/kmeans.rs",
+    "crates/stillage-core/src/clustering/mixture/em.rs",
+    "crates/stillage-core/src/clustering/mixture/mod.rs",
+    "crates/stillage-core/src/clustering/mod.rs",
+    "crates/stillage-core/src/clustering/model.rs",
+    "crates/stillage-core/src/clustering/strength.rs",
+    "crates/stillage-core/src/features/halmstad.rs",
+    "crates/stillage-core/src/features/mod.rs",
+    "crates/stillage-core/src/features/paper.rs",
+    "crates/stillage-core/src/features/paper_sums.rs",
+    "crates/stillage-core/src/layout/access.rs",
+    "crates/stillage-core/src/layout/aisles.rs",
+    "crates/stillage-core/src/layout/mod.rs",
+    "crates/stillage-core/src/orientation/energy.rs",
+    "crates/stillage-core/src/orientation/mixture.rs",
+    "crates/stillage-core/src/orientation/mod.rs",
+    "crates/stillage-core/src/raycast/directions.rs",
+    "crates/stillage-core/src/raycast/march.rs",
+    "crates/stillage-core/src/raycast/mask.rs",
+    "crates/stillage-core/src/raycast/mod.rs",
+    "crates/stillage-core/src/raycast/sweep.rs",
+    "crates/stillage-core/src/raycast/tile_sweep.rs",
+    "crates/stillage-core/src/relaxation/cells.rs",
+    "crates/stillage-core/src/relaxation/faces.rs",
+    "crates/stillage-core/src/relaxation/mod.rs",
+    "crates/stillage-core/src/rooms/doors.rs",
+    "crates/stillage-core/src/rooms/mod.rs",
+    "crates/stillage-core/src/rooms/plan.rs",
+    "crates/stillage-core/src/routing/ends.rs",
+    "crates/stillage-core/src/routing/mod.rs",
+    "crates/stillage-core/src/routing/passage.rs",
+    "crates/stillage-core/src/routing/search.rs",
+    "crates/stillage-core/src/routing/sight.rs",
+    "crates/stillage-core/src/segmentation/directions.rs",
+    "crates/stillage-core/src/segmentation/gabor.rs",
+    "crates/stillage-core/src/segmentation/mod.rs",
+    "crates/stillage-core/src/segmentation/patterns.rs",
+    "crates/stillage-core/src/segmentation/tiles.rs",
+    "crates/stillage-core/src/semantics/apply.rs",
+    "crates/stillage-core/src/semantics/mod.rs",
+    "crates/stillage-core/src/semantics/suggestion.rs",
+    "crates/stillage-core/src/spec/check.rs",
+    "crates/stillage-core/src/spec/mod.rs",
+    "crates/stillage-core/src/spec/preset.rs",
+    "crates/stillage-core/src/stage_shares.rs",
+    "crates/stillage-core/src/watch.rs",
+    "src/app/context.rs",
+    "src/app/features.rs",
+    "src/app/grid.rs",
+    "src/app/mod.rs",
+    "src/app/rule_sets.rs",
+    "src/cli/analyze/mod.rs",
+    "src/cli/analyze/output.rs",
+    "src/cli/computation.rs",
+    "src/cli/demo.rs",
+    "src/cli/evaluate.rs",
+    "src/cli/input.rs",
+    "src/cli/mod.rs",
+    "src/geojson/csv.rs",
+    "src/geojson/decomposition.rs",
+    "src/geojson/feature.rs",
+    "src/geojson/mod.rs",
+    "src/geojson/rings.rs",
+    "src/geojson/semantics.rs",
+    "src/geojson/subdivision.rs",
+    "src/geojson/transform.rs",
+    "src/http/problem/mod.rs",
+    "src/http/problem/render.rs",
+    "src/ingest/document.rs",
+    "src/ingest/message.rs",
+    "src/ingest/metadata.rs",
+    "src/ingest/mod.rs",
+    "src/ingest/picture.rs",
+    "src/ingest/truth.rs",
+    "src/ingest/verdict.rs",
+    "src/jobs/processes/analysis.rs",
+    "src/jobs/processes/mod.rs",
+    "src/jobs/running.rs",
+    "src/jobs/worker.rs",
+    "src/render/cells.rs",
+    "src/render/legend.rs",
+    "src/render/mod.rs",
+    "src/render/raster.rs",
+    "src/render/semantic.rs",
+    "src/render/svg.rs",
+    "src/store/analyses.rs",
+    "src/store/blobs/local.rs",
+    "src/store/blobs/mod.rs",
+    "src/store/error.rs",
+    "src/store/jobs.rs",
+    "src/store/maps.rs",
+    "src/store/mod.rs",
+    "src/store/queue.rs",
+    "src/store/rule_sets.rs",
+    "src/store/semantics.rs",
+    "src/store/sqlite/folder.rs",
+    "src/store/sqlite/mod.rs",
+];
+
+/// Types that still share a name; this list only shrinks.
+const SHARED_NAMES: &[&str] = &[
+    "Arguments",
+    "Borders",
+    "Component",
+    "Cut",
+    "Front",
+    "Geometry",
+    "Ground",
+    "Line",
+    "MapView",
+    "Nearest",
+    "Passage",
+    "Piece",
+    "Progress",
+    "Run",
+    "Running",
+    "Simd",
+    "Tally",
+    "Tiles",
+    "Walk",
+    "Window",
+];
+
+/// The sources below a folder of this package.
+fn sources(folder: &str) -> Sources {
+    fn add(folder: &Path, root: &Path, found: &mut Sources) {
+        for entry in std::fs::read_dir(folder).expect("the folder can be read") {
+            let path = entry.expect("its entries can be read").path();
+            if path.is_dir() {
+                add(&path, root, found);
+            } else if path.extension().is_some_and(|extension| extension == "rs") {
+                let name = path.strip_prefix(root).expect("it lies below the root").to_string_lossy().into_owned();
+                found.insert(name, std::fs::read_to_string(&path).expect("sources are text"));
+            }
+        }
+    }
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join(folder);
+    let mut found = Sources::new();
+    add(&root, &root, &mut found);
+    assert!(found.contains_key("lib.rs"), "{} holds no crate", root.display());
+    // The crate of a binary is another one, and nothing refers to it.
+    found.remove("main.rs");
+    found
+}
+
+/// The files of the core and of the service, each with the folder that it lies in.
+fn all_files() -> [(&'static str, Files); 2] {
+    [("crates/stillage-core/src/", "src"), ("src/", "../../src")]
+        .map(|(name, folder)| (name, Files::read(&sources(folder))))
+}
+
+/// One line for every file on a circle, or for every file of the standing list that is on none.
+fn complaints(prefix: &str, files: &Files, standing: &[&str]) -> Vec<String> {
+    let references = files.references();
+    let complaint = |file: &String| {
+        let name = format!("{prefix}{file}");
+        match (circle_through(&references, file), standing.contains(&name.as_str())) {
+            (Some(circle), false) => Some(format!("{prefix}{}", circle.join(" -> "))),
+            (None, true) => Some(format!("{name} lies on no circle any more: take it off the list")),
+            _ => None,
+        }
+    };
+    references.keys().filter_map(complaint).collect()
+}
+
+#[test]
+fn no_files_refer_to_one_another_in_a_circle() {
+    let complaints: Vec<String> =
+        all_files().iter().flat_map(|(prefix, files)| complaints(prefix, files, STANDING)).collect();
+    assert!(complaints.is_empty(), "circles between files:\n{}", complaints.join("\n"));
+}
+
+#[test]
+fn no_two_types_share_a_name() {
+    let files = all_files();
+    let mut shared = BTreeMap::new();
+    for (prefix, files) in &files {
+        let mut places: BTreeMap<&str, Vec<String>> = BTreeMap::new();
+        for (name, path) in files.types() {
+            places.entry(name).or_default().push(format!("{prefix}{path}"));
+        }
+        shared.extend(places.into_iter().filter(|(_, places)| places.len() > 1));
+    }
+    let unknown = shared.iter().filter(|(name, _)| !SHARED_NAMES.contains(name));
+    let unknown = unknown.map(|(name, places)| format!("{name}: {}", places.join(", ")));
+    let done = SHARED_NAMES.iter().filter(|name| !shared.contains_key(*name));
+    let done = done.map(|name| format!("{name} is shared no more: take it off the list"));
+    let complaints: Vec<String> = unknown.chain(done).collect();
+    assert!(complaints.is_empty(), "types that share a name:\n{}", complaints.join("\n"));
+}
+
+/// Made-up sources.
+fn tree(files: &[(&str, &str)]) -> Files {
+    Files::read(&files.iter().map(|&(path, text)| (path.to_owned(), text.to_owned())).collect())
+}
+
+#[test]
+fn a_child_that_uses_the_types_of_a_parent_that_calls_it_is_a_circle() {
+    let files = tree(&[
+        ("lib.rs", "pub mod rooms;"),
+        ("rooms/mod.rs", "mod doors; pub struct Door; pub fn all() -> Vec<Door> { doors::find() }"),
+        ("rooms/doors.rs", "use super::Door; pub fn find() -> Vec<Door> { vec![] }"),
+    ]);
+    assert_eq!(
+        complaints("", &files, &[]),
+        ["rooms/doors.rs -> rooms/mod.rs -> rooms/doors.rs", "rooms/mod.rs -> rooms/doors.rs -> rooms/mod.rs"]
+    );
+    let standing = ["rooms/doors.rs", "rooms/mod.rs", "lib.rs"];
+    assert_eq!(complaints("", &files, &standing), ["lib.rs lies on no circle any more: take it off the list"]);
+}
+
+#[test]
+fn a_circle_may_lead_through_re_exports_and_long_paths() {
+    let files = tree(&[
+        ("lib.rs", "pub mod a; pub mod b; pub use a::first;"),
+        ("a/mod.rs", "mod inner; pub use inner::{first, Other as Renamed};"),
+        ("a/inner.rs", "use crate::b::{self, Thing}; pub struct Other; pub fn first() { b::second() }"),
+        ("b.rs", "pub struct Thing; pub fn second() { let _ = (crate::first(), '\"', crate::a::Renamed); }"),
+    ]);
+    assert_eq!(complaints("", &files, &[]), ["a/inner.rs -> b.rs -> a/inner.rs", "b.rs -> a/inner.rs -> b.rs"]);
+}
+
+#[test]
+fn re_exports_comments_texts_and_tests_make_no_circle() {
+    let files = tree(&[
+        ("lib.rs", "pub mod rooms;"),
+        (
+            "rooms/mod.rs",
+            "mod door; mod doors; #[cfg(test)] mod tests; pub use door::Door; pub fn all() -> Vec<Door> { doors::find() }",
+        ),
+        ("rooms/door.rs", "//! See super::all.\npub struct Door; const HINT: &str = r#\"super::all \"super::all\"#;"),
+        (
+            "rooms/doors.rs",
+            "use super::Door; pub fn find<'a>() -> Vec<Door> { vec![] }
+             #[cfg(test)] mod tests { #[test] fn all() { super::super::all(); } }",
+        ),
+        ("rooms/tests.rs", "use super::all; pub struct Door;"),
+    ]);
+    assert_eq!(complaints("", &files, &[]), [""; 0]);
+    assert_eq!(files.types().collect::<Vec<_>>(), [("Door", "rooms/door.rs")]);
+}
