@@ -58,8 +58,7 @@ fn word(rest: &[char], found: &mut Vec<Token>) -> usize {
     let word: String = rest[..length].iter().collect();
     let is_prefix = ["r", "b", "br", "c", "cr"].contains(&word.as_str());
     match &rest[length..] {
-        ['"', ..] if is_prefix && word.ends_with('r') => length + raw(&rest[length..]),
-        ['#', '"' | '#', ..] if is_prefix && word.ends_with('r') => length + raw(&rest[length..]),
+        ['"', ..] | ['#', '"' | '#', ..] if is_prefix && word.ends_with('r') => length + raw(&rest[length..]),
         ['"', ..] if is_prefix => length + quoted(&rest[length..], '"'),
         ['\'', ..] if word == "b" => length + quoted(&rest[length..], '\''),
         _ => {
