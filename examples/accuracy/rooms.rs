@@ -12,7 +12,7 @@ use std::path::Path;
 
 use rayon::prelude::*;
 use stillage_core::AnalysisSpec;
-use stillage_core::annotation::CellFaces;
+use stillage_core::arrangement::CellFaces;
 use stillage_core::semantics::{self, Assignment, RuleSet};
 
 use crate::{Outcome, sites};

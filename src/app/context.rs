@@ -5,7 +5,7 @@
 
 use std::sync::{Arc, Mutex, PoisonError};
 
-use stillage_core::annotation::CellFaces;
+use stillage_core::arrangement::CellFaces;
 use stillage_core::layout::{self, Location};
 use stillage_core::semantics::{self, Assignment, RuleSet, RuleSetDraft, SemanticMap, Suggestion};
 use stillage_core::{Analysis, OccupancyGrid};

@@ -2,7 +2,7 @@
 
 use serde_json::json;
 use stillage_core::geometry::{direction, normal};
-use stillage_core::radiography::Line;
+use stillage_core::line::Line;
 use stillage_core::segmentation::RegionMap;
 use stillage_core::{Point, Vector};
 

@@ -10,8 +10,8 @@ use std::sync::LazyLock;
 
 use divan::Bencher;
 use divan::counter::ItemsCount;
-use stillage_core::annotation::{self, CellFaces, Subject};
-use stillage_core::arrangement;
+use stillage_core::annotation::{self, Subject};
+use stillage_core::arrangement::{self, CellFaces};
 use stillage_core::categorization::Categorization;
 use stillage_core::clustering::{self, FitOptions, Method, PlaceModel};
 use stillage_core::features::{CellFeatures, FeatureSource};
@@ -93,7 +93,9 @@ fn lines(bencher: Bencher<'_, '_>) {
 /// Counted in faces.
 #[divan::bench]
 fn subdivision(bencher: Bencher<'_, '_>) {
-    let segments = arrangement::source_segments(&GRID, &ANALYSIS.regions, &ANALYSIS.lines, &[]);
+    let watch = Watch::unwatched();
+    let segments = arrangement::source_segments(&GRID, &ANALYSIS.regions, &ANALYSIS.lines, &[], &watch);
+    let segments = segments.expect("nobody stops it");
     bencher
         .counter(ItemsCount::new(ANALYSIS.faces.len()))
         .bench(|| arrangement::arrange(&segments, &Watch::unwatched()));

@@ -10,8 +10,9 @@
 
 use std::time::{Duration, Instant};
 
-use stillage_core::decomposition::{Decomposition, PlotKind, decompose};
+use stillage_core::decomposition::{Decomposition, decompose};
 use stillage_core::geometry::OrientedBox;
+use stillage_core::plot::PlotKind;
 use stillage_core::segmentation::{Region, RegionMap};
 use stillage_core::spec::DecompositionOptions;
 use stillage_core::watch::Observer;

@@ -3,16 +3,18 @@
 use serde::{Deserialize, Serialize};
 
 use crate::adjacency::AdjacencyGraph;
-use crate::annotation::{self, CellFaces, EdgeAnnotation, FaceAnnotation, FaceCategories};
-use crate::arrangement::{self, Subdivision};
+use crate::annotation::{self, EdgeAnnotation, FaceAnnotation, FaceCategories};
+use crate::arrangement::{self, CellFaces, Subdivision};
 use crate::categorization::{self, CategoryMap};
 use crate::declutter;
 use crate::grid::{GridFrame, OccupancyGrid};
+use crate::line::Line;
 use crate::orientation::{self, Orientations};
-use crate::radiography::{self, Line, Radiogram};
+use crate::radiography::{self, Radiogram};
 use crate::relaxation::RelaxationReport;
-use crate::rooms::{self, RoomMap, SitePlan};
+use crate::rooms::RoomMap;
 use crate::segmentation::{self, RegionMap};
+use crate::site_plan::{self, SitePlan};
 use crate::spec::{AnalysisOptions, AnalysisSpec, DecompositionMethod};
 use crate::stage_shares::{CellCounts, StageShares};
 use crate::watch::{Stage, Stopped, Watch};
@@ -97,20 +99,24 @@ pub fn analyze(grid: &OccupancyGrid, spec: &AnalysisSpec, watch: &Watch<'_>) -> 
     let (radiograms, lines) =
         watch.stage(Stage::Radiography, || radiography::lines(grid, &regions, &options.decomposition, watch))?;
     let SitePlan { lines, plots, rooms } = match options.decomposition.method {
-        DecompositionMethod::Adaptive => rooms::plan(grid, &regions, &options.decomposition, watch)?,
+        DecompositionMethod::Adaptive => site_plan::plan(grid, &regions, &options.decomposition, watch)?,
         DecompositionMethod::Paper => SitePlan { lines, ..SitePlan::default() },
     };
     let subdivision = watch.stage(Stage::Arrangement, || {
-        let segments = arrangement::source_segments(grid, &regions, &lines, &rooms.cells);
+        let segments = arrangement::source_segments(grid, &regions, &lines, &rooms.cells, watch)?;
         let subdivision = arrangement::arrange(&segments, watch)?;
-        let of_faces = rooms.of_faces(&subdivision, grid);
-        let cut = annotation::Cut { plots: &plots, rooms: &of_faces };
-        annotation::merge_alike(grid, &regions, subdivision, cut, &options.annotation, watch)
+        let room_of_faces = if rooms.count == 0 {
+            Vec::new()
+        } else {
+            rooms.of_faces(subdivision.face_count(), &CellFaces::of_grid(&subdivision, grid))
+        };
+        let planned = annotation::PlannedGround { plots: &plots, rooms: &room_of_faces };
+        annotation::merge_alike(grid, &regions, subdivision, planned, &options.annotation, watch)
     })?;
     let graph = AdjacencyGraph::dual(&subdivision);
-    let rooms = RoomMap::of(&rooms, &subdivision, grid);
+    let cells = CellFaces::of_grid(&subdivision, grid);
+    let rooms = RoomMap::of(&rooms, &subdivision, &cells);
     let annotations = watch.stage(Stage::Annotation, || {
-        let cells = CellFaces::rasterize(&subdivision, grid.width(), grid.height(), grid.resolution());
         let subject = annotation::Subject {
             grid,
             categorization: &categorization,

@@ -40,8 +40,11 @@ pub mod orientation;
 pub mod segmentation;
 
 pub mod decomposition;
+pub mod line;
+pub mod plot;
 pub mod radiography;
 pub mod rooms;
+pub mod site_plan;
 
 pub mod arrangement;
 

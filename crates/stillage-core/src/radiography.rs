@@ -16,6 +16,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::geometry::{Point, direction, fold_half_turn, normal};
 use crate::grid::{Occupancy, OccupancyGrid};
+use crate::line::Line;
 use crate::segmentation::RegionMap;
 use crate::signal::{self, Boundary, Peak};
 use crate::spec::DecompositionOptions;
@@ -38,21 +39,6 @@ pub struct Radiogram {
     pub bin: f64,
     /// Occupied length per bin after smoothing, metres (occupied cells x resolution).
     pub values: Vec<f64>,
-}
-
-/// A straight alignment of occupied cells.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Line {
-    /// Region it belongs to.
-    pub region: u8,
-    /// Direction, radians in `[-pi/2, pi/2)`.
-    pub orientation: f64,
-    /// Signed distance from the grid origin along [`crate::geometry::normal`], metres.
-    pub offset: f64,
-    /// Height of its peak: occupied length along the line, metres.
-    pub support: f64,
-    /// Where the line runs: stretches `[start, end]` along [`crate::geometry::direction`], ascending, metres.
-    pub extents: Vec<[f64; 2]>,
 }
 
 /// Takes the radiograms of every region and reads the lines from their peaks.

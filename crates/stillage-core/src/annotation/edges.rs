@@ -8,8 +8,9 @@
 //! matter. Cost: O(length / cell x width / cell), in parallel by edges.
 
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
-use super::{EdgeAnnotation, Evidence};
+use super::evidence::Evidence;
 use crate::arrangement::{EdgeId, FaceId, Subdivision};
 use crate::geometry::Vector;
 use crate::grid::{Occupancy, OccupancyGrid};
@@ -20,6 +21,19 @@ use crate::watch::{Stopped, Watch};
 const SIGNS_SHARE: f64 = 0.15;
 /// Share of the border of a face that is observed at least.
 const MAJORITY: f64 = 0.5;
+
+/// What the cells say about an edge.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct EdgeAnnotation {
+    /// Share of its length along which an occupied cell lies within the support width.
+    pub support: f64,
+    /// Share of its length along which free cells lie on both sides and none occupied: where one could pass.
+    pub open: f64,
+    /// Whether cells along it show it.
+    pub evidence: Evidence,
+    /// 0 (nothing is known along it) to 1 (all of it is known).
+    pub confidence: f64,
+}
 
 /// Annotates every edge.
 pub(super) fn annotate_edges(

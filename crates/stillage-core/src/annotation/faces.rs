@@ -8,13 +8,16 @@
 use std::sync::atomic::{AtomicU32, Ordering};
 
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
-use super::{CellFaces, Evidence, FaceAnnotation, FaceCategories};
+use super::evidence::Evidence;
+use super::face_categories::FaceCategories;
 use crate::adjacency::pole;
-use crate::arrangement::{FaceId, Subdivision};
+use crate::arrangement::{CellFaces, FaceId, Subdivision};
 use crate::categorization::CategoryMap;
 use crate::geometry::{OrientedBox, Point, polygon};
 use crate::grid::{Occupancy, OccupancyGrid};
+use crate::plot::PlotKind;
 use crate::segmentation::RegionMap;
 use crate::watch::{Stopped, Watch};
 
@@ -22,6 +25,52 @@ use crate::watch::{Stopped, Watch};
 const RIM_M: f64 = 0.1;
 /// Counts of cells: free, occupied, unknown, and occupied away from the border.
 const OCCUPANCY_SLOTS: usize = 4;
+
+/// What the cells say about a face.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct FaceAnnotation {
+    /// Category in force: a cluster, or `occupied`, `unknown` or `outside` of [`FaceCategories`].
+    pub category: u8,
+    /// Share of each cluster among the categorized cells of the face (sums to 1, or all 0 without such cells).
+    pub category_shares: Vec<f32>,
+    /// Distribution over the clusters: the mean membership of its measured cells, or what relaxation made of it. Absent
+    /// where it is no other than [`FaceAnnotation::category_shares`]; empty for a face without categorized cells.
+    pub membership: Option<Vec<f32>>,
+    /// Cells whose centre lies in the face.
+    pub cells: usize,
+    /// Share of its cells that are free.
+    pub free_fraction: f64,
+    /// Share of its cells that are occupied.
+    pub occupied_fraction: f64,
+    /// Share of its cells that are occupied and lie more than a rim of 0.1 m inside its border.
+    pub inside_occupied_fraction: f64,
+    /// Share of its cells that are unknown (1 for a face without cells).
+    pub unknown_fraction: f64,
+    /// Area, square metres.
+    pub area: f64,
+    /// Long side over short side of the smallest-area oriented box around it, at least 1.
+    pub elongation: f64,
+    /// Direction of the long side of that box, radians in `[-pi/2, pi/2)`.
+    pub heading: f64,
+    /// Long and short side of that box, metres.
+    pub extent: [f64; 2],
+    /// Region it lies in.
+    pub region: u8,
+    /// What it was cut out for; `None` where no plot of the decomposition lies.
+    pub kind: Option<PlotKind>,
+    /// Share of the category in force among the votes, or in the distribution of the face, 0 to 1.
+    pub confidence: f64,
+    /// Whether most of its border is observed.
+    pub evidence: Evidence,
+}
+
+impl FaceAnnotation {
+    /// Distribution over the clusters: the membership where there is one, else the shares of the votes.
+    #[must_use]
+    pub fn distribution(&self) -> &[f32] {
+        self.membership.as_ref().filter(|membership| !membership.is_empty()).unwrap_or(&self.category_shares)
+    }
+}
 
 /// Annotates every face; entry 0, the unbounded face, is empty.
 pub(super) fn annotate_faces(
@@ -32,19 +81,19 @@ pub(super) fn annotate_faces(
     cells: &CellFaces,
     watch: &Watch<'_>,
 ) -> Result<Vec<FaceAnnotation>, Stopped> {
-    let tallies = Tallies::count(grid, categories, regions, subdivision, cells, watch)?;
+    let table = FaceCountTable::count(grid, categories, regions, subdivision, cells, watch)?;
     let annotate = |face: usize| {
         if face.is_multiple_of(256) {
             watch.check()?;
         }
         let face = FaceId(face as u32);
         let rings = if face == FaceId::OUTER { Vec::new() } else { subdivision.rings(face) };
-        let mut tally = tallies.of(face);
-        if tally.total() == 0 && face != FaceId::OUTER {
+        let mut counts = table.of(face);
+        if counts.total() == 0 && face != FaceId::OUTER {
             // Too small for a cell centre: it lies where a point inside it lies.
-            tally.regions[region_slot(regions, region_at(grid, regions, pole(&rings)))] += 1;
+            counts.regions[region_slot(regions, region_at(grid, regions, pole(&rings)))] += 1;
         }
-        Ok(face_annotation(&tally, &rings, categories))
+        Ok(face_annotation(&counts, &rings, categories))
     };
     (0..subdivision.face_count()).into_par_iter().map(annotate).collect()
 }
@@ -60,7 +109,7 @@ fn region_slot(regions: &RegionMap, region: u8) -> usize {
 }
 
 /// Counts of one face.
-struct Tally {
+struct FaceCounts {
     categories: Vec<u32>,
     /// Free, occupied, unknown.
     occupancy: [u32; 3],
@@ -70,7 +119,7 @@ struct Tally {
     regions: Vec<u32>,
 }
 
-impl Tally {
+impl FaceCounts {
     fn total(&self) -> u32 {
         self.occupancy.iter().sum()
     }
@@ -81,13 +130,13 @@ impl Tally {
 }
 
 /// The counts of all faces, in one table that all tasks add to.
-struct Tallies {
+struct FaceCountTable {
     counts: Vec<AtomicU32>,
     categories: usize,
     regions: usize,
 }
 
-impl Tallies {
+impl FaceCountTable {
     fn count(
         grid: &OccupancyGrid,
         categories: &CategoryMap,
@@ -99,7 +148,7 @@ impl Tallies {
         let (category_count, region_count) = (categories.categories.len(), regions.regions.len() + 1);
         let size = subdivision.face_count() * (category_count + OCCUPANCY_SLOTS + region_count);
         let counts = std::iter::repeat_with(|| AtomicU32::new(0)).take(size).collect();
-        let tallies = Self { counts, categories: category_count, regions: region_count };
+        let table = Self { counts, categories: category_count, regions: region_count };
         let width = grid.width();
         let rim = (RIM_M / grid.resolution()).round() as usize;
         (0..grid.height()).into_par_iter().try_for_each(|row| {
@@ -113,16 +162,16 @@ impl Tallies {
                 column = columns.end;
                 if run[0] != FaceId::OUTER {
                     let votes = votes.get(columns.clone()).unwrap_or_default();
-                    tallies.add_run(run[0], votes, &grid.row(row)[columns.clone()], &mut votes_by_category);
+                    table.add_run(run[0], votes, &grid.row(row)[columns.clone()], &mut votes_by_category);
                     let is_inside = |&column: &usize| cells.holds_around(run[0], column, row, rim);
                     let occupied = columns.clone().filter(|&column| grid.row(row)[column] == Occupancy::Occupied);
-                    tallies.add(run[0], tallies.categories + 3, occupied.filter(is_inside).count() as u32);
-                    tallies.add_regions(run[0], regions, row, columns);
+                    table.add(run[0], table.categories + 3, occupied.filter(is_inside).count() as u32);
+                    table.add_regions(run[0], regions, row, columns);
                 }
             }
             Ok(())
         })?;
-        Ok(tallies)
+        Ok(table)
     }
 
     fn stride(&self) -> usize {
@@ -164,12 +213,12 @@ impl Tallies {
         }
     }
 
-    fn of(&self, face: FaceId) -> Tally {
+    fn of(&self, face: FaceId) -> FaceCounts {
         let counts = &self.counts[face.index() * self.stride()..][..self.stride()];
         let counts: Vec<u32> = counts.iter().map(|count| count.load(Ordering::Relaxed)).collect();
         let (categories, rest) = counts.split_at(self.categories);
         let (occupancy, regions) = rest.split_at(OCCUPANCY_SLOTS);
-        Tally {
+        FaceCounts {
             categories: categories.to_vec(),
             occupancy: [occupancy[0], occupancy[1], occupancy[2]],
             inside: occupancy[3],
@@ -188,26 +237,26 @@ fn share(count: u32, of: u32) -> f64 {
     if of == 0 { 0.0 } else { f64::from(count) / f64::from(of) }
 }
 
-fn face_annotation(tally: &Tally, rings: &[Vec<Point>], categories: &CategoryMap) -> FaceAnnotation {
-    let votes: u32 = tally.categories.iter().sum();
-    let [free, occupied, unknown] = tally.occupancy;
+fn face_annotation(counts: &FaceCounts, rings: &[Vec<Point>], categories: &CategoryMap) -> FaceAnnotation {
+    let votes: u32 = counts.categories.iter().sum();
+    let [free, occupied, unknown] = counts.occupancy;
     let kinds = FaceCategories::from(categories);
-    let (category, confidence) = match mode(&tally.categories) {
-        Some(winner) => (winner as u8, share(tally.categories[winner], votes)),
-        None if occupied > free => (kinds.occupied(), share(occupied, tally.known())),
+    let (category, confidence) = match mode(&counts.categories) {
+        Some(winner) => (winner as u8, share(counts.categories[winner], votes)),
+        None if occupied > free => (kinds.occupied(), share(occupied, counts.known())),
         None => (kinds.unknown(), 0.0),
     };
     let smallest_box = OrientedBox::smallest_around(rings.first().map_or(&[], Vec::as_slice));
-    let total = tally.total();
-    let region = mode(&tally.regions).filter(|&slot| slot + 1 < tally.regions.len());
+    let total = counts.total();
+    let region = mode(&counts.regions).filter(|&slot| slot + 1 < counts.regions.len());
     FaceAnnotation {
         category,
-        category_shares: tally.categories.iter().map(|&count| share(count, votes) as f32).collect(),
+        category_shares: counts.categories.iter().map(|&count| share(count, votes) as f32).collect(),
         membership: None,
         cells: total as usize,
         free_fraction: share(free, total),
         occupied_fraction: share(occupied, total),
-        inside_occupied_fraction: share(tally.inside, total),
+        inside_occupied_fraction: share(counts.inside, total),
         unknown_fraction: if total == 0 { 1.0 } else { share(unknown, total) },
         area: polygon::area(rings),
         elongation: smallest_box.elongation(),

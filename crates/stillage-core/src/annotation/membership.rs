@@ -7,8 +7,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use rayon::prelude::*;
 
-use super::{CellFaces, FaceAnnotation};
-use crate::arrangement::{FaceId, Subdivision};
+use super::faces::FaceAnnotation;
+use crate::arrangement::{CellFaces, FaceId, Subdivision};
 use crate::categorization::CellMemberships;
 use crate::relaxation::{Adjacency, RelaxationReport, relax_faces};
 use crate::spec::RelaxationOptions;

@@ -13,13 +13,13 @@ use std::collections::BTreeMap;
 use rayon::prelude::*;
 
 use super::edges::annotate_edge;
-use super::roles::PlotIndex;
+use super::faces::region_at;
+use super::plot_kinds::PlotIndex;
 use crate::adjacency::AdjacencyGraph;
 use crate::arrangement::{EdgeId, FaceId, Subdivision};
-use crate::decomposition::{Plot, PlotKind};
-use crate::geometry::DisjointSets;
-use crate::geometry::line_angle_between;
+use crate::geometry::{DisjointSets, line_angle_between};
 use crate::grid::OccupancyGrid;
+use crate::plot::{Plot, PlotKind};
 use crate::segmentation::RegionMap;
 use crate::spec::AnnotationOptions;
 use crate::watch::{Stopped, Watch};
@@ -34,10 +34,10 @@ const LEAST_AREA_M2: f64 = 0.24;
 /// No face is narrower than this in the mean, metres.
 const LEAST_WIDTH_M: f64 = 0.15;
 
-/// What a subdivision was cut into.
+/// What the ground of a subdivision was planned to be.
 #[derive(Debug, Clone, Copy)]
-pub struct Cut<'a> {
-    /// The parcels of rows.
+pub struct PlannedGround<'a> {
+    /// The plots of rows, and the stacks in rooms.
     pub plots: &'a [Plot],
     /// Room of each face, by face id; empty without rooms.
     pub rooms: &'a [Option<u32>],
@@ -51,14 +51,14 @@ pub fn merge_alike(
     grid: &OccupancyGrid,
     regions: &RegionMap,
     subdivision: Subdivision,
-    cut: Cut<'_>,
+    planned: PlannedGround<'_>,
     options: &AnnotationOptions,
     watch: &Watch<'_>,
 ) -> Result<Subdivision, Stopped> {
-    if cut.plots.is_empty() && cut.rooms.is_empty() {
+    if planned.plots.is_empty() && planned.rooms.is_empty() {
         return Ok(subdivision);
     }
-    let faces = purposes(grid, regions, &subdivision, cut);
+    let faces = purposes(grid, regions, &subdivision, planned);
     watch.check()?;
     let inner: Vec<EdgeId> = subdivision.edges().filter(|&edge| is_alike(&faces, subdivision.sides(edge))).collect();
     let divides_nothing = |edge: &EdgeId| {
@@ -93,16 +93,21 @@ struct Purpose {
     plot: Option<Plot>,
 }
 
-fn purposes(grid: &OccupancyGrid, regions: &RegionMap, subdivision: &Subdivision, cut: Cut<'_>) -> Vec<Purpose> {
-    let index = PlotIndex::new(cut.plots);
+fn purposes(
+    grid: &OccupancyGrid,
+    regions: &RegionMap,
+    subdivision: &Subdivision,
+    planned: PlannedGround<'_>,
+) -> Vec<Purpose> {
+    let index = PlotIndex::new(planned.plots);
     let graph = AdjacencyGraph::dual(subdivision);
     let purpose = |face: FaceId| {
         if face == FaceId::OUTER {
             return Purpose { room: None, region: RegionMap::NONE, plot: None };
         }
         let inside = graph.position(face);
-        let region = super::faces::region_at(grid, regions, inside);
-        let room = cut.rooms.get(face.index()).copied().flatten();
+        let region = region_at(grid, regions, inside);
+        let room = planned.rooms.get(face.index()).copied().flatten();
         Purpose { room, region, plot: index.at(inside, region) }
     };
     (0..subdivision.face_count() as u32).map(|face| purpose(FaceId(face))).collect()
@@ -194,8 +199,14 @@ mod tests {
             regions: vec![Region { orientations: vec![0.0], bounds: strip(&[0.0, width]), share: 1.0 }],
         };
         let options = AnnotationOptions::default();
-        let merged =
-            merge_alike(&grid, &regions, subdivision, Cut { plots: &plots, rooms: &[] }, &options, &Watch::unwatched());
+        let merged = merge_alike(
+            &grid,
+            &regions,
+            subdivision,
+            PlannedGround { plots: &plots, rooms: &[] },
+            &options,
+            &Watch::unwatched(),
+        );
         let merged = merged.expect("nobody stops it");
         merged.check_invariants().expect("the subdivision is sound");
         let extent = |face: FaceId| {

@@ -5,9 +5,10 @@
 //! among known places hold something, those around the site hold nothing anyone knows of, so the two are told apart
 //! here and not left to one label. Cost: O(faces + edges).
 
-use super::{FaceAnnotation, FaceCategories};
+use super::face_categories::FaceCategories;
+use super::faces::FaceAnnotation;
 use crate::arrangement::{FaceId, Subdivision};
-use crate::decomposition::PlotKind;
+use crate::plot::PlotKind;
 use crate::segmentation::RegionMap;
 
 /// A face is unexplored when most of its cells are unknown.

@@ -1,14 +1,17 @@
 //! Faces and edges of small maps; one cell is one metre.
 
 use expect_test::expect;
-use proptest::prelude::*;
 
 use super::*;
-use crate::arrangement::{EdgeSource, FaceId, SourceSegment, arrange};
-use crate::categorization::{Category, CategoryMap};
+use crate::adjacency::AdjacencyGraph;
+use crate::arrangement::{CellFaces, EdgeSource, SourceSegment, Subdivision, arrange};
+use crate::categorization::{Categorization, Category, CategoryMap};
 use crate::clustering::FitReport;
 use crate::geometry::{OrientedBox, Point};
-use crate::segmentation::Region;
+use crate::grid::OccupancyGrid;
+use crate::segmentation::{Region, RegionMap};
+use crate::spec::{AnnotationMethod, AnnotationOptions};
+use crate::watch::Watch;
 
 fn subdivide(ends: &[[f64; 4]]) -> Subdivision {
     let segment = |&[x0, y0, x1, y1]: &[f64; 4]| SourceSegment {
@@ -66,11 +69,6 @@ fn annotated_with(picture: &str, subdivision: &Subdivision, options: &Annotation
     annotate(&subject, options, 1, &Watch::unwatched()).expect("nobody stops it")
 }
 
-fn picture_of(cells: &CellFaces, width: usize) -> String {
-    let rows = cells.as_slice().chunks(width).rev();
-    rows.map(|row| row.iter().map(ToString::to_string).collect::<String>() + "\n").collect()
-}
-
 #[test]
 fn faces_that_differ_have_categories_of_their_own_and_none_is_outside() {
     // Strips of growing width: more kinds of faces than categories of cells.
@@ -98,46 +96,6 @@ fn relaxation_has_the_last_word_on_the_categories_of_faces() {
             assert_eq!(face.confidence, f64::from(distribution[usize::from(face.category)]));
         }
     }
-}
-
-#[test]
-fn every_cell_lies_in_the_face_of_its_center() {
-    let subdivision =
-        boxed([1.0, 1.0, 11.0, 7.0], &[[1.0, 4.0, 11.0, 4.0], [1.0, 1.0, 7.0, 7.0], [3.0, 5.0, 3.0, 6.0]]);
-    expect![[r#"
-        000000000000
-        033333444440
-        033334444440
-        033344444440
-        022111111110
-        021111111110
-        011111111110
-        000000000000
-    "#]]
-    .assert_eq(&picture_of(&CellFaces::rasterize(&subdivision, 12, 8, 1.0), 12));
-}
-
-#[test]
-fn a_center_on_an_edge_belongs_to_the_right_or_upper_face() {
-    let subdivision = boxed([0.5, 0.5, 3.5, 3.5], &[[1.5, 0.5, 1.5, 3.5], [1.5, 2.5, 3.5, 2.5]]);
-    expect![[r#"
-        00000
-        13300
-        12200
-        12200
-    "#]]
-    .assert_eq(&picture_of(&CellFaces::rasterize(&subdivision, 5, 4, 1.0), 5));
-}
-
-#[test]
-fn grids_without_cells_or_faces_have_nothing_to_fill() {
-    for (width, height) in [(0, 0), (0, 3), (3, 0)] {
-        assert!(CellFaces::rasterize(&subdivide(&[]), width, height, 0.05).as_slice().is_empty());
-    }
-    let cells = CellFaces::rasterize(&subdivide(&[]), 2, 1, 0.05);
-    assert_eq!((cells.at(0, 0), cells.at(1, 0)), (FaceId::OUTER, FaceId::OUTER));
-    let reaching_out = boxed([-5.0, -5.0, 50.0, 50.0], &[]);
-    assert!(CellFaces::rasterize(&reaching_out, 3, 3, 1.0).as_slice().iter().all(|&face| face == FaceId(1)));
 }
 
 /// Four rooms: a vote with a tie, a majority, one of obstacles alone, one never seen.
@@ -260,39 +218,4 @@ fn the_number_of_threads_is_of_no_consequence() {
 fn nothing_is_annotated_without_faces() {
     let (faces, edges) = annotated("??\n??\n", &subdivide(&[]));
     assert_eq!((faces.len(), edges.len()), (1, 0));
-}
-
-fn crossing_lines() -> impl Strategy<Value = Vec<[f64; 4]>> {
-    let anywhere = prop::array::uniform4(-2.0..14.0);
-    let on_centers = prop::array::uniform4(-2_i8..14).prop_map(|ends| ends.map(|end| f64::from(end) + 0.5));
-    let steep = (0.0..12.0, -1e-3..1e-3).prop_map(|(x, lean): (f64, f64)| [x, -2.0, x + lean, 14.0]);
-    let level = (0.0..12.0, -1e-3..1e-3).prop_map(|(y, lean): (f64, f64)| [-2.0, y, 14.0, y + lean]);
-    prop::collection::vec(prop_oneof![anywhere, on_centers, steep, level], 0..24)
-}
-
-proptest! {
-    #![proptest_config(ProptestConfig::with_cases(128))]
-
-    /// A cell whose centre is clear of all edges lies in the face whose boundary a ray from it crosses oddly often.
-    #[test]
-    fn cells_agree_with_point_location(ends in crossing_lines()) {
-        let subdivision = subdivide(&ends);
-        let cells = CellFaces::rasterize(&subdivision, 12, 12, 1.0);
-        for (number, &face) in cells.as_slice().iter().enumerate() {
-            let center = Point::new((number % 12) as f64 + 0.5, (number / 12) as f64 + 0.5);
-            prop_assert!(face.index() < subdivision.face_count());
-            let is_clear = subdivision.edges().all(|edge| {
-                let [start, end] = subdivision.segment(edge);
-                (end - start).perp(&(center - start)).abs() > 1e-9 * (end - start).norm()
-            });
-            for other in subdivision.faces().filter(|_| is_clear) {
-                let crossed = subdivision.boundary(other).filter(|half| {
-                    let [start, end] = subdivision.segment(half.edge());
-                    (start.y > center.y) != (end.y > center.y)
-                        && center.x < start.x + (center.y - start.y) / (end.y - start.y) * (end.x - start.x)
-                });
-                prop_assert_eq!(crossed.count() % 2 == 1, face == other);
-            }
-        }
-    }
 }

@@ -14,6 +14,7 @@
 
 mod buckets;
 mod builder;
+mod cell_faces;
 mod dissolve;
 mod ids;
 mod invariants;
@@ -23,10 +24,13 @@ mod sources;
 mod subdivision;
 
 #[cfg(test)]
+mod cell_faces_tests;
+#[cfg(test)]
 mod golden_tests;
 #[cfg(test)]
 mod tests;
 
+pub use cell_faces::CellFaces;
 pub use ids::{EdgeId, FaceId, HalfEdgeId, VertexId};
 pub use sources::{SourceSegment, source_segments};
 pub use subdivision::{EdgeSource, HalfEdge, Subdivision};

@@ -10,8 +10,10 @@ use super::EdgeSource;
 use super::lattice;
 use crate::geometry::{Point, Vector, direction, normal};
 use crate::grid::OccupancyGrid;
-use crate::radiography::Line;
+use crate::line::Line;
+use crate::runs::runs_where;
 use crate::segmentation::RegionMap;
+use crate::watch::{Stopped, Watch};
 
 /// A segment that goes into the arrangement, with what it stands for.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -28,20 +30,29 @@ pub struct SourceSegment {
 ///
 /// `rooms` holds the room, or the stack in a room, of every cell, 0 for none; it is empty where there are no rooms.
 /// Lines of a region that are shorter than a cell are left out.
-#[must_use]
-pub fn source_segments(grid: &OccupancyGrid, regions: &RegionMap, lines: &[Line], rooms: &[u32]) -> Vec<SourceSegment> {
-    let tiles = Tiles::new(grid, regions, rooms);
-    let mut segments = tiles.boundaries();
+///
+/// # Errors
+/// [`Stopped`] when the watch says so.
+pub fn source_segments(
+    grid: &OccupancyGrid,
+    regions: &RegionMap,
+    lines: &[Line],
+    rooms: &[u32],
+    watch: &Watch<'_>,
+) -> Result<Vec<SourceSegment>, Stopped> {
+    let tiles = RegionTiles::new(grid, regions, rooms);
+    let mut segments = tiles.boundaries(watch)?;
     for (number, line) in (0..).zip(lines) {
+        watch.check()?;
         tiles.stretches(line, grid.resolution(), |start, end| {
             segments.push(SourceSegment { start, end, source: EdgeSource::Line(number) });
         });
     }
-    segments
+    Ok(segments)
 }
 
 /// The tiles of a region map with their borders in metres.
-struct Tiles<'a> {
+struct RegionTiles<'a> {
     grid: &'a OccupancyGrid,
     regions: &'a RegionMap,
     rooms: &'a [u32],
@@ -50,7 +61,7 @@ struct Tiles<'a> {
     y: Vec<f64>,
 }
 
-impl<'a> Tiles<'a> {
+impl<'a> RegionTiles<'a> {
     fn new(grid: &'a OccupancyGrid, regions: &'a RegionMap, rooms: &'a [u32]) -> Self {
         let borders = |tiles: usize, cells: usize| -> Vec<f64> {
             (0..=tiles).map(|tile| (tile * regions.tile_cells).min(cells) as f64 * grid.resolution()).collect()
@@ -70,7 +81,7 @@ impl<'a> Tiles<'a> {
     }
 
     /// The borders between tiles of different regions, in straight runs outside rooms.
-    fn boundaries(&self) -> Vec<SourceSegment> {
+    fn boundaries(&self, watch: &Watch<'_>) -> Result<Vec<SourceSegment>, Stopped> {
         let mut segments = Vec::new();
         let mut push = |start, end| {
             if start != end {
@@ -79,25 +90,27 @@ impl<'a> Tiles<'a> {
         };
         let tile = self.regions.tile_cells;
         for (column, &x) in self.x.iter().enumerate() {
+            watch.check()?;
             let differs = |row| self.region(column.checked_sub(1), Some(row)) != self.region(Some(column), Some(row));
             let is_in_room = |row| self.is_in_room([column * tile, row], [(column * tile).wrapping_sub(1), row]);
-            runs(self.regions.rows, differs, |from, to| {
-                self.outside_rooms([self.y[from], self.y[to]], is_in_room, |from, to| {
+            for run in runs_where(self.regions.rows, differs) {
+                self.outside_rooms([self.y[run.start], self.y[run.end]], is_in_room, |from, to| {
                     push(Point::new(x, from), Point::new(x, to));
                 });
-            });
+            }
         }
         for (row, &y) in self.y.iter().enumerate() {
+            watch.check()?;
             let differs =
                 |column| self.region(Some(column), row.checked_sub(1)) != self.region(Some(column), Some(row));
             let is_in_room = |column| self.is_in_room([column, row * tile], [column, (row * tile).wrapping_sub(1)]);
-            runs(self.regions.columns, differs, |from, to| {
-                self.outside_rooms([self.x[from], self.x[to]], is_in_room, |from, to| {
+            for run in runs_where(self.regions.columns, differs) {
+                self.outside_rooms([self.x[run.start], self.x[run.end]], is_in_room, |from, to| {
                     push(Point::new(from, y), Point::new(to, y));
                 });
-            });
+            }
         }
-        segments
+        Ok(segments)
     }
 
     /// Whether two cells (column, row) lie in one room.
@@ -121,15 +134,11 @@ impl<'a> Tiles<'a> {
         let cell = self.grid.resolution();
         let [first, last] = [start, end].map(|side| (side / cell).round() as usize);
         let at = |number: usize| start + (number as f64) * cell;
-        runs(
-            last - first,
-            |number| !is_in_room(first + number),
-            |from, to| {
-                let from = if from == 0 { start } else { at(from) - OVERSHOOT_CELLS * cell };
-                let to = if first + to == last { end } else { at(to) + OVERSHOOT_CELLS * cell };
-                found(from.max(start), to.min(end));
-            },
-        );
+        for run in runs_where(last - first, |number| !is_in_room(first + number)) {
+            let from = if run.start == 0 { start } else { at(run.start) - OVERSHOOT_CELLS * cell };
+            let to = if first + run.end == last { end } else { at(run.end) + OVERSHOOT_CELLS * cell };
+            found(from.max(start), to.min(end));
+        }
     }
 
     /// The stretches of a line that lie in its region; the whole of a line that has none.
@@ -154,11 +163,12 @@ impl<'a> Tiles<'a> {
                 let middle = foot + along * f64::midpoint(cuts[piece], cuts[piece + 1]);
                 self.region_at(middle) == line.region
             };
-            runs(cuts.len().saturating_sub(1), is_inside, |from, to| {
-                if cuts[to] - cuts[from] >= cell {
-                    push(foot + along * (cuts[from] - hair), foot + along * (cuts[to] + hair));
+            for run in runs_where(cuts.len().saturating_sub(1), is_inside) {
+                let [from, to] = [run.start, run.end].map(|cut| cuts[cut]);
+                if to - from >= cell {
+                    push(foot + along * (from - hair), foot + along * (to + hair));
                 }
-            });
+            }
         }
     }
 
@@ -192,21 +202,6 @@ impl<'a> Tiles<'a> {
     }
 }
 
-/// Calls `found(from, to)` for every maximal run `from..to` of numbers below `count` for which `is_in` holds.
-fn runs(count: usize, is_in: impl Fn(usize) -> bool, mut found: impl FnMut(usize, usize)) {
-    let mut start = None;
-    for number in 0..=count {
-        match (number < count && is_in(number), start) {
-            (true, None) => start = Some(number),
-            (false, Some(from)) => {
-                found(from, number);
-                start = None;
-            }
-            _ => {}
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use std::f64::consts::FRAC_PI_4;
@@ -218,7 +213,6 @@ mod tests {
     use crate::geometry::OrientedBox;
     use crate::grid::{GridFrame, Occupancy};
     use crate::segmentation::Region;
-    use crate::watch::Watch;
 
     /// Digits are the regions of tiles of 2 x 2 cells of 0.5 m, so a character is a metre.
     fn regions(picture: &str) -> RegionMap {
@@ -246,7 +240,8 @@ mod tests {
             let SourceSegment { start, end, source } = segment;
             format!("({:.2}, {:.2}) - ({:.2}, {:.2}) {source:?}\n", start.x, start.y, end.x, end.y)
         };
-        expected.assert_eq(&source_segments(grid, regions, lines, &[]).iter().map(text).collect::<String>());
+        let found = source_segments(grid, regions, lines, &[], &Watch::unwatched()).expect("nobody stops it");
+        expected.assert_eq(&found.iter().map(text).collect::<String>());
     }
 
     #[test]
@@ -303,8 +298,9 @@ mod tests {
             0001
         ",
         );
-        let subdivision =
-            arrange(&source_segments(&grid(8, 6), &regions, &[], &[]), &Watch::unwatched()).expect("no stop");
+        let watch = Watch::unwatched();
+        let segments = source_segments(&grid(8, 6), &regions, &[], &[], &watch).expect("nobody stops it");
+        let subdivision = arrange(&segments, &watch).expect("nobody stops it");
         subdivision.check_invariants().expect("it is sound");
         let areas: Vec<f64> = subdivision.faces().map(|face| subdivision.area(face)).collect();
         assert_eq!(areas, [6.0, 6.0]);
@@ -355,8 +351,9 @@ mod tests {
             let parallel =
                 |angle: f64| (-9..9).map(move |offset| line(0, angle, f64::from(offset) * 0.7, [-20.0, 20.0]));
             let lines: Vec<Line> = parallel(orientation).chain(parallel(across)).collect();
-            let segments = source_segments(&grid(10, 8), &regions, &lines, &[]);
-            let subdivision = arrange(&segments, &Watch::unwatched()).expect("nobody stops it");
+            let watch = Watch::unwatched();
+            let segments = source_segments(&grid(10, 8), &regions, &lines, &[], &watch).expect("nobody stops it");
+            let subdivision = arrange(&segments, &watch).expect("nobody stops it");
             subdivision.check_invariants().expect("it is sound");
             let covered: f64 = subdivision.faces().map(|face| subdivision.area(face)).sum();
             assert!((covered - 20.0).abs() < 1e-9 && subdivision.face_count() > 30, "{orientation}: {covered} m2");

@@ -10,7 +10,7 @@ use super::lattice::LatticePoint;
 use super::*;
 use crate::geometry::{Point, direction, fold_half_turn, normal};
 use crate::grid::OccupancyGrid;
-use crate::radiography::Line;
+use crate::line::Line;
 use crate::segmentation::RegionMap;
 
 fn segment(number: u32, [x0, y0, x1, y1]: [f64; 4]) -> SourceSegment {
@@ -455,7 +455,7 @@ proptest! {
             Point::new(x, y) + direction(angle) * radius
         };
         let lines: Vec<Line> = (0..corners).map(|at| border_of_room([corner(at), corner(at + 1)])).collect();
-        let subdivision = arranged(&source_segments(&grid, &regions, &lines, &[]));
+        let subdivision = arranged(&source_segments(&grid, &regions, &lines, &[], &Watch::unwatched()).unwrap());
         prop_assert_eq!(subdivision.face_count(), 2);
     }
 }

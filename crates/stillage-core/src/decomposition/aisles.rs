@@ -12,7 +12,8 @@
 use std::ops::Range;
 
 use super::ground::{Axis, Cell, LineProfile, Rect, RegionFrame};
-use super::plot::{Parcel, PlotKind};
+use super::parcel::Parcel;
+use crate::plot::PlotKind;
 use crate::runs::runs_where;
 use crate::watch::{Stopped, Watch};
 

@@ -8,9 +8,9 @@ use std::collections::BTreeMap;
 use std::f64::consts::FRAC_PI_2;
 
 use super::ground::{Axis, RegionFrame};
-use super::plot::Parcel;
+use super::parcel::Parcel;
 use crate::geometry::fold_half_turn;
-use crate::radiography::Line;
+use crate::line::Line;
 use crate::watch::{Stopped, Watch};
 
 /// The borders of the parcels of a region.

@@ -7,7 +7,7 @@
 //! | 3 | [`bodies`] | the direction, the depth and the layers of each body |
 //! | 4 | [`rows`] | rows, cut into places where they are periodic |
 //! | 5 | [`trim`] | rows, passages and aisles that end where their evidence ends: the parcels |
-//! | 6 | [`lines`], [`plot`] | the borders of the parcels as lines, and the parcels in metres |
+//! | 6 | [`lines`], [`parcel`] | the borders of the parcels as lines, and the parcels in metres |
 //!
 //! The paper (II-B) cuts a region by infinite lines through the peaks of its radiograms. Peaks lie on goods and racks
 //! drift, so few pallet cells of such a decomposition are right. Here every line is bounded and follows from the evidence
@@ -20,7 +20,7 @@ mod bodies;
 mod ground;
 mod likelihood;
 mod lines;
-mod plot;
+mod parcel;
 mod rows;
 mod trim;
 
@@ -30,7 +30,8 @@ mod tests;
 use rayon::prelude::*;
 
 use crate::grid::OccupancyGrid;
-use crate::radiography::Line;
+use crate::line::Line;
+use crate::plot::Plot;
 use crate::segmentation::RegionMap;
 use crate::site_ground::SiteGround;
 use crate::spec::DecompositionOptions;
@@ -38,8 +39,6 @@ use crate::watch::{Stage, Stopped, Watch};
 
 use ground::{RegionFrame, drivable};
 use rows::SizeHints;
-
-pub use plot::{Plot, PlotKind};
 
 /// Lines, and what they enclose.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -96,6 +95,6 @@ fn decompose_region(
     let parcels = rows::lay_out(&frame, cut, &SizeHints::of(options), watch)?;
     let parcels = trim::trimmed(&frame, parcels, watch)?;
     let lines = lines::of_parcels(&frame, region, &parcels, watch)?;
-    let plots = parcels.iter().map(|parcel| plot::plot(&frame, region, parcel)).collect();
+    let plots = parcels.iter().map(|parcel| parcel::plot(&frame, region, parcel)).collect();
     Ok(Decomposition { lines, plots })
 }

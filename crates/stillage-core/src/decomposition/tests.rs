@@ -6,6 +6,7 @@ use proptest::prelude::*;
 use super::*;
 use crate::geometry::{OrientedBox, Point};
 use crate::grid::{GridFrame, Occupancy};
+use crate::plot::PlotKind;
 use crate::segmentation::Region;
 
 /// Pallets of nine blocks on places of 1.2 x 1.2 m, in double rows along x, with aisles of 3 m, and 3 m of open floor around them.

@@ -1,20 +1,20 @@
 //! How one location is reached: its access edges, its frame, and where a robot stands before it.
 //!
-//! Source: the storage-access edges of the paper's section II-C; the frame and the approach are ours.
-//! Cost: O(edges of the face and of the face it is reached from). Limits: the approach knows the faces, not the
-//! cells: whether its cell is free is for the route to say.
+//! Source: the storage-access edges of the paper's section II-C; the frame and the approach are our own.
+//! Cost: O(edges of the face and of the face it is reached from). Limits: the approach is computed from faces, not from
+//! cells; routing finds out whether its cell is free.
 
-use super::ApproachPose;
+use super::location::ApproachPose;
 use crate::analysis::Analysis;
 use crate::arrangement::{EdgeId, FaceId, HalfEdgeId};
 use crate::geometry::{OrientedBox, Point, Vector, direction, polygon, segment};
 use crate::semantics::{Cogency, SemanticMap};
 
-/// Where the middle of a robot stands before an access edge, metres: our choice, half a robot of 1.2 m and some room.
-/// Half the depth of the face before it, where that is less.
-const STANDING_DISTANCE: f64 = 0.8;
+/// Distance of the middle of a robot from the access edge before which it stands, metres: our choice, half a robot of
+/// 1.2 m and 0.2 m to spare. Where the face before the edge is less than twice as deep, half its depth is taken.
+const STANDING_DISTANCE_M: f64 = 0.8;
 
-/// What the geometry says of one location.
+/// Place, size and access of one location.
 #[derive(Debug, Clone)]
 pub(super) struct Access {
     /// The storage face.
@@ -50,9 +50,9 @@ impl Access {
         let halves = access_half_edges(face, analysis, semantic);
         let annotation = &analysis.faces[face.index()];
         let rings = analysis.subdivision.rings(face);
-        let front = halves.first().map(|&half| Front::of(half, analysis));
-        // Without a front, goods are taken to lie along the place: in at the short side.
-        let inward = front.as_ref().map_or_else(|| direction(annotation.heading), |front| front.inward);
+        let frame = halves.first().map(|&half| AccessFrame::of(half, analysis));
+        // Without an access edge, the location is taken to be entered at its short side.
+        let inward = frame.as_ref().map_or_else(|| direction(annotation.heading), |frame| frame.inward);
         let heading = inward.y.atan2(inward.x);
         let outline = rings.first().into_iter().flatten().copied();
         let half_extents = OrientedBox::around(outline, heading).map_or([0.0; 2], |extent| extent.half_extents);
@@ -63,12 +63,12 @@ impl Access {
             depth: 2.0 * half_extents[0],
             heading,
             edges: halves.iter().map(|half| half.edge()).collect(),
-            best: front.map(|front| front.access(heading, analysis)),
+            best: frame.map(|frame| frame.access(heading, analysis)),
         }
     }
 }
 
-/// The half-edges of a face over which it is reached, the best first: where most of the length lets goods through.
+/// The half-edges of a face over which it is reached; first the one with the greatest passable length.
 fn access_half_edges(face: FaceId, analysis: &Analysis, semantic: &SemanticMap) -> Vec<HalfEdgeId> {
     let subdivision = &analysis.subdivision;
     let gives_access = |half: &HalfEdgeId| {
@@ -89,15 +89,15 @@ fn access_half_edges(face: FaceId, analysis: &Analysis, semantic: &SemanticMap) 
     halves
 }
 
-/// The best access edge in the making.
-struct Front {
+/// Place and direction of the best access edge.
+struct AccessFrame {
     from: FaceId,
     middle: Point,
     /// Unit vector into the location.
     inward: Vector,
 }
 
-impl Front {
+impl AccessFrame {
     fn of(half: HalfEdgeId, analysis: &Analysis) -> Self {
         let subdivision = &analysis.subdivision;
         let start = subdivision.position(subdivision.half_edge(half).origin);
@@ -111,20 +111,20 @@ impl Front {
     fn access(self, heading: f64, analysis: &Analysis) -> BestAccess {
         let outward = -self.inward;
         let room = room_ahead(self.middle, outward, self.from, analysis);
-        let position = self.middle + outward * STANDING_DISTANCE.min(room / 2.0);
+        let position = self.middle + outward * STANDING_DISTANCE_M.min(room / 2.0);
         BestAccess { from: self.from, middle: self.middle, approach: ApproachPose { position, heading } }
     }
 }
 
 /// How far a face reaches from a point of its boundary, metres.
 fn room_ahead(from: Point, ahead: Vector, face: FaceId, analysis: &Analysis) -> f64 {
-    // Edges closer than this hold the point itself; the narrowest line distance an analysis may ask for is 10 mm.
-    const NEXT_TO_NOTHING: f64 = 1e-6;
+    // Edges nearer than this, in metres, are the one that the point lies on: lines of an analysis are 10 mm apart at least.
+    const SAME_EDGE_M: f64 = 1e-6;
     let subdivision = &analysis.subdivision;
     let hits = subdivision.boundary(face).filter_map(|half| {
         // Parallel edges give no number, and no hit.
         let [distance, share] = segment::crossing(from, ahead, subdivision.segment(half.edge()));
-        (distance > NEXT_TO_NOTHING && (0.0..=1.0).contains(&share)).then_some(distance)
+        (distance > SAME_EDGE_M && (0.0..=1.0).contains(&share)).then_some(distance)
     });
     let room = hits.fold(f64::INFINITY, f64::min);
     if room.is_finite() { room } else { 0.0 }

@@ -12,8 +12,8 @@
 use std::collections::BTreeMap;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
-use super::Side;
 use super::access::{Access, BestAccess};
+use super::location::Side;
 use crate::arrangement::FaceId;
 use crate::geometry::{Point, direction, fold_half_turn, normal};
 use crate::semantics::SemanticMap;

@@ -1,6 +1,9 @@
 //! Locations of drawn warehouses.
 
+use super::aisles::Slot;
+use super::codes::Codes;
 use super::*;
+use crate::geometry::Point;
 use crate::semantics::RuleSet;
 use crate::semantics::pictures::DrawnMap;
 use expect_test::{Expect, expect};

@@ -1,33 +1,34 @@
-//! The ground that walls bound: free cells, and what stands on them alone.
+//! The ground that rooms are made of: free cells, and small obstacles that stand on them alone.
 //!
-//! Table legs, chairs, bins and lone columns stand in a room and do not divide it: obstacles of small extent that touch
-//! nothing else count as ground here. (The map keeps them.) All that is not free bounds the ground, known or not:
-//! drawings show walls in any grey, and scanners see one side of them. What stands alone, is larger than furniture and
-//! as thick as goods is a *stack*: shelves and piles of goods, which are no walls either, but keep their own ground.
-//! Cost: O(cells).
+//! Table legs, chairs, bins and lone columns stand in a room and do not divide it, so small obstacles that touch nothing
+//! else count as ground here. (The map keeps them.) All other cells that are not free bound the ground, whether occupied
+//! or unknown: drawings show walls in any grey, and scanners see one side of them. An obstacle that stands alone, is
+//! larger than furniture and as thick as goods is a *stack*: a shelf or a pile of goods. It is no ground, and no wall
+//! either. Cost: O(cells), and O(n log n) for the n cells of each large obstacle.
 
 use super::stacks;
 use crate::components::{Components, Neighbours};
 use crate::grid::{Occupancy, OccupancyGrid};
 use crate::watch::{Stopped, Watch};
 
-/// Obstacles up to this diagonal that stand alone are furniture, metres: a chair has 0.7, a bin 0.4; a piece of wall
-/// between two doors is longer.
+/// Largest diagonal of furniture, metres: a chair has 0.7, a bin 0.4; a piece of wall between two doors is longer.
 const FURNITURE_M: f64 = 1.0;
 
 /// Which cells are ground.
-pub(super) struct Ground {
+pub(super) struct RoomGround {
+    /// Columns of the grid.
     pub width: usize,
+    /// Rows of the grid.
     pub height: usize,
     /// Side of a cell, metres.
     pub cell: f64,
-    /// Row-major. No cell of the border is ground, so that every cell of the ground has eight neighbours.
+    /// Whether each cell is ground, row-major. No cell of the border is, so that every one has eight neighbours.
     pub is_free: Vec<bool>,
     /// Whether a cell belongs to a stack that stands alone.
     pub is_stack: Vec<bool>,
 }
 
-impl Ground {
+impl RoomGround {
     pub(super) fn of(grid: &OccupancyGrid, watch: &Watch<'_>) -> Result<Self, Stopped> {
         let (width, height) = (grid.width(), grid.height());
         let on_border = |cell: usize| {
@@ -38,7 +39,7 @@ impl Ground {
         let is_free = cells.map(|(cell, &occupancy)| occupancy == Occupancy::Free && !on_border(cell)).collect();
         let is_stack = vec![false; width * height];
         let mut ground = Self { width, height, cell: grid.resolution(), is_free, is_stack };
-        ground.tell_obstacles_apart(watch)?;
+        ground.sort_obstacles(watch)?;
         Ok(ground)
     }
 
@@ -60,8 +61,8 @@ impl Ground {
         [below - 1, below, below + 1, cell - 1, cell + 1, above - 1, above, above + 1]
     }
 
-    /// Turns small obstacles that touch no other into ground, and marks larger ones that are stacks.
-    fn tell_obstacles_apart(&mut self, watch: &Watch<'_>) -> Result<(), Stopped> {
+    /// Turns small obstacles that stand alone into ground, and marks larger ones that are stacks.
+    fn sort_obstacles(&mut self, watch: &Watch<'_>) -> Result<(), Stopped> {
         let size = [self.width, self.is_free.len()];
         let obstacles = Components::of(size, Neighbours::Eight, |cell| !self.is_free[cell], watch)?;
         for obstacle in obstacles.iter() {

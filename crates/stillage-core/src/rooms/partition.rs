@@ -1,21 +1,26 @@
-//! Rooms: what is left of the ground when every passage is closed, each with its share of the walls around it.
+//! The room of every cell: what is left of the ground when every doorway is closed, with a share of the walls around it.
 //!
-//! Components of the ground between the closed passages are rooms where they are large enough; smaller ones belong to
-//! the room that they open to. Then walls are shared among the rooms beside them, so that two rooms meet in the middle
-//! of the wall between them; stacks keep their own ground. Cost: O(cells).
+//! Components of the ground between the closed doorways are rooms where they are large enough; smaller ones belong to
+//! the room that they are open to. Then walls are shared among the rooms beside them, so that two rooms meet in the
+//! middle of the wall between them. Cost: O(cells + lengths of the doorways).
 
 use std::collections::VecDeque;
 
-use super::flood::Passage;
-use super::ground::Ground;
-use super::nearest::{NONE, Nearest};
+use super::distance_transform::{DistanceTransform, NONE};
+use super::doorways::Doorway;
+use super::ground::RoomGround;
 use crate::components::{Components, Neighbours};
 use crate::watch::{Stopped, Watch};
 
-/// Smaller components are no rooms, square metres: a cupboard that one can stand in.
+/// Least area of a room, square metres: a cupboard that one can stand in.
 const LEAST_ROOM_M2: f64 = 1.0;
-/// A room has this much of the wall around it, metres: walls between rooms are up to twice as thick.
+/// How much of the wall around it belongs to a room, metres: walls between rooms are up to twice as thick.
 const WALL_SHARE_M: f64 = 0.25;
+/// Distance from a doorway at which its two sides are looked up, metres: beyond the cells of the doorway itself, which
+/// went to either room.
+const BESIDE_M: f64 = 0.2;
+/// Cells that are spread to between two looks at the stop flag: well below 50 ms of work.
+const CHECK_EVERY: usize = 1 << 20;
 
 /// The room of every cell.
 pub(super) struct Partition {
@@ -29,29 +34,29 @@ pub(super) struct Partition {
 
 impl Partition {
     pub(super) fn of<'a>(
-        ground: &Ground,
-        passages: impl Iterator<Item = &'a Passage>,
+        ground: &RoomGround,
+        doorways: impl Iterator<Item = &'a Doorway>,
         watch: &Watch<'_>,
     ) -> Result<Self, Stopped> {
         let mut is_open = ground.is_free.clone();
-        for passage in passages {
-            for cell in cells_along(ground, passage) {
+        for doorway in doorways {
+            for cell in cells_along(ground, doorway) {
                 is_open[cell] = false;
             }
         }
         let (count, mut rooms) = components(ground, &is_open, watch)?;
-        spread(ground, &mut rooms);
-        let nearest = Nearest::of(ground.width, rooms.len(), |cell| rooms[cell] != 0, watch)?;
+        spread(ground, &mut rooms, watch)?;
+        let transform = DistanceTransform::of(ground.width, rooms.len(), |cell| rooms[cell] != 0, watch)?;
         let reach = ground.cells_of(WALL_SHARE_M) as u32;
         let shared: Vec<u32> = (0..rooms.len())
-            .map(|cell| match nearest.cell[cell] {
-                near if near != NONE && nearest.squared[cell] <= reach * reach && !ground.is_stack[cell] => {
+            .map(|cell| match transform.nearest[cell] {
+                near if near != NONE && transform.squared[cell] <= reach * reach && !ground.is_stack[cell] => {
                     rooms[near as usize]
                 }
                 _ => 0,
             })
             .collect();
-        Ok(Self { count, rooms: shared, nearest: nearest.cell })
+        Ok(Self { count, rooms: shared, nearest: transform.nearest })
     }
 
     /// The room whose ground is nearest to a cell, however far; 0 without rooms.
@@ -59,11 +64,25 @@ impl Partition {
         let near = self.nearest[cell];
         if near == NONE { 0 } else { self.rooms[near as usize] }
     }
+
+    /// The rooms on both sides of the middle of a doorway, 0 where there is none.
+    pub(super) fn sides(&self, ground: &RoomGround, doorway: &Doorway) -> [u32; 2] {
+        let [from, to] = doorway.ends.map(|end| end.map(|place| place as f64));
+        let along = [to[0] - from[0], to[1] - from[1]];
+        let length = along[0].hypot(along[1]).max(1.0);
+        let middle = [f64::midpoint(from[0], to[0]), f64::midpoint(from[1], to[1])];
+        let step = ground.cells_of(BESIDE_M) as f64 + 1.0;
+        [1.0, -1.0].map(|side| {
+            let column = (middle[0] - side * step * along[1] / length).round() as i64;
+            let row = (middle[1] + side * step * along[0] / length).round() as i64;
+            if ground.holds(column, row) { self.rooms[row as usize * ground.width + column as usize] } else { 0 }
+        })
+    }
 }
 
-/// The cells of a line across a passage, without a gap that a step up, down, left or right could take.
-fn cells_along(ground: &Ground, passage: &Passage) -> impl Iterator<Item = usize> {
-    let [from, to] = passage.ends;
+/// The cells of a line across a doorway: no step up, down, left or right leads through between two of them.
+fn cells_along(ground: &RoomGround, doorway: &Doorway) -> impl Iterator<Item = usize> {
+    let [from, to] = doorway.ends;
     let span = [to[0] - from[0], to[1] - from[1]];
     let steps = 2 * span[0].abs().max(span[1].abs()).max(1);
     let width = ground.width;
@@ -74,7 +93,7 @@ fn cells_along(ground: &Ground, passage: &Passage) -> impl Iterator<Item = usize
 }
 
 /// Four-connected components that are large enough, numbered in the order of their first cells.
-fn components(ground: &Ground, is_open: &[bool], watch: &Watch<'_>) -> Result<(usize, Vec<u32>), Stopped> {
+fn components(ground: &RoomGround, is_open: &[bool], watch: &Watch<'_>) -> Result<(usize, Vec<u32>), Stopped> {
     let least = (LEAST_ROOM_M2 / (ground.cell * ground.cell)).ceil() as usize;
     let (mut count, mut rooms) = (0, vec![0; is_open.len()]);
     let found = Components::of([ground.width, is_open.len()], Neighbours::Four, |cell| is_open[cell], watch)?;
@@ -85,10 +104,15 @@ fn components(ground: &Ground, is_open: &[bool], watch: &Watch<'_>) -> Result<(u
     Ok((count as usize, rooms))
 }
 
-/// Gives the rest of the ground to the rooms it is joined with, step by step.
-fn spread(ground: &Ground, rooms: &mut [u32]) {
+/// Gives the rest of the ground to the rooms that it is connected with: each cell to the room reached in fewest steps.
+fn spread(ground: &RoomGround, rooms: &mut [u32], watch: &Watch<'_>) -> Result<(), Stopped> {
     let mut open: VecDeque<usize> = (0..rooms.len()).filter(|&cell| rooms[cell] != 0).collect();
+    let mut visited = 0_usize;
     while let Some(cell) = open.pop_front() {
+        visited += 1;
+        if visited.is_multiple_of(CHECK_EVERY) {
+            watch.check()?;
+        }
         for near in beside(ground, cell) {
             if ground.is_free[near] && rooms[near] == 0 {
                 rooms[near] = rooms[cell];
@@ -96,8 +120,9 @@ fn spread(ground: &Ground, rooms: &mut [u32]) {
             }
         }
     }
+    Ok(())
 }
 
-fn beside(ground: &Ground, cell: usize) -> [usize; 4] {
+fn beside(ground: &RoomGround, cell: usize) -> [usize; 4] {
     [cell - 1, cell + 1, cell - ground.width, cell + ground.width]
 }

@@ -1,38 +1,39 @@
 //! Stacks: shelves and piles of goods that stand in a room, free or against its wall.
 //!
-//! What closes the ground is a wall, the building around it, or goods. Goods have their room on two sides: a straight line
-//! in one of the two directions of the site goes from the room through them and comes out in the same room. Lines into
-//! a wall come out elsewhere or nowhere, and those along a wall are as long as it is thin. So the closed cells between
-//! two open ones of one room, opened by a disc that walls are thinner than, are the stacks; whether something touches
-//! them, and whether their inside was seen, is of no account. Ground too tight for a person is no open ground: it is the
-//! inside of a shelf, or the slot behind it.
+//! Closed ground is a wall, the building around the room, or goods. Goods have the room on two sides: a straight line in
+//! one of the two directions of the site leads from the room through them and out into the same room. Lines into a wall
+//! lead to another room or to none, and lines along a wall pass through no more than its thickness. So the closed cells
+//! between two open cells of one room, opened by a disc that is wider than walls are thick, are stacks. It does not
+//! matter whether something touches them, or whether their inside was seen. Free ground that is too tight for a person
+//! counts as closed: it is the inside of a shelf, or the slot behind it.
 //!
-//! Cost: O(cells of the rectangles around the rooms). Limits: what stands against a wall at a slant loses its edges; goods that
-//! fill a corner of the room look like the corner of the building, and stay without a face.
+//! Cost: O(cells of the rectangles around the rooms). Limits: what stands against a wall at a slant loses its edges; goods
+//! that fill a corner of the room look like the corner of the building, and are not found.
 
 use std::collections::BTreeMap;
 use std::f64::consts::FRAC_PI_2;
 use std::ops::Range;
 
-use super::nearest::Nearest;
+use super::distance_transform::DistanceTransform;
 use crate::components::{Component, Components, Neighbours};
 use crate::geometry::{OrientedBox, Point, direction};
 use crate::grid::{Occupancy, OccupancyGrid};
 use crate::watch::{Stopped, Watch};
 
-/// Stacks are as thick as this at least, metres: walls are thinner, shelves of a shop have 0.5.
+/// Least thickness of a stack, metres: walls are thinner, shelves of a shop have 0.5.
 const STACK_M: f64 = 0.4;
-/// What touches a wall is as deep as this at least to be goods, metres: the smallest place; walls and columns jut out less.
+/// Diameter of the disc that stacks are opened by, metres: below the depth of the smallest place, 0.6; walls and columns
+/// jut out less.
 const DEPTH_M: f64 = 0.55;
-/// Share of the smallest box around a stack that it fills; walls around a corner fill less.
+/// Least share of the smallest box around a stack that it fills; walls around a corner fill less.
 const STACK_FILL: f64 = 0.6;
-/// A stack holds as much as the smallest place (0.8 by 0.6 m), square metres: chairs and plants hold less.
+/// Least area of a stack, square metres: the smallest place (0.8 by 0.6 m); chairs and plants take less.
 const STACK_M2: f64 = 0.48;
-/// Ground that no disc of this diameter fits into is too tight for a person, metres.
+/// Ground into which no disc of this diameter fits is too tight for a person, metres.
 const TIGHT_M: f64 = 0.25;
 
 /// The stacks of a site.
-pub(super) struct Stacks {
+pub(crate) struct Stacks {
     /// The stack of each cell, row-major, from 1; 0 for none.
     pub cells: Vec<u32>,
     /// The smallest box around each stack, metres of the grid frame.
@@ -40,8 +41,8 @@ pub(super) struct Stacks {
 }
 
 impl Stacks {
-    /// Finds the stacks in rooms, which are told by the room of each cell, 0 for none; `angle` is a direction of the
-    /// site, radians. `stands_alone` names cells of stacks that nothing touches.
+    /// Finds the stacks in rooms, given by the room of each cell, 0 for none; `angle` is a direction of the site, radians.
+    /// `stands_alone` is true for the cells of stacks that nothing touches.
     pub(super) fn find(
         grid: &OccupancyGrid,
         rooms: &[u32],
@@ -52,7 +53,7 @@ impl Stacks {
         let (width, cells, cell) = (grid.width(), grid.cells(), grid.resolution());
         let margin = (TIGHT_M / cell).ceil() as usize + 1;
         let mut is_thick = vec![false; cells.len()];
-        for (room, window) in Window::of_rooms(rooms, width, margin) {
+        for (room, window) in RoomRectangle::of_rooms(rooms, width, margin) {
             let is_free = window.cells().map(|cell| cells[cell] == Occupancy::Free).collect();
             let is_open = opened(is_free, window.columns.len(), TIGHT_M / cell, watch)?;
             let is_room: Vec<bool> = window.cells().map(|cell| rooms[cell] == room).collect();
@@ -80,14 +81,14 @@ impl Stacks {
 }
 
 /// A rectangle of the map.
-struct Window {
+struct RoomRectangle {
     columns: Range<usize>,
     rows: Range<usize>,
     /// Columns of the map.
     width: usize,
 }
 
-impl Window {
+impl RoomRectangle {
     /// Those around the cells of each room, with its number, and a margin, cells.
     fn of_rooms(rooms: &[u32], width: usize, margin: usize) -> impl Iterator<Item = (u32, Self)> {
         let height = rooms.len().checked_div(width).unwrap_or(0);
@@ -116,8 +117,8 @@ impl Window {
     }
 }
 
-/// The smallest box around something of cells of some side, if it is as thick and as full as goods and enough of it is
-/// `closed` ground.
+/// The smallest box around a component, metres, if the component is as thick and as full as goods and at least
+/// [`STACK_M2`] of it are `closed` cells; `cell` is the side of a cell, metres.
 pub(super) fn footprint(thing: Component<'_>, closed: usize, cell: f64) -> Option<OrientedBox> {
     let area_of = |cells: usize| cells as f64 * cell * cell;
     if area_of(closed) < STACK_M2 {
@@ -134,16 +135,16 @@ pub(super) fn footprint(thing: Component<'_>, closed: usize, cell: f64) -> Optio
     is_stack.then_some(smallest)
 }
 
-/// The cells that discs of some diameter cover, cells, which lie in those given (G. Matheron 1975); beyond the map is no
-/// obstacle.
+/// The morphological opening of some cells by a disc (G. Matheron 1975): those that discs of `diameter` cells cover that
+/// lie inside. Cells beyond the map count as inside.
 fn opened(is_in: Vec<bool>, width: usize, diameter: f64, watch: &Watch<'_>) -> Result<Vec<bool>, Stopped> {
-    // An obstacle begins half a cell before its middle.
+    // Distances are measured to the centre of an obstacle, which begins half a cell before.
     let reach = f64::midpoint(diameter, 1.0);
     let squared = reach * reach;
     let is_within = |distance: u32| f64::from(distance) < squared;
-    let from_outside = Nearest::of(width, is_in.len(), |cell| !is_in[cell], watch)?.squared;
+    let from_outside = DistanceTransform::of(width, is_in.len(), |cell| !is_in[cell], watch)?.squared;
     let is_middle: Vec<bool> = from_outside.into_iter().map(|distance| !is_within(distance)).collect();
-    let from_middle = Nearest::of(width, is_in.len(), |cell| is_middle[cell], watch)?.squared;
+    let from_middle = DistanceTransform::of(width, is_in.len(), |cell| is_middle[cell], watch)?.squared;
     Ok(is_in.into_iter().zip(from_middle).map(|(is_in, distance)| is_in && is_within(distance)).collect())
 }
 
@@ -159,7 +160,7 @@ fn mark_between(line: &[usize], is_open: &[bool], is_room: &[bool], is_between: 
     }
 }
 
-/// Calls back with the cells of every line of a direction, row-major; each cell of the map lies on one of them.
+/// Calls `found` with the cells of every line in a direction; each cell of the map lies on exactly one line.
 fn for_each_line(
     [width, height]: [usize; 2],
     angle: f64,
@@ -168,19 +169,19 @@ fn for_each_line(
 ) -> Result<(), Stopped> {
     let along = direction(angle);
     let is_level = along.x.abs() >= along.y.abs();
-    let (slope, steps, lanes) =
+    let (slope, steps, tracks) =
         if is_level { (along.y / along.x, width, height) } else { (along.x / along.y, height, width) };
-    // The lane that a line has come aside by, after each step; another line is in another lane there.
+    // How far a line has shifted sideways after each step, cells.
     let aside: Vec<i64> = (0..steps).map(|step| (step as f64 * slope).round() as i64).collect();
     let first = -aside.iter().copied().max().unwrap_or(0);
-    let last = lanes as i64 - aside.iter().copied().min().unwrap_or(0);
+    let last = tracks as i64 - aside.iter().copied().min().unwrap_or(0);
     let mut line = Vec::with_capacity(steps);
     for start in first..last {
         watch.check()?;
         line.clear();
         line.extend(aside.iter().enumerate().filter_map(|(step, aside)| {
-            let lane = usize::try_from(start + aside).ok().filter(|&lane| lane < lanes)?;
-            Some(if is_level { lane * width + step } else { step * width + lane })
+            let track = usize::try_from(start + aside).ok().filter(|&track| track < tracks)?;
+            Some(if is_level { track * width + step } else { step * width + track })
         }));
         found(&line);
     }

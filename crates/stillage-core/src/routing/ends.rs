@@ -1,15 +1,27 @@
-//! The ends of a route: from what was asked for to a point on a free cell of a drivable face.
+//! The ends of a route: for each waypoint a point on a free cell of a drivable face.
 //!
-//! Cost: O(cells in the bounding box of the face). Limits: a face or location whose free ground is in pieces is
-//! entered on the largest one, although another may be nearer.
+//! Cost: O(cells in the bounding box of the face). Limits: where the free cells of a face lie in several pieces, the
+//! route ends on the largest one, although another may be nearer.
 
-use super::{NoRoute, RouteEnd, RoutingMap, Waypoint};
+use super::no_route::{NoRoute, RouteEnd};
+use super::routing_map::RoutingMap;
 use crate::arrangement::{EdgeId, FaceId};
 use crate::geometry::Point;
 use crate::grid::Occupancy;
 use crate::layout::Location;
 
-/// One end of a route, found to be on drivable ground.
+/// Where a route begins or ends.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Waypoint {
+    /// A point, grid frame, metres.
+    Point(Point),
+    /// A drivable face (the point well inside it).
+    Face(FaceId),
+    /// A storage location: the route ends at its storage-access edge.
+    Location(Location),
+}
+
+/// One end of a route, on a free cell of a drivable face.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct End {
     /// First or last point of the path.
@@ -50,7 +62,7 @@ fn in_face(map: &RoutingMap<'_>, face: FaceId, end: RouteEnd) -> Result<End, NoR
     }
 }
 
-/// Before the best access edge that has free ground in front.
+/// The end before the best access edge that has free ground in front.
 fn before_location(map: &RoutingMap<'_>, location: &Location, end: RouteEnd) -> Result<End, NoRoute> {
     let subdivision = &map.analysis.subdivision;
     let no_access = NoRoute::NoAccess { end, code: location.code.clone() };
@@ -92,11 +104,11 @@ fn nearest_free_cell(map: &RoutingMap<'_>, face: FaceId, point: Point) -> Option
     Some(End { point: center(cell), cell, face, access: None })
 }
 
-/// The free cells of a face, by pieces that hang together over cell sides.
+/// The free cells of a face, by pieces that are connected over cell sides.
 fn free_pieces(map: &RoutingMap<'_>, face: FaceId) -> Vec<Vec<usize>> {
     let mut members = vec![false; map.analysis.subdivision.face_count()];
     members[face.index()] = true;
-    let window = super::window_of(map, &members);
+    let window = map.window_of(&members);
     let (columns, width) = (window.columns.len(), map.grid.width());
     let mut waits = vec![false; columns * window.rows.len()];
     let index = |column: usize, row: usize| (row - window.rows.start) * columns + column - window.columns.start;

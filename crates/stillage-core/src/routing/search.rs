@@ -6,7 +6,7 @@
 //! once and not flooded.
 //! Cost: O(cells visited). Memory: 5 bytes per cell of the window. Limits: paths of 43 million steps.
 
-use super::passage::Passage;
+use super::step_rule::StepRule;
 use crate::grid::CellBounds;
 
 /// Costs of a straight and of a diagonal step: 99 / 70 is the square root of 2 to 5 digits.
@@ -21,8 +21,8 @@ const NEIGHBORS: [(isize, isize); 8] = [(1, 0), (0, 1), (-1, 0), (0, -1), (1, 1)
 const HERE: u8 = 8;
 
 /// The cells of a shortest path from one cell to another within a window, both ends included.
-pub(super) fn shortest(passage: &Passage<'_>, window: &CellBounds, start: usize, goal: usize) -> Option<Vec<usize>> {
-    let window = Window { grid_width: passage.width(), bounds: window.clone() };
+pub(super) fn shortest(rule: &StepRule<'_>, window: &CellBounds, start: usize, goal: usize) -> Option<Vec<usize>> {
+    let window = SearchWindow { grid_width: rule.width(), bounds: window.clone() };
     let (start, goal) = (window.spot_of(start)?, window.spot_of(goal)?);
     let mut search = Search::new(window, goal);
     search.reach(start, 0, HERE);
@@ -30,13 +30,13 @@ pub(super) fn shortest(passage: &Passage<'_>, window: &CellBounds, start: usize,
         if spot == goal {
             return Some(search.path_to(goal));
         }
-        search.expand(passage, spot, cost);
+        search.expand(rule, spot, cost);
     }
     None
 }
 
 /// A rectangle of the grid.
-struct Window {
+struct SearchWindow {
     grid_width: usize,
     bounds: CellBounds,
 }
@@ -48,7 +48,7 @@ struct Spot {
     row: usize,
 }
 
-impl Window {
+impl SearchWindow {
     /// `None` outside the window.
     fn spot_of(&self, cell: usize) -> Option<Spot> {
         let (column, row) = (cell % self.grid_width, cell / self.grid_width);
@@ -79,7 +79,7 @@ impl Window {
 
 /// The state of a search.
 struct Search {
-    window: Window,
+    window: SearchWindow,
     goal: Spot,
     /// Cost of the best way so far, by index in the window.
     costs: Vec<u32>,
@@ -93,7 +93,7 @@ struct Search {
 }
 
 impl Search {
-    fn new(window: Window, goal: Spot) -> Self {
+    fn new(window: SearchWindow, goal: Spot) -> Self {
         let size = window.bounds.columns.len() * window.bounds.rows.len();
         Self {
             window,
@@ -144,7 +144,7 @@ impl Search {
     }
 
     /// Reaches the neighbours of a spot. Most were reached before, so the costs are asked first, then the cells.
-    fn expand(&mut self, passage: &Passage<'_>, spot: Spot, cost: u32) {
+    fn expand(&mut self, rule: &StepRule<'_>, spot: Spot, cost: u32) {
         let here = self.window.cell(spot);
         for step in 0..NEIGHBORS.len() {
             let Some(next) = self.window.neighbor(spot, step) else { continue };
@@ -154,13 +154,13 @@ impl Search {
             }
             let there = self.window.cell(next);
             let allowed = if step < 4 {
-                passage.allows(here, there)
+                rule.allows(here, there)
             } else {
                 let beside = [
                     self.window.cell(Spot { column: next.column, row: spot.row }),
                     self.window.cell(Spot { column: spot.column, row: next.row }),
                 ];
-                passage.allows_corner(here, beside, there)
+                rule.allows_corner(here, beside, there)
             };
             if allowed {
                 self.reach(next, cost, step as u8);

@@ -7,7 +7,7 @@
 //! Cost: O(n log n) for a path of n cells. Limits: sight along the path is taken to end once it is lost, so a bay
 //! behind a pillar may keep a bend that a longer look would straighten.
 
-use super::passage::Passage;
+use super::step_rule::StepRule;
 use crate::arrangement::{EdgeId, FaceId};
 use crate::geometry::Point;
 
@@ -37,12 +37,12 @@ struct Walk {
 
 impl Walk {
     /// From point to point of the grid, both inside it.
-    fn new(passage: &Passage<'_>, from: Point, to: Point) -> Self {
-        let scale = |point: Point| [point.x / passage.resolution(), point.y / passage.resolution()];
+    fn new(rule: &StepRule<'_>, from: Point, to: Point) -> Self {
+        let scale = |point: Point| [point.x / rule.resolution(), point.y / rule.resolution()];
         let (from, to) = (scale(from), scale(to));
         let cell = |point: [f64; 2]| point.map(|value| value.floor() as usize);
         let way = [to[0] - from[0], to[1] - from[1]];
-        Self { width: passage.width(), from, way, cell: cell(from), last: cell(to) }
+        Self { width: rule.width(), from, way, cell: cell(from), last: cell(to) }
     }
 
     fn at(&self) -> usize {
@@ -89,13 +89,13 @@ impl Iterator for Walk {
 }
 
 /// Whether the straight way between two points of passable cells is a path.
-fn sees(passage: &Passage<'_>, from: Point, to: Point) -> bool {
-    let mut walk = Walk::new(passage, from, to);
+fn sees(rule: &StepRule<'_>, from: Point, to: Point) -> bool {
+    let mut walk = Walk::new(rule, from, to);
     let mut cell = walk.at();
     walk.all(|step| {
         let (allowed, to) = match step {
-            Step::Side(to) => (passage.allows(cell, to), to),
-            Step::Corner { beside, to } => (passage.allows_corner(cell, beside, to), to),
+            Step::Side(to) => (rule.allows(cell, to), to),
+            Step::Corner { beside, to } => (rule.allows_corner(cell, beside, to), to),
         };
         cell = to;
         allowed
@@ -108,12 +108,12 @@ pub(super) fn length(path: &[Point]) -> f64 {
 }
 
 /// Straightens a path whose consecutive points see each other; its ends stay.
-pub(super) fn pull_tight(passage: &Passage<'_>, points: &[Point]) -> Vec<Point> {
-    let mut path = pull(passage, points);
+pub(super) fn pull_tight(rule: &StepRule<'_>, points: &[Point]) -> Vec<Point> {
+    let mut path = pull(rule, points);
     for _ in 1..ROUNDS {
-        let mut points = resample(&path, passage.resolution());
+        let mut points = resample(&path, rule.resolution());
         points.reverse();
-        let mut pulled = pull(passage, &points);
+        let mut pulled = pull(rule, &points);
         let gained = length(&path) - length(&pulled);
         if gained <= LEAST_GAIN * length(&path) {
             break;
@@ -125,21 +125,21 @@ pub(super) fn pull_tight(passage: &Passage<'_>, points: &[Point]) -> Vec<Point> 
 }
 
 /// Keeps the points where sight from the one kept before ends.
-fn pull(passage: &Passage<'_>, points: &[Point]) -> Vec<Point> {
+fn pull(rule: &StepRule<'_>, points: &[Point]) -> Vec<Point> {
     let mut kept: Vec<Point> = points.first().copied().into_iter().collect();
     let mut at = 0;
     while at + 1 < points.len() {
-        at = farthest_in_sight(passage, points, at);
+        at = farthest_in_sight(rule, points, at);
         kept.push(points[at]);
     }
     kept
 }
 
 /// The last point in sight of one, on the premise that the next one is.
-fn farthest_in_sight(passage: &Passage<'_>, points: &[Point], from: usize) -> usize {
+fn farthest_in_sight(rule: &StepRule<'_>, points: &[Point], from: usize) -> usize {
     let last = points.len() - 1;
     let (mut seen, mut stride) = (from + 1, 1);
-    while seen < last && sees(passage, points[from], points[(seen + stride).min(last)]) {
+    while seen < last && sees(rule, points[from], points[(seen + stride).min(last)]) {
         seen = (seen + stride).min(last);
         stride *= 2;
     }
@@ -147,7 +147,7 @@ fn farthest_in_sight(passage: &Passage<'_>, points: &[Point], from: usize) -> us
     let mut hidden = (seen + stride).min(last + 1);
     while seen + 1 < hidden {
         let middle = usize::midpoint(seen, hidden);
-        if sees(passage, points[from], points[middle]) {
+        if sees(rule, points[from], points[middle]) {
             seen = middle;
         } else {
             hidden = middle;
@@ -169,17 +169,17 @@ fn resample(path: &[Point], spacing: f64) -> Vec<Point> {
 }
 
 /// The faces a path crosses, and the edges between them, in order.
-pub(super) fn faces_along(passage: &Passage<'_>, path: &[Point]) -> (Vec<FaceId>, Vec<EdgeId>) {
+pub(super) fn faces_along(rule: &StepRule<'_>, path: &[Point]) -> (Vec<FaceId>, Vec<EdgeId>) {
     let Some(first) = path.windows(2).next() else { return Default::default() };
-    let (mut faces, mut edges) = (vec![passage.face(Walk::new(passage, first[0], first[1]).at())], Vec::new());
+    let (mut faces, mut edges) = (vec![rule.face(Walk::new(rule, first[0], first[1]).at())], Vec::new());
     let mut cross = |from: usize, to: usize| {
-        for (edge, face) in passage.crossings(from, to).unwrap_or_default() {
+        for (edge, face) in rule.crossings(from, to).unwrap_or_default() {
             edges.push(edge);
             faces.push(face);
         }
     };
     for pair in path.windows(2) {
-        let walk = Walk::new(passage, pair[0], pair[1]);
+        let walk = Walk::new(rule, pair[0], pair[1]);
         let mut cell = walk.at();
         for step in walk {
             match step {
@@ -188,7 +188,7 @@ pub(super) fn faces_along(passage: &Passage<'_>, path: &[Point]) -> (Vec<FaceId>
                     cell = to;
                 }
                 // Not around the corner where one edge parts the two cells.
-                Step::Corner { to, .. } if passage.allows(cell, to) => {
+                Step::Corner { to, .. } if rule.allows(cell, to) => {
                     cross(cell, to);
                     cell = to;
                 }

@@ -1,9 +1,11 @@
 //! Routes through drawn warehouses.
 
 use super::*;
+use crate::arrangement::{EdgeId, FaceId};
+use crate::geometry::Point;
 use crate::grid::Occupancy;
 use crate::semantics::pictures::{DrawnMap, RESOLUTION};
-use crate::semantics::{Assignment, RuleSet, apply};
+use crate::semantics::{Assignment, RuleSet, SemanticMap, apply};
 use expect_test::{Expect, expect};
 use proptest::prelude::*;
 

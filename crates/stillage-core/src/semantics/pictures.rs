@@ -2,8 +2,8 @@
 
 use crate::adjacency::AdjacencyGraph;
 use crate::analysis::Analysis;
-use crate::annotation::{self, CellFaces};
-use crate::arrangement::{self, EdgeSource, FaceId, SourceSegment};
+use crate::annotation;
+use crate::arrangement::{self, CellFaces, EdgeSource, FaceId, SourceSegment};
 use crate::categorization::{Categorization, Category, CategoryMap};
 use crate::clustering::FitReport;
 use crate::declutter::Removed;

@@ -11,7 +11,7 @@ use super::{CategoryEvidence, Functionality, Label, LabelId, RuleSet, Suggestion
 use crate::analysis::Analysis;
 use crate::arrangement::FaceId;
 use crate::categorization::CategoryMap;
-use crate::decomposition::PlotKind;
+use crate::plot::PlotKind;
 
 /// Below this likelihood a category is better left unidentified: the wrong label closes or opens ways.
 const LEAST_LIKELIHOOD: f64 = 0.35;

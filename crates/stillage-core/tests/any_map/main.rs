@@ -8,8 +8,7 @@ mod sites;
 
 use proptest::prelude::*;
 use rayon::ThreadPool;
-use stillage_core::annotation::CellFaces;
-use stillage_core::arrangement::FaceId;
+use stillage_core::arrangement::{CellFaces, FaceId};
 use stillage_core::layout::{self, Location};
 use stillage_core::routing::{self, RoutingMap, Waypoint};
 use stillage_core::semantics::{self, Assignment, RuleSet, SemanticMap};

@@ -8,7 +8,8 @@ use super::rack_row::{RackRow, span};
 use crate::decomposition::bodies::body::{self, Body};
 use crate::decomposition::bodies::layers::BodyLayers;
 use crate::decomposition::ground::{Axis, Rect, RegionFrame};
-use crate::decomposition::plot::{Parcel, PlotKind};
+use crate::decomposition::parcel::Parcel;
+use crate::plot::PlotKind;
 use crate::watch::{Stopped, Watch};
 
 /// What the bodies of one direction hold.

@@ -11,7 +11,8 @@ use super::size_hints::SizeHints;
 use super::storage_lanes;
 use crate::decomposition::bodies::{Body, layers};
 use crate::decomposition::ground::{Axis, Rect, RectIndex, RegionFrame};
-use crate::decomposition::plot::{Parcel, PlotKind};
+use crate::decomposition::parcel::Parcel;
+use crate::plot::PlotKind;
 use crate::watch::{Stopped, Watch};
 
 /// Cells above this are too coarse for the gaps and posts between places, metres.

@@ -28,7 +28,7 @@ mod storage_lanes;
 use crate::decomposition::aisles::AisleCut;
 use crate::decomposition::bodies::{Body, depth};
 use crate::decomposition::ground::{Axis, RegionFrame};
-use crate::decomposition::plot::Parcel;
+use crate::decomposition::parcel::Parcel;
 use crate::watch::{Stopped, Watch};
 
 use direction::DirectionRows;

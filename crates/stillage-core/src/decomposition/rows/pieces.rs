@@ -5,7 +5,8 @@ use std::ops::Range;
 use super::comb::{Comb, PieceKind};
 use super::rack_row::RackRow;
 use crate::decomposition::ground::RegionFrame;
-use crate::decomposition::plot::{Parcel, PlotKind};
+use crate::decomposition::parcel::Parcel;
+use crate::plot::PlotKind;
 
 /// Narrower pieces that are no place are given to a neighbour, metres.
 const SLIVER_M: f64 = 0.4;

@@ -12,7 +12,8 @@ use super::aisle_width;
 use super::band_section::{BandSection, GROUND_SHARE, OPEN_END_M, without_short_gaps};
 use super::place_index::PlaceIndex;
 use crate::decomposition::ground::{Axis, Cell, Rect, RegionFrame};
-use crate::decomposition::plot::{Parcel, PlotKind};
+use crate::decomposition::parcel::Parcel;
+use crate::plot::PlotKind;
 use crate::runs::runs_of_equal;
 use crate::watch::{Stopped, Watch};
 

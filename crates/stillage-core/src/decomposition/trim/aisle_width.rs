@@ -12,7 +12,8 @@ use super::aisle_need::AisleNeeds;
 use super::band_section::BandSection;
 use super::place_index::PlaceIndex;
 use crate::decomposition::ground::{Axis, RegionFrame};
-use crate::decomposition::plot::{Parcel, PlotKind};
+use crate::decomposition::parcel::Parcel;
+use crate::plot::PlotKind;
 use crate::watch::{Stopped, Watch};
 
 /// What is left beside an aisle is open floor from this width on, metres: the depth of a row that is missing.

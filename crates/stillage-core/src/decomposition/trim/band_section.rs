@@ -3,7 +3,8 @@
 use std::ops::Range;
 
 use crate::decomposition::ground::{Axis, Rect, RegionFrame};
-use crate::decomposition::plot::{Parcel, PlotKind};
+use crate::decomposition::parcel::Parcel;
+use crate::plot::PlotKind;
 use crate::runs::runs_of_equal;
 
 /// Share of a strip that must be free, drivable, or in the site for the strip to be so.

@@ -23,7 +23,7 @@ mod place_index;
 mod row_ends;
 
 use crate::decomposition::ground::RegionFrame;
-use crate::decomposition::plot::Parcel;
+use crate::decomposition::parcel::Parcel;
 use crate::watch::{Stopped, Watch};
 
 /// The parcels of a region, trimmed. Layers that are reached from one side end together.

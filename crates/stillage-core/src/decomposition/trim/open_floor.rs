@@ -10,7 +10,8 @@
 use std::ops::Range;
 
 use crate::decomposition::ground::{Axis, Cell, Rect, RegionFrame};
-use crate::decomposition::plot::{Parcel, PlotKind};
+use crate::decomposition::parcel::Parcel;
+use crate::plot::PlotKind;
 use crate::runs::runs_of_equal;
 use crate::watch::{Stopped, Watch};
 

@@ -17,7 +17,7 @@ use std::ops::Range;
 
 use super::piece_row::PieceRow;
 use crate::decomposition::ground::{Cell, RegionFrame};
-use crate::decomposition::plot::PlotKind;
+use crate::plot::PlotKind;
 use crate::runs::runs_of_equal;
 use crate::watch::{Stopped, Watch};
 

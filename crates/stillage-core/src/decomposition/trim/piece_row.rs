@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 use crate::decomposition::ground::Axis;
-use crate::decomposition::plot::{Parcel, PlotKind};
+use crate::decomposition::parcel::Parcel;
+use crate::plot::PlotKind;
 
 /// Pieces that follow one another without a gap, ascending.
 pub(super) struct PieceRow {

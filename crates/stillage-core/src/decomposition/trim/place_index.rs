@@ -1,7 +1,8 @@
 //! The places of one direction, found by where they lie.
 
 use crate::decomposition::ground::{Axis, Rect, RectIndex, RegionFrame};
-use crate::decomposition::plot::{Parcel, PlotKind};
+use crate::decomposition::parcel::Parcel;
+use crate::plot::PlotKind;
 use crate::watch::{Stopped, Watch};
 
 /// A place lies along a band if their borders are no further apart than this, metres.

@@ -11,7 +11,8 @@
 use super::passages::Passages;
 use super::piece_row::PieceRow;
 use crate::decomposition::ground::{Axis, Cell, RegionFrame};
-use crate::decomposition::plot::{Parcel, PlotKind};
+use crate::decomposition::parcel::Parcel;
+use crate::plot::PlotKind;
 use crate::watch::{Stopped, Watch};
 
 /// Share of a piece that must lie in the site: the rest may be hidden by its own goods, where these are seen from one side

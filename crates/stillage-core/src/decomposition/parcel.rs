@@ -1,29 +1,10 @@
-//! Rectangles of a region and what each is: a parcel in the cells of its region's frame, a plot in metres of the grid.
+//! Parcels: rectangles of a region and what each was cut out for, in the cells of the region's frame.
 
 use std::ops::Range;
 
-use serde::{Deserialize, Serialize};
-
 use super::ground::{Axis, Rect, RegionFrame};
 use crate::geometry::{OrientedBox, Point, direction, normal};
-
-/// What a parcel was cut out for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum PlotKind {
-    /// One place for goods.
-    Place,
-    /// A drivable band with places along it.
-    Aisle,
-    /// Open floor: cross aisles, and floor beside and around rows.
-    OpenFloor,
-    /// A passage through a row.
-    Passage,
-    /// A room beside the hall, or a bay behind one of its gates.
-    Room,
-    /// Anything else.
-    Other,
-}
+use crate::plot::{Plot, PlotKind};
 
 /// A rectangle of a region and what it was cut out for, in the cells of the region's frame.
 #[derive(Debug, Clone)]
@@ -51,17 +32,6 @@ impl Parcel {
             _ => vec![self],
         }
     }
-}
-
-/// A rectangle of the decomposition and what it was cut out for.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Plot {
-    /// Where it lies; its first side runs along the rows.
-    pub bounds: OrientedBox,
-    /// What it was cut out for.
-    pub kind: PlotKind,
-    /// Region it belongs to.
-    pub region: u8,
 }
 
 /// A parcel in metres of the grid.

@@ -7,9 +7,10 @@
 //!
 //! Cost: O(faces x categories x iterations). Limits: faces of unexplored ground around the site are not clustered.
 
-use super::{FaceAnnotation, FaceCategories};
+use super::face_categories::FaceCategories;
+use super::faces::FaceAnnotation;
 use crate::clustering::{self, FitOptions, Method, PlaceModel};
-use crate::decomposition::PlotKind;
+use crate::plot::PlotKind;
 use crate::spec::{AnnotationOptions, CategoryCount, Scaling};
 use crate::watch::{Stopped, Watch};
 

@@ -4,9 +4,12 @@ use expect_test::{Expect, expect};
 use proptest::prelude::*;
 
 use super::*;
-use crate::decomposition::PlotKind;
-use crate::geometry::{OrientedBox, direction, normal};
+use crate::annotation::{self, PlannedGround};
+use crate::arrangement::{self, CellFaces, FaceId, Subdivision};
+use crate::geometry::{OrientedBox, Point, direction, normal};
 use crate::grid::{GridFrame, Occupancy, OccupancyGrid};
+use crate::plot::PlotKind;
+use crate::rooms::RoomMap;
 use crate::segmentation::{Region, RegionMap};
 use crate::spec::{AnalysisOptions, DecompositionOptions};
 use crate::test_maps::{
@@ -14,7 +17,6 @@ use crate::test_maps::{
     real_maps::{Picture, find_folder},
 };
 use crate::watch::Watch;
-use crate::{annotation, arrangement};
 
 /// Every character of a drawing is so many cells wide and high.
 const ENLARGED: usize = 4;
@@ -48,13 +50,14 @@ fn one_region(grid: &OccupancyGrid) -> RegionMap {
 fn planned(grid: &OccupancyGrid) -> (SitePlan, RoomMap, Subdivision) {
     let (regions, watch) = (one_region(grid), Watch::unwatched());
     let plan = plan(grid, &regions, &DecompositionOptions::default(), &watch).expect("nobody stops it");
-    let segments = arrangement::source_segments(grid, &regions, &plan.lines, &plan.rooms.cells);
-    let subdivision = arrangement::arrange(&segments, &watch).expect("nobody stops it");
+    let segments = arrangement::source_segments(grid, &regions, &plan.lines, &plan.rooms.cells, &watch);
+    let subdivision = arrangement::arrange(&segments.expect("nobody stops it"), &watch).expect("nobody stops it");
     subdivision.check_invariants().expect("it is sound");
-    let cut = annotation::Cut { plots: &plan.plots, rooms: &plan.rooms.of_faces(&subdivision, grid) };
+    let rooms = plan.rooms.of_faces(subdivision.face_count(), &CellFaces::of_grid(&subdivision, grid));
+    let planned = PlannedGround { plots: &plan.plots, rooms: &rooms };
     let options = AnalysisOptions::default().annotation;
-    let subdivision = annotation::merge_alike(grid, &regions, subdivision, cut, &options, &watch).expect("no stop");
-    let rooms = RoomMap::of(&plan.rooms, &subdivision, grid);
+    let subdivision = annotation::merge_alike(grid, &regions, subdivision, planned, &options, &watch).expect("no stop");
+    let rooms = RoomMap::of(&plan.rooms, &subdivision, &CellFaces::of_grid(&subdivision, grid));
     (plan, rooms, subdivision)
 }
 

@@ -5,20 +5,20 @@
 //! O(boundary) where a face thinner than a cell lies between them.
 //! Limits: two faces that share a drivable edge somewhere are taken to share it wherever their cells touch.
 
-use super::RoutingMap;
+use super::routing_map::RoutingMap;
 use crate::arrangement::{EdgeId, FaceId};
 use crate::geometry::{Point, segment};
 use crate::grid::Occupancy;
 
 /// The rule of a path's steps. Cells are indices, row-major, lowest row first.
-pub(super) struct Passage<'a> {
+pub(super) struct StepRule<'a> {
     map: RoutingMap<'a>,
     drivable: Vec<bool>,
     /// Pairs of faces joined by a drivable link, both ways round, ascending.
     joined: Vec<(FaceId, FaceId)>,
 }
 
-impl<'a> Passage<'a> {
+impl<'a> StepRule<'a> {
     pub fn new(map: RoutingMap<'a>) -> Self {
         let subdivision = &map.analysis.subdivision;
         let mut drivable: Vec<bool> =

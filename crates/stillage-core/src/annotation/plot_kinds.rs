@@ -2,11 +2,11 @@
 
 use std::collections::BTreeMap;
 
-use super::FaceAnnotation;
+use super::faces::FaceAnnotation;
 use crate::adjacency::AdjacencyGraph;
 use crate::arrangement::FaceId;
-use crate::decomposition::{Plot, PlotKind};
 use crate::geometry::Point;
+use crate::plot::{Plot, PlotKind};
 
 /// Share of open floor that is free at least: the rest is what the frame of a region has beyond its walls.
 const OPEN_SHARE: f64 = 0.5;
@@ -14,7 +14,7 @@ const OPEN_SHARE: f64 = 0.5;
 const BUCKET_M: f64 = 2.0;
 
 /// What every face was cut out for, by face id; `None` where no plot lies, and where nobody saw what should be open.
-pub(super) fn kinds(
+pub(super) fn of_faces(
     graph: &AdjacencyGraph,
     faces: &[FaceAnnotation],
     plots: &[Plot],

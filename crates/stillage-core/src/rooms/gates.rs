@@ -1,16 +1,16 @@
-//! Bays: what juts out of a building behind a gate, such as a trailer at its dock.
+//! Gates: the doorways of bays, which jut out of a building, such as a trailer at its dock.
 //!
-//! A bay is as wide as its gate, so there is no neck before it and [`super::flood`] finds none. But it juts out: the site
-//! as a whole, with all that stands in it, is opened by a disc wider than a gate (G. Matheron 1975), and what the disc
-//! does not reach, is walled and empty lies in a bay. Seen from there, the gate is the last line across before the
-//! walls at its sides end.
+//! A bay is as wide as its gate, so there is no neck before it and [`super::doorways`] finds none. But it juts out. Method:
+//! the site as a whole, with all that stands in it, is opened by a disc wider than a gate (G. Matheron 1975); what the
+//! disc does not cover, has walls at its sides and is empty is a bay. Its gate is the last line across on the way
+//! from its middle to the hall before the walls at its sides end.
 //!
-//! Cost: O(cells), nearly all of it in blocks of a quarter of a metre. Limits: a wing of the building that is as narrow
-//! and holds nothing is a bay; of two gates of one bay, the one towards its middle is found.
+//! Cost: O(cells), nearly all of it in coarse cells of a quarter of a metre. Limits: a wing of the building that is as
+//! narrow and holds nothing is a bay; of two gates of one bay, the one towards its middle is found.
 
-use super::flood::{Passage, WIDEST_M};
-use super::ground::Ground;
-use super::nearest::Nearest;
+use super::distance_transform::DistanceTransform;
+use super::doorways::{Doorway, WIDEST_M};
+use super::ground::RoomGround;
 use crate::components::{Component, Components, Neighbours};
 use crate::geometry::{OrientedBox, Point, Vector, direction};
 use crate::grid::{Occupancy, OccupancyGrid};
@@ -19,24 +19,24 @@ use crate::watch::{Stopped, Watch};
 
 /// Diameter of the disc, metres: a gate and the walls beside it.
 const DISC_M: f64 = WIDEST_M + 0.5;
-/// Smaller bays are the corners of the building that a disc leaves, and doors that lie back in their wall, square
-/// metres.
+/// Least area of a bay, square metres: smaller are the corners of the building that a disc does not cover, and doors
+/// that lie back in their wall.
 const LEAST_BAY_M2: f64 = 4.0;
-/// Share of the sides of a bay that are walls at least: where sight ended, nothing is known.
+/// Least share of the sides of a bay that is wall and not unknown: unknown sides are where the scanner saw no further.
 const WALL_SHARE: f64 = 0.7;
-/// Share of the width of a bay that is empty in its middle.
+/// Least share of the width of a bay that is empty across its middle: a trailer is empty or full.
 const EMPTY_SHARE: f64 = 0.75;
-/// A line across that is so much wider than the middle of a bay lies before its gate.
-const OPENING: f64 = 1.25;
+/// Greatest width of a line across a bay in widths of its middle; a wider one lies outside, before the gate.
+const WIDENING: f64 = 1.25;
 
-/// The gates of all bays.
-pub(super) fn gates(grid: &OccupancyGrid, ground: &Ground, watch: &Watch<'_>) -> Result<Vec<Passage>, Stopped> {
+/// Finds the gates of all bays.
+pub(super) fn find(grid: &OccupancyGrid, ground: &RoomGround, watch: &Watch<'_>) -> Result<Vec<Doorway>, Stopped> {
     let blocks = CoarseGrid::of(grid, watch)?;
     let reach = DISC_M / 2.0 / (blocks.side as f64 * grid.resolution());
     let count = blocks.is_outside.len();
-    let is_far = |nearest: &Nearest, block: usize| f64::from(nearest.squared[block]) > reach * reach;
-    let outside = Nearest::of(blocks.columns, count, |block| blocks.is_outside[block], watch)?;
-    let discs = Nearest::of(blocks.columns, count, |block| is_far(&outside, block), watch)?;
+    let is_far = |from: &DistanceTransform, block: usize| f64::from(from.squared[block]) > reach * reach;
+    let outside = DistanceTransform::of(blocks.columns, count, |block| blocks.is_outside[block], watch)?;
+    let discs = DistanceTransform::of(blocks.columns, count, |block| is_far(&outside, block), watch)?;
     let juts_out = |block: usize| !blocks.is_outside[block] && is_far(&discs, block);
     let found = Components::of([blocks.columns, count], Neighbours::Four, juts_out, watch)?;
     let least = LEAST_BAY_M2 / (blocks.side as f64 * grid.resolution()).powi(2);
@@ -44,14 +44,14 @@ pub(super) fn gates(grid: &OccupancyGrid, ground: &Ground, watch: &Watch<'_>) ->
     Ok(large.filter_map(|component| gate(grid, ground, &blocks, component, juts_out)).collect())
 }
 
-/// The gate of what juts out, if it is a bay.
+/// The gate of a part that juts out, if it is a bay.
 fn gate(
     grid: &OccupancyGrid,
-    ground: &Ground,
+    ground: &RoomGround,
     blocks: &CoarseGrid,
     component: Component<'_>,
     juts_out: impl Fn(usize) -> bool,
-) -> Option<Passage> {
+) -> Option<Doorway> {
     let mut floor = Vec::new();
     let (mut walls, mut unseen) = (0_usize, 0_usize);
     for (column, row) in component.cells().flat_map(|block| cells_of(blocks, block)) {
@@ -80,7 +80,7 @@ fn gate(
 }
 
 /// Walks from the middle of a bay to its gate, in cells.
-fn gate_towards(ground: &Ground, middle: Point, inwards: Vector, shape: &OrientedBox) -> Option<Passage> {
+fn gate_towards(ground: &RoomGround, middle: Point, inwards: Vector, shape: &OrientedBox) -> Option<Doorway> {
     let most = DISC_M / ground.cell;
     let across = Vector::new(-inwards.y, inwards.x);
     let line = |step: usize| {
@@ -94,32 +94,32 @@ fn gate_towards(ground: &Ground, middle: Point, inwards: Vector, shape: &Oriente
     if width < EMPTY_SHARE * shape.sides()[narrow_side] {
         return None;
     }
-    let is_within = |(_, here): &([Point; 2], f64)| *here <= OPENING * width && *here <= most;
+    let is_within = |(_, here): &([Point; 2], f64)| *here <= WIDENING * width && *here <= most;
     let mut ends = first;
     let mut step = 1;
     while let Some((further, _)) = line(step).filter(is_within) {
         (ends, step) = (further, step + 1);
     }
-    // A line that meets no floor before the gate is the end of the map.
+    // Without ground before the gate, the map ends there.
     let before = middle + inwards * step as f64;
     ground.holds(before.x.floor() as i64, before.y.floor() as i64).then_some(())?;
-    Some(Passage { ends: ends.map(|end| [end.x.floor() as i64, end.y.floor() as i64]), wall_ends: 2 })
+    Some(Doorway { ends: ends.map(|end| [end.x.floor() as i64, end.y.floor() as i64]), wall_ends: 2 })
 }
 
-/// The first place from another on, one way, that is no ground; none within so many cells.
-fn wall(ground: &Ground, from: Point, way: Vector, most: f64) -> Option<Point> {
+/// The first place in a direction that is no ground; `None` within `most` cells.
+fn wall(ground: &RoomGround, from: Point, way: Vector, most: f64) -> Option<Point> {
     let places = (0..=2 * most.ceil() as usize).map(|step| from + way * (step as f64 / 2.0));
     places.into_iter().find(|place| !ground.holds(place.x.floor() as i64, place.y.floor() as i64))
 }
 
-/// Columns and rows of the cells of a block.
+/// Columns and rows of the cells of a coarse cell.
 fn cells_of(blocks: &CoarseGrid, block: usize) -> impl Iterator<Item = (i64, i64)> + use<> {
     let (side, columns) = (blocks.side, blocks.columns);
     let (column, row) = (block % columns * side, block / columns * side);
     (row..row + side).flat_map(move |row| (column..column + side).map(move |column| (column as i64, row as i64)))
 }
 
-/// Where the blocks of the site lie that touch what juts out, cells.
+/// The mean place of the coarse cells of the site beside a part that juts out, cells.
 fn middle_of_neighbours(
     blocks: &CoarseGrid,
     component: Component<'_>,

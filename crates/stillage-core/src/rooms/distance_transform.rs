@@ -1,8 +1,8 @@
-//! Exact Euclidean distance transform that tells the nearest cell, too.
+//! The exact Euclidean distance transform: for every cell the nearest of some target cells, and how far it is.
 //!
 //! Method: A. Meijster, J. Roerdink and W. Hesselink, *A general algorithm for computing distance transforms in linear
-//! time* (2000): nearest target in each column by two sweeps, then the lower envelope of the parabolas of each row. All
-//! in whole numbers. Cost: O(cells), rows in parallel. Limits: sides below 32,768 cells.
+//! time* (2000): the nearest target in each column by two sweeps, then the lower envelope of the parabolas of each row.
+//! All in whole numbers. Cost: O(cells), rows in parallel. Limits: sides below 32,768 cells.
 
 use std::ops::Range;
 
@@ -10,19 +10,19 @@ use rayon::prelude::*;
 
 use crate::watch::{Stopped, Watch};
 
-/// No cell.
+/// The index of no cell.
 pub(super) const NONE: u32 = u32::MAX;
 
 /// The nearest target of every cell, row-major.
-pub(super) struct Nearest {
+pub(super) struct DistanceTransform {
     /// Squared distance to it between cell centres, cells; `u32::MAX` without any target.
     pub squared: Vec<u32>,
     /// Its index; [`NONE`] without any target.
-    pub cell: Vec<u32>,
+    pub nearest: Vec<u32>,
 }
 
-impl Nearest {
-    /// Finds the nearest of the cells that `is_target` names, of `width` columns.
+impl DistanceTransform {
+    /// Measures the distance to the cells for which `is_target` holds, on a grid of `width` columns.
     pub(super) fn of(
         width: usize,
         cells: usize,
@@ -30,7 +30,7 @@ impl Nearest {
         watch: &Watch<'_>,
     ) -> Result<Self, Stopped> {
         let height = cells.checked_div(width).unwrap_or(0);
-        // At first the row of the nearest target in the same column; then, line by line, its index.
+        // Holds the row of the nearest target in the same column, and after the second step its index.
         let mut rows = vec![NONE; cells];
         for row in 0..height {
             watch.check()?;
@@ -51,29 +51,29 @@ impl Nearest {
                 }
             }
         }
-        let mut nearest = Self { squared: vec![u32::MAX; cells], cell: rows };
-        let lines = nearest.squared.par_chunks_mut(width.max(1)).zip(nearest.cell.par_chunks_mut(width.max(1)));
+        let mut found = Self { squared: vec![u32::MAX; cells], nearest: rows };
+        let lines = found.squared.par_chunks_mut(width.max(1)).zip(found.nearest.par_chunks_mut(width.max(1)));
         lines.enumerate().try_for_each_init(
             || (Vec::new(), Vec::new()),
-            |(envelope, targets), (row, (squared, cell))| {
+            |(envelope, targets), (row, (squared, nearest))| {
                 watch.check()?;
                 targets.clear();
-                targets.extend_from_slice(cell);
+                targets.extend_from_slice(nearest);
                 lower_envelope(row as i64, targets, envelope);
                 for (source, columns) in envelope.iter() {
                     for column in columns.clone() {
                         squared[column] = height_at(row as i64, targets, *source, column as i64) as u32;
-                        cell[column] = targets[*source] * width as u32 + *source as u32;
+                        nearest[column] = targets[*source] * width as u32 + *source as u32;
                     }
                 }
                 Ok(())
             },
         )?;
-        Ok(nearest)
+        Ok(found)
     }
 }
 
-/// Height over a column of the parabola of another column.
+/// Squared distance from a cell of a row to the nearest target of another column: a parabola over the columns.
 fn height_at(row: i64, targets: &[u32], source: usize, column: i64) -> i64 {
     let (across, along) = (row - i64::from(targets[source]), column - source as i64);
     across * across + along * along
@@ -112,7 +112,8 @@ mod tests {
         #[test]
         fn no_target_is_nearer(width in 1_usize..12, targets in proptest::collection::vec(any::<bool>(), 0..120)) {
             let cells = targets.len() / width * width;
-            let nearest = Nearest::of(width, cells, |cell| targets[cell], &Watch::unwatched()).expect("nobody stops it");
+            let found =
+                DistanceTransform::of(width, cells, |cell| targets[cell], &Watch::unwatched()).expect("nobody stops it");
             for cell in 0..cells {
                 let squared = |other: usize| {
                     let across = (cell / width).abs_diff(other / width);
@@ -120,10 +121,10 @@ mod tests {
                     (across * across + along * along) as u32
                 };
                 let least = (0..cells).filter(|&other| targets[other]).map(squared).min();
-                prop_assert_eq!(nearest.squared[cell], least.unwrap_or(u32::MAX));
+                prop_assert_eq!(found.squared[cell], least.unwrap_or(u32::MAX));
                 if least.is_some() {
-                    prop_assert_eq!(squared(nearest.cell[cell] as usize), nearest.squared[cell]);
-                    prop_assert!(targets[nearest.cell[cell] as usize]);
+                    prop_assert_eq!(squared(found.nearest[cell] as usize), found.squared[cell]);
+                    prop_assert!(targets[found.nearest[cell] as usize]);
                 }
             }
         }

@@ -1,22 +1,24 @@
-//! The membership function M(f), inverted: which face does each cell lie in, by its centre.
+//! The face of every cell: the paper's membership function M(f), inverted. A cell lies in the face of its centre.
 //!
-//! Method: an edge that crosses the level of a row's centres separates the face on its left from the one on its right.
-//! The exclusive or of both ids is noted at the first centre at or beyond the crossing, and the running exclusive or
-//! along the row is then the id of the face: every other id has come and gone. So the order of crossings between two
-//! centres is of no consequence, nothing is sorted, and each centre lies in exactly one face. Ties are half-open: a
-//! centre on an edge belongs to the face on the right of it, one on a level edge to the face above.
+//! Method: where an edge crosses a row of cell centres, the face changes from the one on its left to the one on its
+//! right. The exclusive or of both ids is written to the first centre at or beyond the crossing. The running exclusive
+//! or along the row then gives the id of the face, because every id that was left has been written twice. The order of
+//! crossings between two centres does not matter, so nothing is sorted, and each centre lies in exactly one face. A
+//! centre on an edge belongs to the face on its right, one on a level edge to the face above.
 //!
 //! Cost: O(cells + crossings), in parallel by bands of rows.
 
 use rayon::prelude::*;
 
-use crate::arrangement::{EdgeId, FaceId, Subdivision};
+use super::ids::{EdgeId, FaceId};
+use super::subdivision::Subdivision;
 use crate::geometry::Point;
+use crate::grid::OccupancyGrid;
 
-/// Rows that one task fills: a band of a wide map (4,000 columns) fits a second-level cache.
+/// Rows that one task fills: 64 rows of 4,000 cells of 4 bytes are 1 MB and fit a second-level cache.
 const BAND_ROWS: usize = 64;
 
-/// The membership function M(f), inverted: the face of every cell (by its centre).
+/// The face of every cell of a grid, by its centre.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CellFaces {
     width: usize,
@@ -24,6 +26,12 @@ pub struct CellFaces {
 }
 
 impl CellFaces {
+    /// Finds the face of every cell centre of a grid.
+    #[must_use]
+    pub fn of_grid(subdivision: &Subdivision, grid: &OccupancyGrid) -> Self {
+        Self::rasterize(subdivision, grid.width(), grid.height(), grid.resolution())
+    }
+
     /// Finds the face of every cell centre of a `width` x `height` grid; `resolution` in metres.
     #[must_use]
     pub fn rasterize(subdivision: &Subdivision, width: usize, height: usize, resolution: f64) -> Self {
@@ -53,8 +61,8 @@ impl CellFaces {
         Self { width, faces: ids.into_iter().map(FaceId).collect() }
     }
 
-    /// Whether the cells `reach` away along both axes lie in a face, too.
-    pub(super) fn holds_around(&self, face: FaceId, column: usize, row: usize, reach: usize) -> bool {
+    /// Whether the four cells that are `reach` cells away along the axes lie in a face, too.
+    pub(crate) fn holds_around(&self, face: FaceId, column: usize, row: usize, reach: usize) -> bool {
         let height = self.faces.len() / self.width.max(1);
         column >= reach
             && row >= reach
@@ -79,7 +87,7 @@ impl CellFaces {
     }
 }
 
-/// The lattice of cell centres.
+/// The centres of the cells of a grid.
 #[derive(Debug, Clone, Copy)]
 struct Centers {
     width: usize,
@@ -88,7 +96,7 @@ struct Centers {
 }
 
 impl Centers {
-    /// Number of the first centre at or beyond a coordinate, of `count`; `count` when there is none.
+    /// Index of the first centre at or beyond a coordinate, of `count`; `count` when there is none.
     fn first_from(self, coordinate: f64, count: usize) -> usize {
         // Saturates at both ends.
         ((coordinate / self.resolution - 0.5).ceil() as usize).min(count)
@@ -118,15 +126,15 @@ impl Crosser {
         (first_row < end_row).then_some(Self { low, high, slope, first_row, end_row, sides: left.0 ^ right.0 })
     }
 
-    /// Where it crosses a level. Reckoned from the nearer end: of two edges that leave a vertex, the steeper one never
-    /// comes out on the wrong side of the other; edges that share none are half a lattice step apart.
+    /// The x at which it crosses a level, computed from the nearer end: rounding then never swaps two edges that leave
+    /// the same vertex. Edges that share no vertex are at least half a lattice step apart.
     fn x_at(&self, y: f64) -> f64 {
         let (rise, fall) = (y - self.low.y, self.high.y - y);
         let x = if rise <= fall { self.low.x + rise * self.slope } else { self.high.x - fall * self.slope };
         x.clamp(self.low.x.min(self.high.x), self.low.x.max(self.high.x))
     }
 
-    /// Notes the change of face in the rows of a band.
+    /// Writes the change of face into the rows of a band.
     fn mark(&self, ids: &mut [u32], rows: std::ops::Range<usize>, centers: Centers) {
         for row in self.first_row.max(rows.start)..self.end_row.min(rows.end) {
             let x = self.x_at((row as f64 + 0.5) * centers.resolution);

@@ -1,0 +1,98 @@
+//! Which face each cell of small grids lies in; one cell is one metre.
+
+use expect_test::expect;
+use proptest::prelude::*;
+
+use super::{CellFaces, EdgeSource, FaceId, SourceSegment, Subdivision, arrange};
+use crate::geometry::{Point, polygon};
+use crate::watch::Watch;
+
+fn subdivide(ends: &[[f64; 4]]) -> Subdivision {
+    let segment = |&[x0, y0, x1, y1]: &[f64; 4]| SourceSegment {
+        start: Point::new(x0, y0),
+        end: Point::new(x1, y1),
+        source: EdgeSource::Boundary,
+    };
+    arrange(&ends.iter().map(segment).collect::<Vec<_>>(), &Watch::unwatched()).expect("nobody stops it")
+}
+
+/// The four sides of a box, and further segments.
+fn boxed([x0, y0, x1, y1]: [f64; 4], more: &[[f64; 4]]) -> Subdivision {
+    let sides = [[x0, y0, x1, y0], [x1, y0, x1, y1], [x0, y1, x1, y1], [x0, y0, x0, y1]];
+    subdivide(&[&sides, more].concat())
+}
+
+fn picture_of(cells: &CellFaces, width: usize) -> String {
+    let rows = cells.as_slice().chunks(width).rev();
+    rows.map(|row| row.iter().map(ToString::to_string).collect::<String>() + "\n").collect()
+}
+
+#[test]
+fn every_cell_lies_in_the_face_of_its_center() {
+    let subdivision =
+        boxed([1.0, 1.0, 11.0, 7.0], &[[1.0, 4.0, 11.0, 4.0], [1.0, 1.0, 7.0, 7.0], [3.0, 5.0, 3.0, 6.0]]);
+    expect![[r#"
+        000000000000
+        033333444440
+        033334444440
+        033344444440
+        022111111110
+        021111111110
+        011111111110
+        000000000000
+    "#]]
+    .assert_eq(&picture_of(&CellFaces::rasterize(&subdivision, 12, 8, 1.0), 12));
+}
+
+#[test]
+fn a_center_on_an_edge_belongs_to_the_right_or_upper_face() {
+    let subdivision = boxed([0.5, 0.5, 3.5, 3.5], &[[1.5, 0.5, 1.5, 3.5], [1.5, 2.5, 3.5, 2.5]]);
+    expect![[r#"
+        00000
+        13300
+        12200
+        12200
+    "#]]
+    .assert_eq(&picture_of(&CellFaces::rasterize(&subdivision, 5, 4, 1.0), 5));
+}
+
+#[test]
+fn grids_without_cells_or_faces_have_nothing_to_fill() {
+    for (width, height) in [(0, 0), (0, 3), (3, 0)] {
+        assert!(CellFaces::rasterize(&subdivide(&[]), width, height, 0.05).as_slice().is_empty());
+    }
+    let cells = CellFaces::rasterize(&subdivide(&[]), 2, 1, 0.05);
+    assert_eq!((cells.at(0, 0), cells.at(1, 0)), (FaceId::OUTER, FaceId::OUTER));
+    let reaching_out = boxed([-5.0, -5.0, 50.0, 50.0], &[]);
+    assert!(CellFaces::rasterize(&reaching_out, 3, 3, 1.0).as_slice().iter().all(|&face| face == FaceId(1)));
+}
+
+fn crossing_lines() -> impl Strategy<Value = Vec<[f64; 4]>> {
+    let anywhere = prop::array::uniform4(-2.0..14.0);
+    let on_centers = prop::array::uniform4(-2_i8..14).prop_map(|ends| ends.map(|end| f64::from(end) + 0.5));
+    let steep = (0.0..12.0, -1e-3..1e-3).prop_map(|(x, lean): (f64, f64)| [x, -2.0, x + lean, 14.0]);
+    let level = (0.0..12.0, -1e-3..1e-3).prop_map(|(y, lean): (f64, f64)| [-2.0, y, 14.0, y + lean]);
+    prop::collection::vec(prop_oneof![anywhere, on_centers, steep, level], 0..24)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(128))]
+
+    /// A cell whose centre is clear of all edges lies in the face whose boundary a ray from it crosses oddly often.
+    #[test]
+    fn cells_agree_with_point_location(ends in crossing_lines()) {
+        let subdivision = subdivide(&ends);
+        let cells = CellFaces::rasterize(&subdivision, 12, 12, 1.0);
+        for (number, &face) in cells.as_slice().iter().enumerate() {
+            let center = Point::new((number % 12) as f64 + 0.5, (number / 12) as f64 + 0.5);
+            prop_assert!(face.index() < subdivision.face_count());
+            let is_clear = subdivision.edges().all(|edge| {
+                let [start, end] = subdivision.segment(edge);
+                (end - start).perp(&(center - start)).abs() > 1e-9 * (end - start).norm()
+            });
+            for other in subdivision.faces().filter(|_| is_clear) {
+                prop_assert_eq!(polygon::contains(&subdivision.rings(other), center), face == other);
+            }
+        }
+    }
+}

@@ -1,0 +1,93 @@
+//! The plan of a whole site: rows, rooms and the stacks in them, put together.
+
+use super::halls::Halls;
+use crate::decomposition::Decomposition;
+use crate::geometry::{OrientedBox, Point, direction, fold_half_turn, normal};
+use crate::grid::{Occupancy, OccupancyGrid};
+use crate::line::Line;
+use crate::plot::{Plot, PlotKind};
+use crate::rooms::{FloorPlan, RoomCells};
+use crate::segmentation::RegionMap;
+use crate::spec::DecompositionOptions;
+use crate::watch::{Stage, Stopped, Watch};
+
+/// The lines of a site, what they enclose, and its rooms.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct SitePlan {
+    /// Lines of rows, and borders of rooms; the latter belong to no region and may run in any direction.
+    pub lines: Vec<Line>,
+    /// The plots of rows, and the stacks in rooms.
+    pub plots: Vec<Plot>,
+    /// The rooms.
+    pub rooms: RoomCells,
+}
+
+/// Divides a site into rows and rooms.
+///
+/// # Errors
+/// [`Stopped`] when the watch says so.
+pub fn plan(
+    grid: &OccupancyGrid,
+    regions: &RegionMap,
+    options: &DecompositionOptions,
+    watch: &Watch<'_>,
+) -> Result<SitePlan, Stopped> {
+    let floor_plan = watch.stage(Stage::Rooms, || FloorPlan::of(grid, watch))?;
+    let halls = watch.stage(Stage::Rows, || Halls::find(grid, regions, &floor_plan, options, watch))?;
+    watch.stage(Stage::SitePlan, || assemble(grid, regions, &floor_plan, halls, watch))
+}
+
+/// Adds the stacks that stand in rooms, and the borders of rooms and stacks.
+fn assemble(
+    grid: &OccupancyGrid,
+    regions: &RegionMap,
+    floor_plan: &FloorPlan,
+    halls: Halls,
+    watch: &Watch<'_>,
+) -> Result<SitePlan, Stopped> {
+    let Halls { rows: Decomposition { mut lines, mut plots }, mut rooms } = halls;
+    if rooms.count == 0 {
+        return Ok(SitePlan { lines, plots, rooms });
+    }
+    let stacks = floor_plan.stacks(grid, &rooms, main_direction(regions), watch)?;
+    plots.extend(stacks.footprints.iter().map(|&bounds| plot_of_stack(grid, regions, bounds)));
+    for (room, stack) in rooms.cells.iter_mut().zip(stacks.cells).filter(|&(_, stack)| stack != 0) {
+        *room = rooms.count as u32 + stack;
+    }
+    let borders = floor_plan.borders(&rooms, watch)?;
+    lines.extend(borders.into_iter().map(|ends| border_line(grid, ends)));
+    Ok(SitePlan { lines, plots, rooms })
+}
+
+/// The first direction of the largest region, radians.
+fn main_direction(regions: &RegionMap) -> f64 {
+    let largest = regions.regions.iter().max_by(|one, other| one.share.total_cmp(&other.share));
+    largest.and_then(|region| region.orientations.first().copied()).unwrap_or(0.0)
+}
+
+/// The plot under a stack: one place, or a block of them.
+fn plot_of_stack(grid: &OccupancyGrid, regions: &RegionMap, bounds: OrientedBox) -> Plot {
+    let region = grid.cell_at(bounds.center).and_then(|(column, row)| regions.region_of_cell(column, row));
+    Plot { bounds, kind: PlotKind::Place, region: region.unwrap_or(RegionMap::NONE) }
+}
+
+/// A border as a line of no region, supported by the occupied cells under it.
+fn border_line(grid: &OccupancyGrid, [start, end]: [Point; 2]) -> Line {
+    let orientation = fold_half_turn((end.y - start.y).atan2(end.x - start.x));
+    let along = direction(orientation);
+    let mut extent = [along.dot(&start.coords), along.dot(&end.coords)];
+    extent.sort_by(f64::total_cmp);
+    let length = extent[1] - extent[0];
+    let steps = (length / grid.resolution()).ceil().max(1.0) as usize;
+    let is_occupied = |step: &usize| {
+        let place = start + (end - start) * ((*step as f64 + 0.5) / steps as f64);
+        grid.cell_at(place).is_some_and(|(column, row)| grid.row(row)[column] == Occupancy::Occupied)
+    };
+    Line {
+        region: RegionMap::NONE,
+        orientation,
+        offset: normal(orientation).dot(&start.coords),
+        support: length * (0..steps).filter(is_occupied).count() as f64 / steps as f64,
+        extents: vec![extent],
+    }
+}
