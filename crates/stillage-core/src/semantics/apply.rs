@@ -5,14 +5,18 @@
 //! along them are flagged; rooms, and faces of one label that are mutually open, are merged into places.
 //! Cost: O(faces + edges), a few milliseconds for 7,000 faces. Limits: none beyond those of the analysis.
 
-use super::{Assignment, AssignmentProblem, Cogency, Connectivity, LabelId, Place, RuleSet, SemanticMap};
+use super::assignment::{Assignment, AssignmentProblem};
+use super::cogency::{Cogency, Connectivity};
+use super::label::LabelId;
+use super::rule_set::RuleSet;
+use super::semantic_map::{Place, SemanticMap};
 use crate::analysis::Analysis;
 use crate::annotation::{EdgeAnnotation, FaceAnnotation};
 use crate::arrangement::FaceId;
 use crate::geometry::DisjointSets;
 
-/// Share of the length of an edge beyond which the cells along it outvote its cogency: the majority, as everywhere in
-/// the paper's annotation ("winner takes all").
+/// Share of the length of an edge above which the cells along it count for the whole edge: the majority, as in the
+/// paper's annotation ("winner takes all").
 const MAJORITY: f64 = 0.5;
 
 /// Reads an analysis under a rule set and an assignment. Pure; milliseconds.
@@ -43,7 +47,7 @@ pub fn apply(
     let is_storage = |face: FaceId| rule_set.label(labels[face.index()]).is_storage();
     let disagreements = edges()
         .map(|edge| {
-            // Between two places of goods, the goods stand along the edge: that contradicts nothing.
+            // Between two storage faces the obstacles along the edge are the goods: no contradiction.
             !sides(edge).into_iter().all(is_storage)
                 && contradicts(cogency[edge.index()], &analysis.edges[edge.index()])
         })
@@ -61,9 +65,9 @@ pub fn apply(
     })
 }
 
-/// Whether the cells along an edge say the opposite of its cogency.
+/// Whether the cells along an edge contradict its cogency.
 ///
-/// Storage access contradicts nothing: the goods that stand behind such an edge are seen as obstacles along it.
+/// A storage-access edge is never contradicted: the goods behind it are obstacles along it.
 fn contradicts(cogency: Cogency, edge: &EdgeAnnotation) -> bool {
     match cogency {
         Cogency::Invalid => edge.support > MAJORITY,
@@ -72,11 +76,11 @@ fn contradicts(cogency: Cogency, edge: &EdgeAnnotation) -> bool {
     }
 }
 
-/// An assignment whose names were looked up.
+/// An assignment with its label ids resolved.
 struct Decision {
     /// Label by category.
     by_category: Vec<LabelId>,
-    /// Label by face where it is an exception.
+    /// Label by face, where the assignment overrides the category's.
     by_face: Vec<Option<LabelId>>,
 }
 
@@ -105,7 +109,7 @@ impl Decision {
                 }
             }
         }
-        // The label of the unbounded face is nobody's decision.
+        // The unbounded face is always unidentified.
         if let Some(outer) = by_face.first_mut() {
             *outer = Some(rule_set.unidentified());
         }
@@ -120,7 +124,8 @@ impl Decision {
         self.by_category[usize::from(category)]
     }
 
-    /// The shares of all clusters that bear the face's label; the annotation's own confidence where nobody voted.
+    /// The sum of the face's shares in all clusters that have its label; the annotation's own confidence for the
+    /// categories that are not clusters.
     fn confidence(&self, face: usize, annotation: &FaceAnnotation) -> f64 {
         if self.by_face[face].is_some() {
             return 1.0;
@@ -156,10 +161,10 @@ fn no_such(what: &str, id: u32, valid: std::ops::Range<usize>, pointer: String) 
 
 /// Joins faces into places, and numbers the results by their smallest face.
 ///
-/// A room is one place, whatever its faces are labelled: its walls and doors divide it from all others, and most of its
-/// area names it. Elsewhere faces of one label are joined over connected links; what stands along an edge divides
-/// drivable places, but between two storage faces it is the goods themselves, so a block of storage stays one.
-/// Unidentified faces outside rooms are no place.
+/// - A room is one place, whatever labels its faces have; its label is that of most of its area.
+/// - Elsewhere faces of one label are joined over connected links. Obstacles along an edge divide drivable places. Between
+///   two storage faces the obstacles are the goods, so a block of storage stays one place.
+/// - Unidentified faces outside rooms belong to no place.
 fn merge_places(
     analysis: &Analysis,
     rule_set: &RuleSet,
@@ -220,8 +225,7 @@ mod tests {
     use crate::semantics::pictures::DrawnMap;
     use expect_test::{Expect, expect};
 
-    /// Two rows of two pallet places along a corridor that ends in a junction, a wall beyond it, and a nook that
-    /// nobody named.
+    /// Two rows of two pallet places along a corridor that ends in a junction, a wall beyond it, and an unlabelled nook.
     fn corner_of_a_warehouse() -> DrawnMap {
         DrawnMap::new(
             "

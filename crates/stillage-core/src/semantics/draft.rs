@@ -1,11 +1,14 @@
-//! The check of a rule set as a person writes it.
+//! A rule set as a person writes it, and its check.
 //!
-//! Every problem is reported at once, each with a JSON pointer (RFC 6901) to the value that is wrong.
+//! All problems are reported at once, each with a JSON pointer (RFC 6901) to the value that is wrong.
 //! Cost: O(labels^2 + rules). Limits: see [`MAX_LABELS`] and [`MAX_RULES`].
 
-use super::rule_set::{CogencyRule, Label, LabelId, RuleSet, RuleSetDraft, RuleSetProblem};
+use serde::{Deserialize, Serialize};
 
-/// Most labels of a rule set: more than a legend can show, and a table of cogency stays small.
+use super::cogency::CogencyRule;
+use super::label::{Label, LabelId};
+
+/// Most labels of a rule set: a legend cannot show more, and the table of cogency stays small.
 const MAX_LABELS: usize = 32;
 /// Most explicit rules: every pair of labels in either order.
 const MAX_RULES: usize = MAX_LABELS * MAX_LABELS;
@@ -14,30 +17,50 @@ const MAX_ID: usize = 32;
 /// Longest name of a label, characters.
 const MAX_NAME: usize = 100;
 
+/// A rule set as a person writes it, not yet checked.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "camelCase")]
+pub struct RuleSetDraft {
+    /// The labels.
+    pub labels: Vec<Label>,
+    /// Explicit rules; the first that matches applies. Without a match the cogency is derived from the labels.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub cogency: Option<Vec<CogencyRule>>,
+}
+
+/// What is wrong with a draft.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("{pointer}: {message}")]
+pub struct RuleSetProblem {
+    /// JSON pointer into the draft.
+    pub pointer: String,
+    /// What is wrong and what would be right.
+    pub message: String,
+}
+
 impl RuleSetDraft {
-    /// Checks a draft.
-    ///
-    /// # Errors
-    /// Every problem of the draft.
-    pub fn check(self) -> Result<RuleSet, Vec<RuleSetProblem>> {
+    /// Every problem of the draft; none when it is valid.
+    pub(super) fn problems(&self) -> Vec<RuleSetProblem> {
         let mut problems = Problems::default();
         let labels = &self.labels;
         problems.unless(labels.len() <= MAX_LABELS, "/labels", || {
             format!("{} labels are more than {MAX_LABELS}", labels.len())
         });
-        // The check of a label looks at all the others: bounded before it is begun.
+        // Each label is compared with all others, so their number is bounded first.
         for index in 0..labels.len().min(MAX_LABELS) {
             check_label(labels, index, &mut problems);
         }
-        check_rules(&self, &mut problems);
-        let unidentified = labels.iter().position(|label| label.functionality.is_empty());
-        problems.unless(unidentified.is_some(), "/labels", || {
+        check_rules(self, &mut problems);
+        problems.unless(self.unidentified().is_some(), "/labels", || {
             "a label without functionality is needed for places that nobody named".to_owned()
         });
-        match unidentified {
-            Some(index) if problems.0.is_empty() => Ok(RuleSet::tabulate(self, LabelId(index as u8))),
-            _ => Err(problems.0),
-        }
+        problems.0
+    }
+
+    /// The first label without functionality.
+    pub(super) fn unidentified(&self) -> Option<LabelId> {
+        let index = self.labels.iter().position(|label| label.functionality.is_empty());
+        index.map(|index| LabelId(index as u8))
     }
 
     fn knows(&self, id: &str) -> bool {
@@ -97,7 +120,7 @@ impl Problems {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::semantics::Cogency;
+    use crate::semantics::{Cogency, RuleSet};
     use expect_test::{Expect, expect};
 
     fn check(change: impl FnOnce(&mut RuleSetDraft), expected: &Expect) {

@@ -1,4 +1,4 @@
-//! Maps drawn in characters, for the tests of the human level.
+//! Maps drawn in characters, for tests of the human level.
 
 use crate::adjacency::AdjacencyGraph;
 use crate::analysis::Analysis;

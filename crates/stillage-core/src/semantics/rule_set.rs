@@ -1,148 +1,34 @@
-//! Labels with functionality and connect-ability, and the cogency read from them.
+//! Checked rule sets, and the two tables of the paper.
 //!
-//! Source: the paper, section II-C: Table II (warehouses), Table IV (offices) and the functions C(e), C(l).
-//! Departure: the paper writes C(e) down for Table II only. Here it is derived from any table (see
-//! [`RuleSet::cogency`]), and equals the paper's on every pair of labels of both tables. A rule set may also list
-//! its cogency outright.
+//! Source: the paper, section II-C: Table II (warehouses), Table IV (offices) and the function C(e).
 //! Cost: O(labels^2 x rules) once per rule set, O(1) per edge. Limits: 32 labels, 1,024 explicit rules.
 
-use serde::{Deserialize, Serialize};
-
-/// Index of a label in its rule set.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
-#[serde(transparent)]
-pub struct LabelId(pub u8);
-
-/// What a place is for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Functionality {
-    /// Robots may drive here.
-    Drivable,
-    /// Storage is reached from here.
-    StorageAccess,
-    /// Joins corridors.
-    Connection,
-    /// Rooms are reached from here.
-    Access,
-    /// Goods stand here.
-    Storage,
-    /// People work here.
-    WorkPlace,
-}
-
-/// A label that a person may give to places. Table II writes it `co: corridor, drivable & storage access, co & ju &
-/// pc`.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "camelCase")]
-pub struct Label {
-    /// Short id, unique in its rule set: `co`, `ju`, `pc`, `un`.
-    pub id: String,
-    /// Name for people.
-    pub name: String,
-    /// `#rrggbb`.
-    pub color: String,
-    /// What such a place is for.
-    #[serde(default)]
-    pub functionality: Vec<Functionality>,
-    /// Ids of the labels it may connect to.
-    #[serde(default)]
-    pub connects_to: Vec<String>,
-}
-
-impl Label {
-    /// Whether such a place has a functionality.
-    #[must_use]
-    pub fn has(&self, functionality: Functionality) -> bool {
-        self.functionality.contains(&functionality)
-    }
-
-    /// Whether robots may drive in such a place.
-    #[must_use]
-    pub fn is_drivable(&self) -> bool {
-        self.has(Functionality::Drivable)
-    }
-
-    /// Whether goods stand in such a place.
-    #[must_use]
-    pub fn is_storage(&self) -> bool {
-        self.has(Functionality::Storage)
-    }
-}
-
-/// C(e): what an edge means to its two faces.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Cogency {
-    /// An obstruction.
-    Cogent,
-    /// Where storage is reached from a drivable face.
-    StorageAccess,
-    /// No obstruction: open access.
-    Invalid,
-}
-
-/// C(l): what a link allows.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Connectivity {
-    /// Over a cogent edge.
-    Disconnected,
-    /// Over a storage-access edge.
-    StorageAccess,
-    /// Over an invalid edge.
-    Connected,
-}
-
-impl From<Cogency> for Connectivity {
-    fn from(cogency: Cogency) -> Self {
-        match cogency {
-            Cogency::Cogent => Self::Disconnected,
-            Cogency::StorageAccess => Self::StorageAccess,
-            Cogency::Invalid => Self::Connected,
-        }
-    }
-}
-
-/// One explicit rule: an edge between these labels (in either order; `*` for any) has this cogency.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "camelCase")]
-pub struct CogencyRule {
-    /// The two label ids, or `*`.
-    pub when: [String; 2],
-    /// The cogency of such an edge.
-    pub then: Cogency,
-}
-
-/// A rule set as a person writes it, unchecked.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "camelCase")]
-pub struct RuleSetDraft {
-    /// The labels.
-    pub labels: Vec<Label>,
-    /// Explicit rules, first match wins; derived from the labels where absent or without a match.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub cogency: Option<Vec<CogencyRule>>,
-}
-
-/// What is wrong with a draft.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("{pointer}: {message}")]
-pub struct RuleSetProblem {
-    /// JSON pointer into the draft.
-    pub pointer: String,
-    /// What is wrong and what would be right.
-    pub message: String,
-}
+use super::cogency::{Cogency, derived_cogency};
+use super::draft::{RuleSetDraft, RuleSetProblem};
+use super::label::{Functionality, Label, LabelId};
 
 /// A checked rule set: at least one label, unique ids, known references, and an unidentified label.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct RuleSet {
     draft: RuleSetDraft,
-    /// The label of what nobody named: the first label without functionality.
+    /// The label of places without another label: the first label without functionality.
     unidentified: LabelId,
     /// C(e) of every ordered pair of labels, row-major.
     cogency: Vec<Cogency>,
+}
+
+impl RuleSetDraft {
+    /// Checks a draft.
+    ///
+    /// # Errors
+    /// Every problem of the draft.
+    pub fn check(self) -> Result<RuleSet, Vec<RuleSetProblem>> {
+        let problems = self.problems();
+        match self.unidentified() {
+            Some(unidentified) if problems.is_empty() => Ok(RuleSet::tabulate(self, unidentified)),
+            _ => Err(problems),
+        }
+    }
 }
 
 impl RuleSet {
@@ -174,15 +60,15 @@ impl RuleSet {
         RuleSetDraft { labels, cogency: None }.check().expect("the tables of the paper are valid")
     }
 
-    /// Tabulates the cogency of a draft that was checked.
-    pub(super) fn tabulate(draft: RuleSetDraft, unidentified: LabelId) -> Self {
+    /// Tabulates the cogency of a valid draft.
+    fn tabulate(draft: RuleSetDraft, unidentified: LabelId) -> Self {
         let labels = &draft.labels;
         let pairs = labels.iter().flat_map(|first| labels.iter().map(move |second| (first, second)));
-        let nameless = &labels[unidentified.0 as usize];
+        let unidentified_label = &labels[unidentified.0 as usize];
         let cogency = pairs
             .map(|(first, second)| {
                 let listed = draft.cogency.iter().flatten().find(|rule| rule.matches(first, second));
-                listed.map_or_else(|| derived_cogency(first, second, nameless), |rule| rule.then)
+                listed.map_or_else(|| derived_cogency(first, second, unidentified_label), |rule| rule.then)
             })
             .collect();
         Self { draft, unidentified, cogency }
@@ -212,7 +98,7 @@ impl RuleSet {
         self.draft.labels.iter().position(|label| label.id == id).map(|index| LabelId(index as u8))
     }
 
-    /// The label of what nobody named.
+    /// The label of places without another label.
     #[must_use]
     pub const fn unidentified(&self) -> LabelId {
         self.unidentified
@@ -220,7 +106,7 @@ impl RuleSet {
 
     /// C(e) of an edge between faces of two labels, in either order.
     ///
-    /// The first explicit rule that names the pair decides. Without one, it follows from the table of labels:
+    /// The first explicit rule that matches the pair applies. Without one, it follows from the table of labels:
     /// 1. one of them is unidentified, or connects to nothing: cogent;
     /// 2. they differ and do not list each other: cogent;
     /// 3. one is drivable with storage access, the other is storage: storage access;
@@ -231,35 +117,8 @@ impl RuleSet {
     }
 }
 
-impl CogencyRule {
-    /// Stands for any label.
-    pub const ANY: &str = "*";
-
-    fn matches(&self, first: &Label, second: &Label) -> bool {
-        let names = |pattern: &String, label: &Label| pattern == Self::ANY || *pattern == label.id;
-        let [one, other] = &self.when;
-        (names(one, first) && names(other, second)) || (names(one, second) && names(other, first))
-    }
-}
-
-fn derived_cogency(first: &Label, second: &Label, unidentified: &Label) -> Cogency {
-    let is_nowhere = |label: &Label| label.id == unidentified.id || label.connects_to.is_empty();
-    let lists = |one: &Label, other: &Label| one.connects_to.contains(&other.id);
-    let gives_storage =
-        |one: &Label, other: &Label| one.is_drivable() && one.has(Functionality::StorageAccess) && other.is_storage();
-    let nowhere = is_nowhere(first) || is_nowhere(second);
-    let apart = first.id != second.id && !(lists(first, second) && lists(second, first));
-    if nowhere || apart {
-        Cogency::Cogent
-    } else if gives_storage(first, second) || gives_storage(second, first) {
-        Cogency::StorageAccess
-    } else {
-        Cogency::Invalid
-    }
-}
-
-// The colours of the paper's Fig. 9 and 10 (junctions yellow, pallet cells green, corridors blue), in tones that stay
-// apart for readers who confuse red and green (Okabe and Ito 2008).
+// The colours of the paper's Fig. 9 and 10 (junctions yellow, pallet cells green, corridors blue), in the tones of M. Okabe
+// and K. Ito (2008), which readers who confuse red and green can tell apart.
 const BLUE: &str = "#56b4e9";
 const YELLOW: &str = "#f0e442";
 const GREEN: &str = "#009e73";
@@ -279,6 +138,7 @@ fn label(id: &str, name: &str, color: &str, functionality: &[Functionality], con
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::semantics::CogencyRule;
     use expect_test::{Expect, expect};
 
     /// The paper's C(e), section II-C, as it stands there.

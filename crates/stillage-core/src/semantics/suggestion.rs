@@ -1,24 +1,71 @@
-//! A first label for every category, so that a map has a meaning before anyone has looked at it.
+//! Suggested labels: one for every category, before a person assigns any.
 //!
 //! Source: the paper assigns labels by hand and says that they could be learned "from characteristics of labels and
-//! the occupancy values" (section II-C). This is the plain version of that: a fuzzy reading of what the faces of a
-//! category are like, after Zadeh (doi 10.1016/S0019-9958(65)90241-X): *and* is the minimum, *or* the maximum. A
-//! label is as likely as the least likely of its functionalities, in any rule set.
-//! Cost: O(faces + edges + categories x labels). Limits: categories are judged one by one and as a whole, so a
-//! category that mixes places gets the label of most of its area, and a low confidence.
+//! the occupancy values" (section II-C). Here they follow from rules of fuzzy logic over the evidence of each category
+//! (L. Zadeh, *Fuzzy sets*, 1965, doi 10.1016/S0019-9958(65)90241-X): *and* is the minimum, *or* the maximum. A label is as
+//! likely as the least likely of its functionalities, in any rule set.
+//! Cost: O(faces + edges + categories x labels). Limits: a category is judged as a whole, so one that mixes kinds of
+//! places gets the label of most of its area, with a low confidence.
 
-use super::{CategoryEvidence, Functionality, Label, LabelId, RuleSet, Suggestion};
+use serde::{Deserialize, Serialize};
+
+use super::evidence::{CategoryEvidence, category_evidence};
+use super::label::{Functionality, Label, LabelId};
+use super::rule_set::RuleSet;
 use crate::analysis::Analysis;
-use crate::arrangement::FaceId;
 use crate::categorization::CategoryMap;
-use crate::plot::PlotKind;
 
-/// Below this likelihood a category is better left unidentified: the wrong label closes or opens ways.
+/// Least likelihood of a suggested label; below it the category stays unidentified, since a wrong label opens or closes
+/// ways. Chosen by hand.
 const LEAST_LIKELIHOOD: f64 = 0.35;
-/// A label that is drivable and nothing else suits every free place, and so says less than one that says more.
+/// Factor on the likelihood of a label that is drivable and nothing else: it fits every free place, so a more specific
+/// label is preferred. Chosen by hand.
 const PLAIN_DRIVABLE: f64 = 0.75;
-/// A face is lined by an edge, or unexplored, by the majority of its length or cells.
+/// Share of a category's area that was cut out as plots above which their kinds decide: the majority.
 const MAJORITY: f64 = 0.5;
+
+// Ramps: a statement is false below the first value, true above the second, and in between by degrees. Chosen by hand.
+
+/// Median face area, square metres: a place for one EUR pallet has about 1, a bay of three 4.
+const LARGER_THAN_ONE_PLACE: [f64; 2] = [2.0, 4.0];
+/// Median face area, square metres: a bay of three pallets has 4, a free-standing block 16.
+const LARGER_THAN_STORAGE: [f64; 2] = [4.0, 16.0];
+/// Share of occupied cells: the nine blocks of a pallet cover about a tenth of its place, a misplaced line leaves a
+/// twentieth in a corridor.
+const HAS_GOODS: [f64; 2] = [0.05, 0.15];
+/// Share of unknown cells: beams do not enter a stack of goods.
+const UNSEEN: [f64; 2] = [0.4, 0.8];
+/// Share of free cells.
+const FREE: [f64; 2] = [0.5, 0.85];
+/// Share of the border lined by structure: an empty place has neighbours on three sides.
+const ENCLOSED: [f64; 2] = [0.5, 0.75];
+/// Share of the border that is open: an empty place is open on one side at most.
+const OPEN: [f64; 2] = [0.25, 0.5];
+/// Share of the border lined by structure: something stands along it.
+const LINED: [f64; 2] = [0.2, 0.5];
+/// Ratio of the principal axes of what is seen.
+const LONG_VIEW: [f64; 2] = [1.5, 3.5];
+/// Long over short side of a face.
+const LONG_FACE: [f64; 2] = [1.5, 4.0];
+/// Mean beam length over that of the map.
+const FAR_VIEW: [f64; 2] = [0.7, 1.2];
+/// Median face area, square metres: a person can work there.
+const ROOMY: [f64; 2] = [2.0, 8.0];
+
+/// A proposed label for a category.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Suggestion {
+    /// Category.
+    pub category: u8,
+    /// Proposed label.
+    pub label: LabelId,
+    /// Confidence, 0 to 1.
+    pub confidence: f64,
+    /// The reason, in words.
+    pub reason: String,
+    /// What the proposal is based on.
+    pub evidence: CategoryEvidence,
+}
 
 /// Proposes a label for every category of an analysis (clusters, `occupied`, `unknown`, `outside`), ascending.
 #[must_use]
@@ -26,26 +73,26 @@ pub fn suggest(analysis: &Analysis, rule_set: &RuleSet) -> Vec<Suggestion> {
     let evidence = category_evidence(analysis);
     let mean_beam = mean_beam_of_map(&analysis.categories);
     let propose = |(category, evidence): (usize, CategoryEvidence)| {
-        let sight = Sight::of(&analysis.categories, category, mean_beam);
+        let view = View::of(&analysis.categories, category, mean_beam);
         let category = category as u8;
         if category == analysis.face_categories.outside() {
             return propose_outside(category, evidence, rule_set);
         }
-        propose(category, evidence, sight, rule_set)
+        propose(category, evidence, view, rule_set)
     };
     evidence.into_iter().enumerate().map(propose).collect()
 }
 
-fn propose(category: u8, evidence: CategoryEvidence, sight: Sight, rule_set: &RuleSet) -> Suggestion {
+fn propose(category: u8, evidence: CategoryEvidence, view: View, rule_set: &RuleSet) -> Suggestion {
     let nothing = (rule_set.unidentified(), 0.0);
     if evidence.faces == 0 {
         let reason = "No face has this category.".to_owned();
         return Suggestion { category, label: nothing.0, confidence: 0.0, reason, evidence };
     }
-    let reading = Reading::new(&evidence, sight);
+    let traits = Traits::new(&evidence, view);
     let (mut best, mut second) = (nothing, nothing);
     for (index, label) in rule_set.labels().iter().enumerate() {
-        let candidate = (LabelId(index as u8), reading.likelihood(label));
+        let candidate = (LabelId(index as u8), traits.likelihood(label));
         if candidate.1 > best.1 {
             (best, second) = (candidate, best);
         } else if candidate.1 > second.1 {
@@ -53,29 +100,29 @@ fn propose(category: u8, evidence: CategoryEvidence, sight: Sight, rule_set: &Ru
         }
     }
     let name = |id: LabelId| &rule_set.label(id).name;
-    let looks = describe(&evidence, sight);
+    let description = describe(&evidence, view);
     let (label, confidence, reason) = if best.1 < LEAST_LIKELIHOOD {
         let nearest =
             if best.1 > 0.0 { format!(" (the nearest: {}, {:.2})", name(best.0), best.1) } else { String::new() };
-        (nothing.0, 1.0 - best.1, format!("{looks}: no label fits{nearest}."))
+        (nothing.0, 1.0 - best.1, format!("{description}: no label fits{nearest}."))
     } else {
-        // A close second halves the trust in the first.
+        // A second label that is as likely halves the confidence.
         let confidence = best.1 - second.1 / 2.0;
         let rival = if second.1 > 0.0 { format!("; next {}, {:.2}", name(second.0), second.1) } else { String::new() };
-        (best.0, confidence, format!("{looks}: reads as {} ({:.2}{rival}).", name(best.0), best.1))
+        (best.0, confidence, format!("{description}: reads as {} ({:.2}{rival}).", name(best.0), best.1))
     };
     Suggestion { category, label, confidence: confidence.clamp(0.0, 1.0), reason, evidence }
 }
 
-/// Nothing is known of the ground outside, whatever it looks like.
+/// The ground outside the site stays unidentified, whatever its evidence.
 fn propose_outside(category: u8, evidence: CategoryEvidence, rule_set: &RuleSet) -> Suggestion {
     let reason = "Unexplored ground around the site.".to_owned();
     Suggestion { category, label: rule_set.unidentified(), confidence: 1.0, reason, evidence }
 }
 
-fn describe(evidence: &CategoryEvidence, sight: Sight) -> String {
+fn describe(evidence: &CategoryEvidence, view: View) -> String {
     let percent = |share: f64| (share * 100.0).round();
-    let beams = sight.relative_beam.map(|beam| format!(", beams {beam:.1} times the mean of the map"));
+    let beams = view.relative_beam.map(|beam| format!(", beams {beam:.1} times the mean of the map"));
     format!(
         "{} % free, {} % occupied, {} % unknown; {:.1} times as long as wide, {:.1} m2 in the median, {} % of the \
          border lined by structure{}",
@@ -89,16 +136,16 @@ fn describe(evidence: &CategoryEvidence, sight: Sight) -> String {
     )
 }
 
-/// How far and how unevenly one sees from the cells of a cluster; nothing is known of the other categories.
+/// What is seen from the cells of a cluster; unknown for the other categories.
 #[derive(Debug, Clone, Copy, Default)]
-struct Sight {
+struct View {
     /// Mean beam length over that of the whole map.
     relative_beam: Option<f64>,
-    /// Long over short principal axis of what is seen.
+    /// Long over short principal axis of the end points of the beams.
     elongation: Option<f64>,
 }
 
-impl Sight {
+impl View {
     fn of(categories: &CategoryMap, category: usize, mean_beam: Option<f64>) -> Self {
         let feature = |name| mean_feature(categories, category, name);
         Self {
@@ -119,7 +166,7 @@ fn mean_feature(categories: &CategoryMap, category: usize, name: &str) -> Option
     value.is_finite().then_some(value)
 }
 
-/// Mean beam length over all categorized cells; `None` where it is not known or zero.
+/// Mean beam length over all categorized cells; `None` where it is unknown or zero.
 fn mean_beam_of_map(categories: &CategoryMap) -> Option<f64> {
     let cells: usize = categories.categories.iter().map(|category| category.cells).sum();
     let weighted = (0..categories.categories.len())
@@ -130,42 +177,42 @@ fn mean_beam_of_map(categories: &CategoryMap) -> Option<f64> {
     (mean > 0.0).then_some(mean)
 }
 
-/// How true each statement about a category is, 0 to 1.
-struct Reading {
+/// Degrees of truth of statements about a category, 0 to 1.
+struct Traits {
     /// Most cells are free.
     free: f64,
-    /// Something stands, or could stand, there.
+    /// Goods stand, or could stand, there.
     goods: f64,
-    /// It leads along.
+    /// It extends along one direction.
     long: f64,
-    /// It leads to all sides.
+    /// It extends to all sides.
     wide: f64,
-    /// Structure runs along it.
+    /// Structure runs along its border.
     lined: f64,
     /// People could work there.
     roomy: f64,
-    /// What its faces were cut out for, where the decomposition says it.
-    cut: Option<Cut>,
+    /// What its faces were cut out as; decides alone where it is known.
+    plots: Option<PlotShares>,
 }
 
-/// What the faces of a category were cut out for: stronger than what they look like.
+/// Shares of a category's area by what its faces were cut out as.
 #[derive(Debug, Clone, Copy)]
-struct Cut {
+struct PlotShares {
     place: f64,
     aisle: f64,
     floor: f64,
     room: f64,
 }
 
-impl Cut {
-    /// `None` for faces that were cut out for nothing, as all are in the paper's decomposition.
+impl PlotShares {
+    /// `None` where most of the area was cut out as nothing, as all is in the paper's decomposition.
     fn of(evidence: &CategoryEvidence) -> Option<Self> {
         let (place, aisle, floor) = (evidence.place_fraction, evidence.aisle_fraction, evidence.floor_fraction);
         let (room, rest) = (evidence.room_fraction, evidence.rest_fraction);
         (place + aisle + floor + room + rest > MAJORITY).then_some(Self { place, aisle, floor, room })
     }
 
-    fn suits(self, functionality: Functionality) -> f64 {
+    fn suit(self, functionality: Functionality) -> f64 {
         match functionality {
             Functionality::Drivable => self.aisle + self.floor,
             Functionality::StorageAccess | Functionality::Access => self.aisle,
@@ -176,45 +223,41 @@ impl Cut {
     }
 }
 
-/// 0 up to `low`, 1 from `high` on, straight between.
-fn ramp(value: f64, low: f64, high: f64) -> f64 {
+/// 0 up to `low`, 1 from `high` on, linear in between.
+fn ramp(value: f64, [low, high]: [f64; 2]) -> f64 {
     ((value - low) / (high - low)).clamp(0.0, 1.0)
 }
 
-impl Reading {
-    fn new(evidence: &CategoryEvidence, sight: Sight) -> Self {
-        // A place for one EUR pallet has about 1 m2, a bay of three 4 m2; 16 m2 is a block that stands free.
-        let (tiny, small) = (1.0 - ramp(evidence.median_area, 2.0, 4.0), 1.0 - ramp(evidence.median_area, 4.0, 16.0));
-        // Nine blocks of a pallet cover about a tenth of its place, a misplaced line leaves a twentieth in a corridor.
-        let seen_goods = ramp(evidence.occupied_fraction, 0.05, 0.15);
-        // Beams do not enter a stack of goods: what stays unknown among known places holds something.
-        let unseen = ramp(evidence.unknown_fraction, 0.4, 0.8);
-        let free = ramp(evidence.free_fraction, 0.5, 0.85);
-        // An empty place has its neighbours on three sides and is open to the fourth at most.
-        let closed_in = ramp(evidence.lined_fraction, 0.5, 0.75).min(1.0 - ramp(evidence.open_fraction, 0.25, 0.5));
-        let nook = free.min(tiny).min(closed_in);
-        let goods = seen_goods.max(small.min(unseen)).max(nook);
-        let lined = ramp(evidence.lined_fraction, 0.2, 0.5);
-        // Faces may be cut anywhere by the lines of the racks, so beams tell better what is long, and what is wide.
-        let long = match sight.elongation {
-            Some(ratio) => ramp(ratio, 1.5, 3.5),
-            None => ramp(evidence.elongation, 1.5, 4.0),
+impl Traits {
+    fn new(evidence: &CategoryEvidence, view: View) -> Self {
+        let is_one_place = 1.0 - ramp(evidence.median_area, LARGER_THAN_ONE_PLACE);
+        let is_small = 1.0 - ramp(evidence.median_area, LARGER_THAN_STORAGE);
+        let free = ramp(evidence.free_fraction, FREE);
+        let enclosed = ramp(evidence.lined_fraction, ENCLOSED).min(1.0 - ramp(evidence.open_fraction, OPEN));
+        let empty_place = free.min(is_one_place).min(enclosed);
+        let hidden_goods = is_small.min(ramp(evidence.unknown_fraction, UNSEEN));
+        let goods = ramp(evidence.occupied_fraction, HAS_GOODS).max(hidden_goods).max(empty_place);
+        let lined = ramp(evidence.lined_fraction, LINED);
+        // The lines of racks may cut faces anywhere, so beams show better what is long and what is wide.
+        let long = match view.elongation {
+            Some(ratio) => ramp(ratio, LONG_VIEW),
+            None => ramp(evidence.elongation, LONG_FACE),
         };
-        let far = sight.relative_beam.map_or(1.0 - lined, |beam| ramp(beam, 0.7, 1.2));
+        let far = view.relative_beam.map_or(1.0 - lined, |beam| ramp(beam, FAR_VIEW));
         Self {
             free,
             goods,
             long,
             wide: far.min(1.0 - long),
             lined,
-            roomy: ramp(evidence.median_area, 2.0, 8.0),
-            cut: Cut::of(evidence),
+            roomy: ramp(evidence.median_area, ROOMY),
+            plots: PlotShares::of(evidence),
         }
     }
 
     /// A label is as likely as the least likely of its functionalities.
     fn likelihood(&self, label: &Label) -> f64 {
-        let least = label.functionality.iter().map(|&function| self.suits(function)).fold(1.0, f64::min);
+        let least = label.functionality.iter().map(|&function| self.suit(function)).fold(1.0, f64::min);
         match label.functionality.as_slice() {
             [] => 0.0,
             [Functionality::Drivable] => least * PLAIN_DRIVABLE,
@@ -222,9 +265,9 @@ impl Reading {
         }
     }
 
-    fn suits(&self, functionality: Functionality) -> f64 {
-        if let Some(cut) = self.cut {
-            return cut.suits(functionality);
+    fn suit(&self, functionality: Functionality) -> f64 {
+        if let Some(plots) = self.plots {
+            return plots.suit(functionality);
         }
         let passable = self.free.min(1.0 - self.goods);
         match functionality {
@@ -235,92 +278,6 @@ impl Reading {
             Functionality::Storage => self.goods,
             Functionality::WorkPlace => passable.min(1.0 - self.long).min(self.lined).min(self.roomy),
         }
-    }
-}
-
-/// Aggregates the faces and edges of each category.
-pub(super) fn category_evidence(analysis: &Analysis) -> Vec<CategoryEvidence> {
-    let count = analysis.face_categories.count();
-    let borders = Borders::measure(analysis);
-    let mut sums = vec![CategoryEvidence::default(); count];
-    let mut areas: Vec<Vec<f64>> = vec![Vec::new(); count];
-    let mut lengths = vec![0.0; count];
-    for face in analysis.subdivision.faces().map(FaceId::index) {
-        let annotation = &analysis.faces[face];
-        let category = usize::from(annotation.category);
-        let (sum, weight) = (&mut sums[category], annotation.area);
-        sum.faces += 1;
-        sum.area += weight;
-        sum.free_fraction += weight * annotation.free_fraction;
-        sum.occupied_fraction += weight * annotation.occupied_fraction;
-        sum.unknown_fraction += weight * annotation.unknown_fraction;
-        sum.elongation += weight * annotation.elongation;
-        match annotation.kind {
-            Some(PlotKind::Place) => sum.place_fraction += weight,
-            Some(PlotKind::Aisle) => sum.aisle_fraction += weight,
-            Some(PlotKind::OpenFloor | PlotKind::Passage) => sum.floor_fraction += weight,
-            Some(PlotKind::Room) => sum.room_fraction += weight,
-            Some(PlotKind::Other) => sum.rest_fraction += weight,
-            None => {}
-        }
-        sum.open_fraction += borders.open[face];
-        sum.lined_fraction += borders.lined[face];
-        lengths[category] += borders.length[face];
-        areas[category].push(annotation.area);
-    }
-    for ((sum, areas), length) in sums.iter_mut().zip(&mut areas).zip(lengths) {
-        let share = |value: f64, whole: f64| if whole > 0.0 { value / whole } else { 0.0 };
-        let area = sum.area;
-        for mean in [
-            &mut sum.free_fraction,
-            &mut sum.occupied_fraction,
-            &mut sum.unknown_fraction,
-            &mut sum.elongation,
-            &mut sum.place_fraction,
-            &mut sum.aisle_fraction,
-            &mut sum.floor_fraction,
-            &mut sum.room_fraction,
-            &mut sum.rest_fraction,
-        ] {
-            *mean = share(*mean, area);
-        }
-        sum.open_fraction = share(sum.open_fraction, length);
-        sum.lined_fraction = share(sum.lined_fraction, length);
-        sum.median_area = median(areas);
-    }
-    sums
-}
-
-/// Lower median; 0 without values.
-fn median(values: &mut [f64]) -> f64 {
-    values.sort_by(f64::total_cmp);
-    values.get(values.len().saturating_sub(1) / 2).copied().unwrap_or(0.0)
-}
-
-/// Lengths along the boundary of each face, metres.
-struct Borders {
-    length: Vec<f64>,
-    open: Vec<f64>,
-    /// With an obstacle on the edge, or no free face behind it.
-    lined: Vec<f64>,
-}
-
-impl Borders {
-    fn measure(analysis: &Analysis) -> Self {
-        let faces = analysis.faces.len();
-        let mut borders = Self { length: vec![0.0; faces], open: vec![0.0; faces], lined: vec![0.0; faces] };
-        for edge in analysis.subdivision.edges() {
-            let length = analysis.subdivision.length(edge);
-            let annotation = &analysis.edges[edge.index()];
-            let [left, right] = analysis.subdivision.sides(edge).map(FaceId::index);
-            for (face, behind) in [(left, right), (right, left)] {
-                let is_lined = annotation.support > MAJORITY || analysis.faces[behind].free_fraction < MAJORITY;
-                borders.length[face] += length;
-                borders.open[face] += length * annotation.open;
-                borders.lined[face] += if is_lined { length } else { 0.0 };
-            }
-        }
-        borders
     }
 }
 
@@ -340,7 +297,7 @@ mod tests {
         expected.assert_eq(&suggestions.iter().filter(|one| one.evidence.faces > 0).map(line).collect::<String>());
     }
 
-    /// Gives the drawn categories the mean beam lengths and axis ratios that beams would measure.
+    /// Gives the drawn categories mean beam lengths and axis ratios.
     fn with_sight(mut map: DrawnMap, sight: &[[f64; 2]]) -> DrawnMap {
         map.analysis.categories.feature_names = vec![MEAN_BEAM.to_owned(), AXIS_RATIO.to_owned()];
         for (category, sight) in map.analysis.categories.categories.iter_mut().zip(sight) {
