@@ -1,16 +1,17 @@
-//! Relaxation on the faces of a subdivision, over its adjacency graph.
+//! Relaxation of the faces of a subdivision, over its adjacency graph.
 //!
-//! Cost: O(links x k^2) per iteration, in the order of the faces.
+//! Cost: O(links x k^2) per iteration for k categories.
 
-use super::{Compatibilities, REST, RelaxationReport, entropy, greatest, soften};
+use super::compatibilities::Compatibilities;
+use super::distribution::{SETTLED, entropy, greatest, soften};
+use super::report::RelaxationReport;
 use crate::spec::RelaxationOptions;
 use crate::watch::{Stopped, Watch};
 
 /// The neighbours of each face and the length of the border with each, metres.
 pub type Adjacency = Vec<Vec<(usize, f64)>>;
 
-/// Relaxes the distributions of faces over `count` categories. A face with an empty distribution has none: it neither
-/// supports nor is supported.
+/// Relaxes the distributions of faces over `count` categories. A face with an empty distribution takes no part.
 ///
 /// # Errors
 /// [`Stopped`] when the watch says so.
@@ -45,7 +46,7 @@ pub fn relax_faces(
         let now = categories(distributions);
         report.changed_by_iteration.push(differences(&last, &now));
         last = now;
-        if moved < REST {
+        if moved < SETTLED {
             break;
         }
     }
@@ -59,7 +60,7 @@ fn differences(one: &[usize], other: &[usize]) -> usize {
     one.iter().zip(other).filter(|(one, other)| one != other).count()
 }
 
-/// How the categories lie along each other, by length.
+/// Compatibilities from the lengths of the borders between categories.
 fn co_occurrence(
     distributions: &[Vec<f32>],
     categories: &[usize],

@@ -152,18 +152,6 @@ fn a_lattice_is_what_the_cells_lie_on() {
     assert_eq!(relaxed("1#1\n###\n0#2", 0.9, 1).1.changed_by_iteration, [0]);
 }
 
-#[test]
-fn compatibilities_are_those_of_yamamoto() {
-    // Two categories that are neighbours of themselves three times as often as of each other.
-    let found = Compatibilities::from_pairs(&[3.0, 1.0, 1.0, 3.0], 2);
-    // p(l) = 1/2, p(l | l) = 3/4, p(l | l') = 1/4.
-    assert_eq!(found.values, [2.0 / 3.0, -0.5, -0.5, 2.0 / 3.0]);
-    let independent = Compatibilities::from_pairs(&[1.0; 4], 2);
-    assert_eq!(independent.values, [0.0; 4]);
-    let alone = Compatibilities::from_pairs(&[4.0, 0.0, 0.0, 0.0], 2);
-    assert_eq!(alone.values, [0.0; 4]);
-}
-
 /// Storage along a corridor; one of its faces was taken for a corridor, with doubts.
 #[test]
 fn a_face_learns_from_the_pattern_around_it() {
