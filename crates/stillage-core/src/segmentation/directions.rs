@@ -1,14 +1,14 @@
-//! Regions by direction: each tile belongs to the pair of perpendicular directions that its structure is aligned with.
+//! Regions by direction: each tile takes the pair of perpendicular directions that its structure is aligned with.
 //!
-//! Around every tile the occupied cells are projected along every dominant pair of the map, near ones counting more; the
-//! pair with the largest radiogram energy has the tile. Source: the accuracy study behind this project (0.995 to 1.0 of
-//! the places right, no number of regions to be given).
+//! Around each tile the occupied cells are projected along every dominant pair of the map, with weights that fall with the
+//! distance; the tile takes the pair with the largest radiogram energy. Source: the accuracy study behind this project
+//! (0.995 to 1.0 of the places in the right region, without a given number of regions).
 //!
-//! Departure: walls are left out where there is anything else. A straight wall has more energy than all the racks beside
-//! it, and racks may stand askew in their hall; what is connected over many metres is wall. Tiles with nothing in them
-//! follow the nearest one with something, so borders run through the middle of aisles.
+//! Departure: walls are left out where there is anything else, since a straight wall has more energy than all the racks
+//! beside it, and racks may be turned against their hall. Tiles without structure take the pair of the nearest tile with
+//! some, so borders run through the middle of aisles.
 //!
-//! Cost: O(tiles x cells around x pairs). Limits: blocks of the same direction are one region.
+//! Cost: O(tiles x cells in the window x pairs). Limits: blocks of the same direction are one region.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -25,17 +25,21 @@ use crate::watch::{Stopped, Watch};
 
 /// Occupied cells of the whole map that are sampled.
 const SAMPLE_CELLS: usize = 200_000;
-/// Pairs closer than this are one, degrees (the least separation of orientations is 6).
+/// Pairs closer than this are one pair, degrees: half the least separation of orientations, which is 6.
 const SAME_PAIR_DEG: f64 = 3.0;
-/// Radius of the ground around a tile that is looked at, and the weight's standard deviation, metres.
+/// Radius of the window around a tile, metres.
 const WINDOW_M: f64 = 6.0;
+/// Standard deviation of the weight of points in the window, metres.
 const SIGMA_M: f64 = 3.0;
 /// Bin of the projections, metres (accuracy study: 0.05 and no less than a cell).
 const BIN_M: f64 = 0.05;
-/// Fewest cells around a tile that show a direction (accuracy study: 60 in a larger window).
+/// Fewest cells in the window that show a direction; 60 in the larger window of the accuracy study.
 const LEAST_CELLS: usize = 30;
-/// A tile without structure nearer than this has none of its own, metres.
+/// A tile without structure nearer than this has no direction of its own, metres.
 const OWN_REACH_M: f64 = 2.0;
+/// Factor on the least share of a region, below which a piece of one direction is absorbed. Chosen by hand: a direction is
+/// surer evidence of a region than a texture.
+const SHARE_FACTOR: f64 = 0.25;
 
 /// The pairs of directions and the pair of every tile.
 pub(super) struct Directions {
@@ -45,7 +49,7 @@ pub(super) struct Directions {
     pub labels: Vec<u8>,
 }
 
-/// Finds the pair of every tile.
+/// Finds the pair of directions of every tile.
 pub(super) fn by_direction(
     grid: &OccupancyGrid,
     tiles: &Tiles,
@@ -58,8 +62,8 @@ pub(super) fn by_direction(
         return Ok(Directions { pairs, labels: tiles.uniform() });
     }
     let is_wall = walls::find(grid, watch)?;
-    let no_wall = |column: usize, row: usize| (!is_wall[row * grid.width() + column]).then_some(0);
-    let goods = OccupiedSample::of_parts(grid, 1, no_wall, SAMPLE_CELLS, watch)?.swap_remove(0);
+    let unless_wall = |column: usize, row: usize| (!is_wall[row * grid.width() + column]).then_some(0);
+    let goods = OccupiedSample::of_parts(grid, 1, unless_wall, SAMPLE_CELLS, watch)?.swap_remove(0);
     let of_goods = energies(grid, tiles, &goods, &pairs, |_| true, watch)?;
     let all = OccupiedSample::of_parts(grid, 1, |_, _| Some(0), SAMPLE_CELLS, watch)?.swap_remove(0);
     let of_all = energies(grid, tiles, &all, &pairs, |tile| of_goods[tile].is_none(), watch)?;
@@ -72,19 +76,25 @@ pub(super) fn by_direction(
     }
     let labels = tiles.filled(&labels);
     let labels = tiles.majority(&tiles.majority(&labels));
-    Ok(Directions { pairs, labels: tiles.settle(&labels, options.min_share / 4.0, false) }.renumbered(tiles, &labels))
+    Ok(Directions { pairs, labels: tiles.absorb_small_pieces(&labels, SHARE_FACTOR * options.min_share, false) }
+        .renumbered(tiles, &labels))
 }
 
 impl Directions {
-    /// Brings the pairs into the order of the settled labels, which are numbered by their first tiles.
+    /// Brings the pairs into the order of the final labels, which are numbered by their first tiles.
     fn renumbered(self, tiles: &Tiles, before: &[u8]) -> Self {
         let count = self.labels.iter().filter(|&&label| label != NONE).max().map_or(0, |&last| usize::from(last) + 1);
-        let mut votes = vec![vec![0_usize; self.pairs.len()]; count];
+        let mut tiles_of_pairs = vec![vec![0_usize; self.pairs.len()]; count];
         for tile in tiles.known_tiles() {
-            votes[usize::from(self.labels[tile])][usize::from(before[tile])] += 1;
+            tiles_of_pairs[usize::from(self.labels[tile])][usize::from(before[tile])] += 1;
         }
-        let winner = |votes: &Vec<usize>| (0..votes.len()).fold(0, |a, b| if votes[b] > votes[a] { b } else { a });
-        Self { pairs: votes.iter().map(|votes| self.pairs[winner(votes)]).collect(), labels: self.labels }
+        let most = |tiles_of_pairs: &Vec<usize>| {
+            (0..tiles_of_pairs.len()).fold(0, |a, b| if tiles_of_pairs[b] > tiles_of_pairs[a] { b } else { a })
+        };
+        Self {
+            pairs: tiles_of_pairs.iter().map(|tiles_of_pairs| self.pairs[most(tiles_of_pairs)]).collect(),
+            labels: self.labels,
+        }
     }
 }
 
@@ -101,7 +111,8 @@ fn pairs(global: &Orientations) -> Vec<f64> {
     pairs
 }
 
-/// Energy of each pair around each tile that is asked for; `None` where there is too little, or nothing near.
+/// Energy of each pair around each tile that `is_asked` names; `None` where the window holds too little, or nothing near
+/// the tile.
 fn energies(
     grid: &OccupancyGrid,
     tiles: &Tiles,
@@ -132,7 +143,7 @@ fn energies(
                 (column.saturating_sub(reach)..(column + reach + 1).min(tiles.columns))
                     .flat_map(move |column| [row * tiles.columns + column])
             });
-            let mut window = Window::new(grid.resolution());
+            let mut window = TileWindow::new(grid.resolution());
             for &point in points.flat_map(|tile| &by_tile[tile]) {
                 window.add([f64::from(point[0]) - center[0], f64::from(point[1]) - center[1]]);
             }
@@ -141,14 +152,17 @@ fn energies(
         .collect()
 }
 
-/// Weighted points around a tile, metres.
-struct Window {
+/// The occupied points around a tile.
+struct TileWindow {
+    /// Side of a cell, metres.
     cell: f64,
+    /// Offsets from the tile in metres, and the weight.
     points: Vec<[f64; 3]>,
+    /// Whether a point is nearer than [`OWN_REACH_M`].
     is_near: bool,
 }
 
-impl Window {
+impl TileWindow {
     fn new(cell: f64) -> Self {
         Self { cell, points: Vec::new(), is_near: false }
     }
@@ -163,6 +177,7 @@ impl Window {
         }
     }
 
+    /// Energy of each pair; `None` where there are too few points, or none near.
     fn energies(&self, pairs: &[f64]) -> Option<Vec<f64>> {
         if !self.is_near || self.points.len() < LEAST_CELLS {
             return None;

@@ -1,21 +1,23 @@
 //! Two-dimensional Fourier transforms of real pictures, by rows and then by columns.
 //!
-//! A [`Spectrum`] is kept column by column, so that both directions run over contiguous memory with one transposition
-//! each way. Cost: O(n log n). Limits: `f32`, relative error about 1e-6.
+//! A [`Spectrum`] is stored column by column, so that each direction needs one transposition and runs over contiguous
+//! memory. Cost: O(n log n). Limits: `f32`, relative error about 1e-6.
 
 use std::sync::Arc;
 
 use rustfft::num_complex::Complex32;
 use rustfft::{Fft, FftPlanner};
 
-/// Side of the squares that are transposed at a time, so that both pictures stay in the cache.
+/// Side of the squares that are transposed at a time, pixels: source and target stay in the first-level cache.
 const TRANSPOSE_BLOCK: usize = 32;
 
-/// The transforms of one picture size.
+/// The transforms of pictures of one size.
 pub(super) struct Fourier {
     width: usize,
     height: usize,
+    /// Forward and inverse.
     row: [Arc<dyn Fft<f32>>; 2],
+    /// Forward and inverse.
     column: [Arc<dyn Fft<f32>>; 2],
 }
 
@@ -96,7 +98,7 @@ fn transposed(values: &[Complex32], width: usize, height: usize) -> Vec<Complex3
     turned
 }
 
-/// The least number that is not below `size` and has no prime factor above five: fast to transform.
+/// The smallest number of at least `size` without a prime factor above five: fast to transform.
 fn smooth_size(size: usize) -> usize {
     let is_smooth = |mut number: usize| {
         for prime in [2, 3, 5] {

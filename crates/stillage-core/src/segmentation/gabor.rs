@@ -1,13 +1,13 @@
-//! Gabor texture: 5 frequencies x 8 orientations, the energy of each per tile.
+//! Gabor texture: the energy of 5 frequencies x 8 orientations per tile.
 //!
-//! Source: the paper, II-D, after J. Bigun's texture segmentation; the shape of the filters (bells in the frequency
-//! plane that touch at half their height) follows A. K. Jain and F. Farrokhnia, *Unsupervised texture segmentation
-//! using Gabor filters* (Pattern Recognition 24(12), 1991, doi 10.1016/0031-3203(91)90143-S). The paper gives no
-//! wavelengths: here they are metres, from the pitch of pallets to two pitches of aisles.
+//! Source: the paper, II-D, after J. Bigun's texture segmentation. The filters are Gaussians in the frequency plane that
+//! touch at half their height, after A. K. Jain and F. Farrokhnia, *Unsupervised texture segmentation using Gabor filters*
+//! (Pattern Recognition 24(12), 1991, doi 10.1016/0031-3203(91)90143-S). The paper gives no wavelengths: here they are in
+//! metres, from the pitch of pallets to two pitches of aisles.
 //!
-//! The picture is the share of occupied cells per pixel of about 0.4 m; one forward transform, then a product and an
-//! inverse transform for each filter. Magnitudes are averaged per tile and smoothed by a Gaussian over the known
-//! tiles only, so that the border of the map has the texture of what lies next to it.
+//! Method: the picture is the share of occupied cells per pixel of about 0.4 m. One forward transform, then a product and
+//! an inverse transform for each filter. Magnitudes are averaged per tile and smoothed by a Gaussian over the known tiles
+//! only, so that tiles at the border of the map are not mixed with the unknown.
 //!
 //! Cost: O(filters x pixels log pixels). Limits: structure finer than two pixels is not seen.
 
@@ -19,16 +19,20 @@ use crate::grid::{Occupancy, OccupancyGrid};
 use crate::spec::RegionOptions;
 use crate::watch::{Stopped, Watch};
 
-/// Size of the bank (paper, II-D).
+/// Frequencies of the bank (paper, II-D).
 const FREQUENCIES: usize = 5;
+/// Orientations of the bank (paper, II-D).
 const ORIENTATIONS: usize = 8;
-/// Numbers per tile.
+/// Filters of the bank, and so numbers per tile.
 pub(super) const CHANNELS: usize = FREQUENCIES * ORIENTATIONS;
-/// Side of a pixel, metres, and most of them per shortest wavelength (accuracy study: best of the scales tried).
+/// Largest side of a pixel, metres (accuracy study: best of the scales tried).
 const PIXEL_M: f64 = 0.4;
+/// Fewest pixels per shortest wavelength (accuracy study).
 const PIXELS_PER_WAVELENGTH: f64 = 3.0;
-/// Zeros beside the picture, in longest wavelengths: the transform is circular, the map is not.
+/// Margin of zeros beside the picture, longest wavelengths: the transform is circular, the map is not.
 const MARGIN_WAVELENGTHS: f64 = 1.5;
+/// Exponent beyond which the gain of a filter, below 1e-5 there, is taken as 0.
+const MAX_EXPONENT: f32 = 12.0;
 
 /// The channels of every tile, row by row; zeros where nothing is known.
 pub(super) fn texture(
@@ -111,7 +115,8 @@ impl Picture {
     }
 }
 
-/// A bell in the frequency plane, on one side of the origin only: its response is complex, its magnitude is smooth.
+/// A Gaussian in the frequency plane, on one side of the origin only, so that its response is complex and the magnitude of
+/// the response is smooth.
 struct GaborFilter {
     /// Centre, cycles per pixel, along `direction`.
     frequency: f32,
@@ -125,23 +130,24 @@ impl GaborFilter {
         let along = fx * self.direction[0] + fy * self.direction[1] - self.frequency;
         let across = fy * self.direction[0] - fx * self.direction[1];
         let exponent = along * along * self.sharpness[0] + across * across * self.sharpness[1];
-        // The mean brightness is no texture. Beyond 12 the gain is below 1e-5, not worth an exponential.
-        if exponent > 12.0 || (fx == 0.0 && fy == 0.0) { 0.0 } else { (-exponent).exp() }
+        // The frequency 0 is the mean of the picture, which is no texture.
+        if exponent > MAX_EXPONENT || (fx == 0.0 && fy == 0.0) { 0.0 } else { (-exponent).exp() }
     }
 }
 
+/// The filters of the bank, for pixels of a size in metres.
 fn bank(options: &RegionOptions, pixel_m: f64) -> Vec<GaborFilter> {
     let [shortest, longest] = options.wavelengths_m;
     let ratio = (longest / shortest).powf(1.0 / (FREQUENCIES - 1) as f64);
-    // Half-height contours touch: at the ratio's geometric middle along, and half a step of angle across.
+    // Half widths at half height with which neighbouring filters touch, as shares of the frequency.
     let along = (ratio - 1.0) / (ratio + 1.0);
     let across = (std::f64::consts::PI / ORIENTATIONS as f64 / 2.0).tan();
-    // A bell falls to one half at sqrt(2 ln 2) deviations, so 1 / (2 sigma^2) = ln 2 / half-width^2.
+    // A Gaussian falls to one half at sqrt(2 ln 2) deviations, so 1 / (2 sigma^2) = ln 2 / half-width^2.
     let sharpness = |half_width: f64| (std::f64::consts::LN_2 / (half_width * half_width)) as f32;
     (0..FREQUENCIES)
-        .flat_map(|octave| (0..ORIENTATIONS).map(move |turn| (octave, turn)))
-        .map(|(octave, turn)| {
-            let frequency = pixel_m / (longest / ratio.powi(octave as i32));
+        .flat_map(|step| (0..ORIENTATIONS).map(move |turn| (step, turn)))
+        .map(|(step, turn)| {
+            let frequency = pixel_m / (longest / ratio.powi(step as i32));
             let angle = std::f64::consts::PI * turn as f64 / ORIENTATIONS as f64;
             GaborFilter {
                 frequency: frequency as f32,

@@ -1,41 +1,42 @@
-//! How many regions a map has: clusters of texture that do not differ in orientation are one pattern.
+//! How many regions a map has, by the Gabor method: clusters of texture that agree in orientation are one pattern.
 //!
-//! The paper leaves the number of clusters to the user. Texture alone cannot tell it: k-means splits any map, and
-//! what differs most between tiles is how full they are. But regions serve to keep the lines of one orientation out
-//! of the other's blocks (II-D), so clusters count as different only if their dominant orientations are: for each
-//! number of clusters the radiogram energy of each cluster is scanned, clusters without an orientation go to their
-//! neighbours, clusters that agree are merged. The number that leaves most patterns wins, the sharper ones in a tie.
+//! The paper leaves the number of clusters to the user. Texture alone does not give it: k-means splits any map, and tiles
+//! differ most in how full they are. Regions serve to keep the lines of one orientation out of blocks of another (II-D), so
+//! clusters count as different only if their dominant orientations are. For each number of clusters the radiogram energy
+//! of each cluster is scanned; clusters without an orientation are left to their neighbours; clusters that agree are
+//! merged. The number that leaves most patterns is taken, the one of greater sharpness in a tie.
 //!
-//! Departure: orientation pairs (a direction and its perpendicular) are compared. Cost: O(k (sample x angles)) for each
-//! number of clusters. Limits: two blocks of the same orientation and different pitch are one region.
+//! Orientations are compared as pairs (a direction and its perpendicular). Cost: O(k (sample x angles)) for each number k
+//! of clusters. Limits: two blocks of the same orientation and different pitch are one region.
 
 use super::tiles::{NONE, Tiles};
 use crate::orientation::energy::{EnergyScan, OccupiedSample, pair_angle_between};
 use crate::watch::{Stopped, Watch};
 
-/// Occupied cells sampled of the whole map: enough for some clusters, cheap enough for a scan of each.
+/// Occupied cells sampled of the whole map: enough for a scan of each cluster, and cheap.
 pub(super) const SAMPLE_CELLS: usize = 60_000;
 /// Fewest sampled cells of a pattern (accuracy study: 60 per window).
 const MIN_CELLS: usize = 60;
-/// Smallest contrast of a pattern's orientation, as a share of the mean energy. Of scattered points it is below 0.1,
-/// of rack blocks above 1.
+/// Least contrast of a pattern's orientation, as a share of the mean energy: below 0.1 for scattered points, above 1 for
+/// blocks of racks.
 const MIN_RELATIVE_CONTRAST: f64 = 0.3;
-/// Orientations that differ by less are the same (modulo a quarter turn), degrees.
+/// Orientations that differ by less are the same (modulo a quarter turn), degrees: below half the least separation of
+/// orientations, which is 6.
 const AGREEMENT_DEG: f64 = 2.0;
-/// A pattern in which another's orientation stands out by this share of its own holds both: no reason to part them.
+/// Two patterns are one where the orientation of either has at least this share of the other's own contrast in it.
 const SHARED_CONTRAST: f64 = 0.5;
 
-/// A division of the tiles into patterns of really different orientation.
+/// A division of the tiles into patterns of different orientations.
 pub(super) struct Division {
     /// Pattern of each tile; [`NONE`] where a cluster has no orientation of its own.
     pub labels: Vec<u8>,
     /// Number of patterns.
     pub count: usize,
-    /// How sharply the patterns are aligned.
+    /// Sum over the patterns of contrast times sampled cells.
     pub sharpness: f64,
 }
 
-/// Clusters that count as one, and how they are aligned.
+/// Clusters that are one pattern, and the energy of their cells by direction.
 struct Pattern {
     clusters: Vec<u8>,
     sample: OccupiedSample,
@@ -56,8 +57,8 @@ impl Pattern {
         stands_out.then_some(angle)
     }
 
-    /// Whether another pattern's orientation is (nearly) as good for this one as its own.
-    fn accepts(&self, own: f64, other: f64) -> bool {
+    /// Whether another pattern's orientation stands out here as well.
+    fn shows(&self, own: f64, other: f64) -> bool {
         self.scan.pair_contrast_near(other) >= SHARED_CONTRAST * self.scan.pair_contrast_near(own)
     }
 
@@ -65,8 +66,8 @@ impl Pattern {
         match (self.angle(), other.angle()) {
             (Some(one), Some(two)) => {
                 pair_angle_between(one, two) <= AGREEMENT_DEG.to_radians()
-                    || self.accepts(one, two)
-                    || other.accepts(two, one)
+                    || self.shows(one, two)
+                    || other.shows(two, one)
             }
             _ => false,
         }
@@ -111,7 +112,7 @@ pub(super) fn divide(
     Ok(Division { labels, count: patterns.len(), sharpness: sharpness.sum() })
 }
 
-/// The first two patterns that are one.
+/// The first two patterns that agree in orientation.
 fn agreeing(patterns: &[Pattern]) -> Option<(usize, usize)> {
     (0..patterns.len())
         .flat_map(|first| (first + 1..patterns.len()).map(move |second| (first, second)))

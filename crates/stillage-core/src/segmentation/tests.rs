@@ -3,8 +3,10 @@
 use expect_test::{Expect, expect};
 
 use super::*;
-use crate::grid::GridFrame;
+use crate::geometry::Point;
+use crate::grid::{GridFrame, Occupancy};
 use crate::orientation::dominant_orientations;
+use crate::spec::RegionOptions;
 use crate::test_maps::{self, Hall};
 
 /// Options of the texture method.

@@ -1,4 +1,4 @@
-//! Labels on tiles: smoothing, contiguous pieces, and the absorption of small ones.
+//! Labels on tiles: smoothing, contiguous pieces, and the absorption of small pieces.
 //!
 //! Cost: O(tiles) for each operation, times the kernel for [`Tiles::smoothed`].
 
@@ -6,14 +6,14 @@ use std::collections::VecDeque;
 
 use rayon::prelude::*;
 
-use super::RegionMap;
+use super::region_map::RegionMap;
 use crate::grid::{Occupancy, OccupancyGrid};
 
 /// No label: outside the known part of the map, or not decided yet.
 pub(super) const NONE: u8 = RegionMap::NONE;
 /// Most regions that have a number.
 const MOST_REGIONS: usize = NONE as usize;
-/// Tiles below this would cost time and show nothing: it is the pixel of the texture, metres.
+/// Least side of a tile, metres: the pixel of the Gabor texture.
 const MIN_TILE_M: f64 = 0.4;
 
 /// A grid cut into squares.
@@ -109,7 +109,7 @@ impl Tiles {
         [below, left, right, above].into_iter().flatten()
     }
 
-    /// Each known tile takes the label of most of the 3 x 3 around it: its own in a tie, else the lowest.
+    /// Each labelled tile takes the most frequent label of the 3 x 3 tiles around it; in a tie its own, else the lowest.
     pub(super) fn majority(&self, labels: &[u8]) -> Vec<u8> {
         let vote = |tile: usize| {
             let (column, row) = (tile % self.columns, tile / self.columns);
@@ -129,15 +129,16 @@ impl Tiles {
         (0..labels.len()).map(|tile| if labels[tile] == NONE { NONE } else { vote(tile) }).collect()
     }
 
-    /// Cuts labels into contiguous pieces and lets the large ones grow over the small ones.
+    /// Splits labels into contiguous pieces; small pieces take the label of the nearest large one.
     ///
-    /// A piece is large when it holds at least `min_share` of the known cells. With `split` each large piece becomes a
-    /// region of its own, else the pieces of one label stay together. Regions are numbered by their first tile.
-    pub(super) fn settle(&self, labels: &[u8], min_share: f64, split: bool) -> Vec<u8> {
+    /// A piece is large when it holds at least `min_share` of the known cells; the largest always is. With `split` each
+    /// large piece becomes a region of its own, else the large pieces of one label are one region. Regions are numbered by
+    /// their first tile.
+    pub(super) fn absorb_small_pieces(&self, labels: &[u8], min_share: f64, split: bool) -> Vec<u8> {
         let (piece_of, mut pieces) = self.pieces(labels);
         let total: u64 = self.known.iter().map(|&known| u64::from(known)).sum();
         pieces.sort_by(|one, other| other.known.cmp(&one.known).then(one.first.cmp(&other.first)));
-        let enough = |piece: &Piece| piece.known as f64 >= min_share * total as f64;
+        let enough = |piece: &TilePiece| piece.known as f64 >= min_share * total as f64;
         let large = pieces.iter().take(MOST_REGIONS).take_while(|piece| enough(piece)).count().max(1);
         let mut region_of_piece = vec![NONE; pieces.len()];
         for (rank, piece) in pieces.iter().take(large).enumerate() {
@@ -145,15 +146,15 @@ impl Tiles {
         }
         let mut regions: Vec<u8> =
             piece_of.iter().map(|piece| piece.map_or(NONE, |piece| region_of_piece[piece])).collect();
-        self.grow(&mut regions);
+        self.fill_from_nearest(&mut regions);
         renumber(&mut regions);
         regions
     }
 
     /// Contiguous tiles of one label: the piece of each tile, and the pieces by index.
-    fn pieces(&self, labels: &[u8]) -> (Vec<Option<usize>>, Vec<Piece>) {
+    fn pieces(&self, labels: &[u8]) -> (Vec<Option<usize>>, Vec<TilePiece>) {
         let mut piece_of = vec![None; labels.len()];
-        let mut pieces: Vec<Piece> = Vec::new();
+        let mut pieces: Vec<TilePiece> = Vec::new();
         for first in 0..labels.len() {
             if labels[first] == NONE || piece_of[first].is_some() {
                 continue;
@@ -171,7 +172,7 @@ impl Tiles {
                     }
                 }
             }
-            pieces.push(Piece { index, first, known });
+            pieces.push(TilePiece { index, first, known });
         }
         (piece_of, pieces)
     }
@@ -182,12 +183,12 @@ impl Tiles {
             return self.uniform();
         }
         let mut filled = labels.to_vec();
-        self.grow(&mut filled);
+        self.fill_from_nearest(&mut filled);
         filled
     }
 
     /// Gives every known tile without a label that of the nearest tile with one, counted in steps over any tiles.
-    fn grow(&self, labels: &mut [u8]) {
+    fn fill_from_nearest(&self, labels: &mut [u8]) {
         let mut reached = labels.to_vec();
         let mut open: VecDeque<usize> = (0..reached.len()).filter(|&tile| reached[tile] != NONE).collect();
         while let Some(tile) = open.pop_front() {
@@ -205,7 +206,7 @@ impl Tiles {
 }
 
 /// A contiguous set of tiles.
-struct Piece {
+struct TilePiece {
     index: usize,
     /// Its lowest tile.
     first: usize,
@@ -261,7 +262,7 @@ mod tests {
     }
 
     #[test]
-    fn small_pieces_are_grown_over_and_large_ones_split() {
+    fn small_pieces_are_absorbed_and_large_ones_split() {
         let (tiles, labels) = tiles("555-333 515-333 555-333 55522-5 5552255");
         expect_test::expect![[r"
             000-111
@@ -269,21 +270,21 @@ mod tests {
             000-111
             00001-1
             0000011"]]
-        .assert_eq(&picture(&tiles, &tiles.settle(&labels, 0.2, true)));
+        .assert_eq(&picture(&tiles, &tiles.absorb_small_pieces(&labels, 0.2, true)));
         expect_test::expect![[r"
             000-333
             000-333
             000-333
             00011-2
             0001122"]]
-        .assert_eq(&picture(&tiles, &tiles.settle(&labels, 0.09, true)));
+        .assert_eq(&picture(&tiles, &tiles.absorb_small_pieces(&labels, 0.09, true)));
         expect_test::expect![[r"
             000-222
             000-222
             000-222
             00011-0
             0001100"]]
-        .assert_eq(&picture(&tiles, &tiles.settle(&labels, 0.09, false)));
+        .assert_eq(&picture(&tiles, &tiles.absorb_small_pieces(&labels, 0.09, false)));
     }
 
     #[test]
@@ -296,12 +297,12 @@ mod tests {
     }
 
     #[test]
-    fn more_pieces_than_numbers_still_settle() {
+    fn more_pieces_than_numbers_still_become_regions() {
         let columns = 40;
         let labels: Vec<u8> =
             (0..columns * columns).map(|tile| ((tile / columns + tile % columns) % 2) as u8).collect();
         let tiles = Tiles { tile_cells: 1, columns, rows: columns, known: vec![1; labels.len()] };
-        let settled = tiles.settle(&labels, 0.0, true);
-        assert_eq!(settled.iter().copied().max(), Some(NONE - 1));
+        let regions = tiles.absorb_small_pieces(&labels, 0.0, true);
+        assert_eq!(regions.iter().copied().max(), Some(NONE - 1));
     }
 }
