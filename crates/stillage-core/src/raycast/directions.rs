@@ -1,25 +1,29 @@
 //! The digital lines of one beam direction.
 //!
-//! A direction is swept across the *rows* of a mask: grid rows for beams steeper than 45 degrees, grid columns (rows
-//! of the transposed mask) for the others, so a line moves by at most one column per row. With cells `[c, c + 1)` and
-//! rows `[r, r + 1)`, the lines are `x(y) = slope y + i + p / 4` for integers `i` and phases `p` in 0..4: neighbours
-//! are a quarter of a column apart, so some line passes within an eighth of a column of any cell's centre. Lines are
-//! placed in fixed point, which makes every crossing exact and the same on every machine.
+//! A direction is swept across the *rows* of a mask: grid rows for beams steeper than 45 degrees, grid columns (rows of
+//! the transposed mask) for the others, so a line moves by at most one column per row. With cells `[c, c + 1)` and rows
+//! `[r, r + 1)`, the lines are `x(y) = slope y + i + p / 4` for integers `i` and phases `p` in 0..4. Neighbouring lines are
+//! a quarter of a column apart, so some line passes within an eighth of a column of every cell's centre. Positions are in
+//! fixed point: crossings are exact and the same on every machine.
 
-use super::beam_direction;
+use super::beams::beam_direction;
 
-/// Sub-pixel positions of lines. With 1, 2, 4 of them, 92.9, 96.7, 98.4 % of beams end within two cells of the exact
-/// ones (measured on a synthetic warehouse of 20 million cells).
+/// Lines per column. Measured on a synthetic warehouse of 20 million cells:
+///
+/// | lines per column | beams within two cells of the exact ones |
+/// | --- | --- |
+/// | 1 | 92.9 % |
+/// | 2 | 96.7 % |
+/// | 4 | 98.4 % |
 pub(super) const PHASES: usize = 4;
 
-/// Resolution of lengths: a line advances by this many units per row. A `u16` then holds beams of up to 16,383 rows;
-/// longer ones are cut there.
+/// Units of length per row. A `u16` then holds beams of up to 16,383 rows; longer ones are cut there.
 pub(super) const UNITS_PER_ROW: u16 = 4;
 
-/// Binary digits after the point of slopes and positions: a line across 2^20 rows is placed to 2^-12 of a cell.
+/// Binary digits after the point of slopes and positions: over 2^20 rows a line is off by at most 2^-12 of a column.
 const FRACTION_BITS: u32 = 32;
 
-/// One beam direction as the sweep sees it.
+/// One beam direction in the frame of its sweep.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Direction {
     /// Whether the rows of the sweep are the columns of the grid.
@@ -28,7 +32,7 @@ pub(super) struct Direction {
     pub(super) ascending: bool,
     /// Columns per row, fixed point.
     slope: i64,
-    /// Units of length per column, by the fixed point of columns; nothing means anything where the slope is nothing.
+    /// Units of length per step of the fixed-point column; infinite where the slope is 0.
     units_per_column: f64,
     /// Length of a unit along the beam, in cells.
     pub(super) unit: f32,
@@ -37,7 +41,7 @@ pub(super) struct Direction {
 /// What lines of one phase do within one row.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct RowCrossing {
-    /// Column in which line 0 enters the row, seen along the beam.
+    /// Column in which line 0 enters the row, going along the beam.
     pub(super) entry: isize,
     /// Column in which line 0 leaves the row.
     pub(super) exit: isize,
@@ -90,7 +94,7 @@ impl Direction {
         let way = ((column as i64) << FRACTION_BITS) - self.position(phase, row);
         let units = way as f64 * self.units_per_column;
         let from_entry = if self.ascending { units } else { f64::from(UNITS_PER_ROW) - units };
-        // A cast rounds down, and keeps within bounds what rounding has put outside.
+        // A cast of a negative number gives 0.
         ((from_entry + 0.5) as u16).min(UNITS_PER_ROW)
     }
 

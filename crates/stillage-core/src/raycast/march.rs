@@ -1,22 +1,22 @@
 //! One beam, exactly: the grid traversal of J. Amanatides and A. Woo, *A fast voxel traversal algorithm for ray
 //! tracing* (Eurographics 1987, doi 10.2312/egtp.19871000).
 //!
-//! Departure: a beam through the very corner of four cells does not step into one of the two cells beside the corner.
-//! It goes on into the opposite cell, unless that one or both of the two beside it stop beams; so thin diagonal walls
-//! hold, and the mirror image of a map has the mirror image of its beams.
+//! Departure: a beam through the corner of four cells does not step into one of the two cells beside the corner. It goes
+//! on into the opposite cell, unless that cell or both cells beside the corner stop beams. So diagonal walls of touching
+//! corners stop beams, and a mirrored map has mirrored beams.
 //!
 //! Cost: O(length of the beam in cells).
 
-use super::{BeamOptions, beam_direction};
+use super::beams::{BeamOptions, beam_direction};
 use crate::geometry::Vector;
 use crate::grid::OccupancyGrid;
 
-/// Borders of columns and rows met within this distance (in cells) are one corner: far above the rounding of the
-/// distances, far below what separates two borders of a grid that fits in memory.
+/// Crossings of a column border and a row border within this distance are one corner, cells: far above the rounding of
+/// distances, far below the distance of two crossings on a grid that fits in memory.
 const CORNER: f64 = 1e-9;
 
 /// Length (metres) of the beam from the centre of a cell along a unit vector, to its entry into the first cell that
-/// stops it. The cell itself is not asked.
+/// stops it. The cell itself never stops it.
 #[must_use]
 pub fn march(grid: &OccupancyGrid, cell: (usize, usize), direction: Vector, options: &BeamOptions) -> f64 {
     let limit = options.limit_in_cells(grid.resolution());
@@ -66,10 +66,13 @@ fn length_in_cells(
     }
 }
 
-/// The borders that a beam crosses along one axis.
+/// The cell borders that a beam crosses along one axis.
 struct Borders {
+    /// 1 or -1.
     step: i64,
+    /// Number of borders crossed so far.
     crossed: f64,
+    /// Length of the beam from border to border, cells.
     spacing: f64,
 }
 

@@ -2,18 +2,21 @@
 
 use rayon::prelude::*;
 
-use super::BeamOptions;
-use super::sweep::{LINES_PER_STEP, TILE};
+use super::beams::BeamOptions;
+use super::tile::TILE;
 use crate::grid::OccupancyGrid;
 
-/// Side of the blocks in which a mask is transposed: both sides of a block stay in the first cache.
+/// Lines that are moved across a row at a time: a multiple of every SIMD width.
+pub(super) const LINES_PER_STEP: usize = 32;
+
+/// Side of the blocks in which a mask is transposed, cells: source and target of a block stay in the first-level cache.
 const TRANSPOSE_BLOCK: usize = 32;
 
-/// Columns on either side of the grid, which stop every beam: lines that may be needed inside a tile are at most the
-/// side of a tile away from it, and are worked on in whole steps.
+/// Columns on either side of the grid that stop every beam: the lines a tile needs are at most the side of a tile away from
+/// it, and are moved in whole steps.
 const MARGIN: usize = TILE + 2 * LINES_PER_STEP;
 
-/// All bits set where beams pass, none where they stop.
+/// For each cell all bits set where beams pass, none where they stop.
 #[derive(Debug)]
 pub(super) struct Mask {
     columns: usize,
@@ -55,6 +58,7 @@ impl Mask {
         Self { columns, rows, cells: vec![0; (columns + 2 * MARGIN) * rows] }
     }
 
+    /// Numbers from one row to the next.
     fn pitch(&self) -> usize {
         self.columns + 2 * MARGIN
     }

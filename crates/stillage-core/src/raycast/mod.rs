@@ -1,86 +1,26 @@
-//! Beams: how far one sees from a cell, in every direction.
+//! Beams: distances from free cells to the next obstacle, in many directions.
 //!
-//! Two ways to the same numbers. [`march()`] follows one beam exactly, cell by cell; it is the definition, and costs as
-//! much as the beam is long. [`Sweep`] gives the beams of all cells in constant time each, along digital lines that
-//! pass within an eighth of a cell of the cell's centre; it is what the features are computed from. No set of beams is
-//! ever stored: the sweep hands out the beams of one tile of the grid and one direction at a time.
+//! | function | method | cost of a beam |
+//! | --- | --- | --- |
+//! | [`march()`] | follows one beam exactly, cell by cell: the definition | its length in cells |
+//! | [`Sweep`] | all cells along digital lines within an eighth of a cell of their centres: behind the features | constant |
 //!
-//! Beams start at the centre of a cell, evenly around, the first along x, counter-clockwise. A beam ends where it
-//! enters the first cell that stops it: an occupied cell, an unknown cell if [`BeamOptions::unknown_blocks`], or the
-//! end of the grid.
+//! Beams start at the centre of a cell, evenly around, the first along x, counter-clockwise. A beam ends where it enters
+//! the first cell that stops it: an occupied cell, an unknown cell if [`BeamOptions::unknown_blocks`], or the end of the
+//! grid. The beams of all cells are never stored together: a sweep gives those of one tile and one direction at a time.
 
+mod beams;
 mod directions;
+mod grid_walk;
+mod lines;
 mod march;
 mod mask;
 mod sweep;
+mod tile;
 mod tile_sweep;
 
-use std::f64::consts::{FRAC_1_SQRT_2, TAU};
-
-use crate::geometry::Vector;
-use crate::grid::{Occupancy, OccupancyGrid};
-use crate::spec::CategorizationOptions;
-
+pub use beams::{BeamOptions, beam_direction};
 pub use march::{march, march_around};
 pub use sweep::{Sweep, border_bytes_per_cell};
-pub use tile_sweep::{PLANE_LENGTH, PLANE_PITCH, Tile, TileScratch};
-
-/// Which beams are cast, and what stops them.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct BeamOptions {
-    /// Beams per cell, evenly around.
-    pub beams: usize,
-    /// Longest beam, metres; unlimited when absent.
-    pub max_range_m: Option<f64>,
-    /// Whether unknown cells stop beams.
-    pub unknown_blocks: bool,
-}
-
-impl From<&CategorizationOptions> for BeamOptions {
-    fn from(options: &CategorizationOptions) -> Self {
-        Self { beams: options.beams, max_range_m: options.max_range_m, unknown_blocks: options.unknown_blocks }
-    }
-}
-
-impl BeamOptions {
-    /// The longest beam in cells; infinite when unlimited.
-    fn limit_in_cells(&self, resolution: f64) -> f64 {
-        self.max_range_m.map_or(f64::INFINITY, |range| range / resolution)
-    }
-
-    /// Whether a cell lets beams through; cells outside the grid never do.
-    fn passes(&self, cell: Occupancy) -> bool {
-        match cell {
-            Occupancy::Free => true,
-            Occupancy::Occupied => false,
-            Occupancy::Unknown => !self.unknown_blocks,
-        }
-    }
-
-    /// Whether the cell at a column and row lets beams through.
-    fn passes_at(&self, grid: &OccupancyGrid, column: i64, row: i64) -> bool {
-        let inside = |index: i64, end: usize| usize::try_from(index).is_ok_and(|index| index < end);
-        inside(column, grid.width()) && inside(row, grid.height()) && self.passes(grid.at(column, row))
-    }
-}
-
-/// The unit vector of a beam; exact along the axes and the diagonals, where rounding would decide ties.
-#[must_use]
-pub fn beam_direction(beam: usize, beams: usize) -> Vector {
-    let eighths = 8 * beam;
-    if eighths.is_multiple_of(beams) {
-        let diagonal = FRAC_1_SQRT_2;
-        return match eighths / beams % 8 {
-            0 => Vector::new(1.0, 0.0),
-            1 => Vector::new(diagonal, diagonal),
-            2 => Vector::new(0.0, 1.0),
-            3 => Vector::new(-diagonal, diagonal),
-            4 => Vector::new(-1.0, 0.0),
-            5 => Vector::new(-diagonal, -diagonal),
-            6 => Vector::new(0.0, -1.0),
-            _ => Vector::new(diagonal, -diagonal),
-        };
-    }
-    let angle = TAU * beam as f64 / beams as f64;
-    Vector::new(angle.cos(), angle.sin())
-}
+pub use tile::{PLANE_LENGTH, PLANE_PITCH, Tile};
+pub use tile_sweep::TileScratch;

@@ -3,50 +3,15 @@
 use std::ops::Range;
 
 use super::directions::{Direction, PHASES, UNITS_PER_ROW};
-use super::mask::Mask;
-use super::sweep::{LINES_PER_STEP, Lines, Sweep, TILE};
+use super::lines::Lines;
+use super::mask::{LINES_PER_STEP, Mask};
+use super::tile::{PLANE_PITCH, TILE, Tile};
 
-/// Numbers from one row of a plane to the next.
-pub const PLANE_PITCH: usize = TILE;
-
-/// Numbers in a plane.
-pub const PLANE_LENGTH: usize = TILE * PLANE_PITCH;
-
-/// A rectangle of the grid, and which of its cells are measured.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Tile {
-    columns: Range<usize>,
-    rows: Range<usize>,
-    stride: usize,
-}
-
-impl Tile {
-    pub(super) fn new(columns: Range<usize>, rows: Range<usize>, stride: usize) -> Self {
-        Self { columns, rows, stride }
-    }
-
-    /// Columns with measured cells, ascending.
-    #[must_use]
-    pub fn measured_columns(&self) -> impl ExactSizeIterator<Item = usize> + use<> {
-        on_lattice(&self.columns, self.stride)
-    }
-
-    /// Rows with measured cells, ascending.
-    #[must_use]
-    pub fn measured_rows(&self) -> impl ExactSizeIterator<Item = usize> + use<> {
-        on_lattice(&self.rows, self.stride)
-    }
-}
-
-/// The multiples of the stride in a range.
-fn on_lattice(range: &Range<usize>, stride: usize) -> std::iter::StepBy<Range<usize>> {
-    (range.start.next_multiple_of(stride)..range.end).step_by(stride)
-}
-
-/// Working memory of [`Sweep::cast`], reused from beam to beam.
+/// Working memory for casting the beams of a tile, reused from beam to beam.
 #[derive(Debug)]
 pub struct TileScratch {
     lines: [Lines; PHASES],
+    /// A row with all its cells, where only some are measured.
     row: [u16; TILE],
 }
 
@@ -56,49 +21,53 @@ impl Default for TileScratch {
     }
 }
 
-/// A tile in the frame of a sweep.
-struct Window<'a> {
+/// A tile in the frame of the sweep of one direction.
+pub(super) struct SweptTile<'a> {
     mask: &'a Mask,
     direction: &'a Direction,
     columns: Range<isize>,
     rows: Range<usize>,
+    stride: usize,
 }
 
-/// See [`Sweep::cast`].
-#[inline(always)]
-pub(super) fn cast_tile(sweep: &Sweep, tile: &Tile, beam: usize, scratch: &mut TileScratch, plane: &mut [u16]) {
-    let direction = &sweep.directions[beam];
-    let (columns, rows) = if direction.transposed { (&tile.rows, &tile.columns) } else { (&tile.columns, &tile.rows) };
-    let window = Window {
-        mask: &sweep.masks[usize::from(direction.transposed)],
-        direction,
-        columns: columns.start as isize..columns.end as isize,
-        rows: rows.clone(),
-    };
-    window.load(&sweep.borders[beam], &mut scratch.lines);
-    let first_measured = rows.start.next_multiple_of(tile.stride);
-    for step in 0..rows.len() {
-        let row = if direction.ascending { rows.end - 1 - step } else { rows.start + step };
-        if row % tile.stride == 0 {
-            let start = (row - first_measured) / tile.stride * PLANE_PITCH;
-            let lengths = plane[start..].first_chunk_mut().expect("a plane has a row for every row of a tile");
-            if tile.stride == 1 {
-                window.read(row, &scratch.lines, lengths);
-            } else {
-                window.read(row, &scratch.lines, &mut scratch.row);
-                let first = columns.start.next_multiple_of(tile.stride) - columns.start;
-                let measured = scratch.row[..columns.len()].iter().skip(first).step_by(tile.stride);
-                lengths.iter_mut().zip(measured).for_each(|(length, &measured)| *length = measured);
+impl<'a> SweptTile<'a> {
+    #[inline(always)]
+    pub(super) fn new(tile: &Tile, mask: &'a Mask, direction: &'a Direction) -> Self {
+        let (columns, rows) =
+            if direction.transposed { (&tile.rows, &tile.columns) } else { (&tile.columns, &tile.rows) };
+        let columns = columns.start as isize..columns.end as isize;
+        Self { mask, direction, columns, rows: rows.clone(), stride: tile.stride }
+    }
+
+    /// Casts the beams of the measured cells into a plane, from the states at the borders between tiles.
+    #[inline(always)]
+    pub(super) fn cast(&self, borders: &[u16], scratch: &mut TileScratch, plane: &mut [u16]) {
+        let Self { direction, columns, rows, stride, .. } = self;
+        let stride = *stride;
+        self.load(borders, &mut scratch.lines);
+        let first_measured = rows.start.next_multiple_of(stride);
+        for step in 0..rows.len() {
+            let row = if direction.ascending { rows.end - 1 - step } else { rows.start + step };
+            if row % stride == 0 {
+                let start = (row - first_measured) / stride * PLANE_PITCH;
+                let lengths = plane[start..].first_chunk_mut().expect("a plane has a row for every row of a tile");
+                if stride == 1 {
+                    self.read(row, &scratch.lines, lengths);
+                } else {
+                    self.read(row, &scratch.lines, &mut scratch.row);
+                    let start = columns.start as usize;
+                    let first = start.next_multiple_of(stride) - start;
+                    let measured = scratch.row[..columns.len()].iter().skip(first).step_by(stride);
+                    lengths.iter_mut().zip(measured).for_each(|(length, &measured)| *length = measured);
+                }
+            }
+            if step + 1 < rows.len() {
+                self.cross(row, &mut scratch.lines);
             }
         }
-        if step + 1 < rows.len() {
-            window.cross(row, &mut scratch.lines);
-        }
     }
-}
 
-impl Window<'_> {
-    /// The border behind the last row of the walk, towards which lines are carried.
+    /// The border behind the last row of the walk, towards which lines move.
     fn near_border(&self) -> usize {
         if self.direction.ascending { self.rows.start } else { self.rows.end }
     }
@@ -115,7 +84,7 @@ impl Window<'_> {
         self.columns.start - column.max(near) - 1..self.columns.end - column.min(near) + 1
     }
 
-    /// Fetches the states at the far border; lines outside the grid, or at its end, are stopped.
+    /// Loads the states at the far border; they are 0 outside the grid and at its end.
     #[inline(always)]
     fn load(&self, borders: &[u16], lines: &mut [Lines; PHASES]) {
         let columns = self.mask.columns();
@@ -136,8 +105,8 @@ impl Window<'_> {
         }
     }
 
-    /// Reads the beams of the cells of a row: half a row to the border ahead, then along the nearest line. What is
-    /// read beyond the tile means nothing.
+    /// Reads the beams of the cells of a row: half a row to the border ahead, then along the nearest line. Numbers beyond
+    /// the tile are arbitrary.
     #[inline(always)]
     fn read(&self, row: usize, lines: &[Lines; PHASES], lengths: &mut [u16; TILE]) {
         const HALF_ROW: u16 = UNITS_PER_ROW / 2;
@@ -154,7 +123,7 @@ impl Window<'_> {
         }
     }
 
-    /// Carries the lines that are still needed across a row.
+    /// Moves the lines that are still needed across a row.
     #[inline(always)]
     fn cross(&self, row: usize, lines: &mut [Lines; PHASES]) {
         for (phase, lines) in lines.iter_mut().enumerate() {
