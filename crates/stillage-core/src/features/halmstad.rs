@@ -1,7 +1,7 @@
-//! The seventeen numbers of the author's published code of April 2017, over its own beams.
+//! The seventeen features of the author's published code of April 2017, over that code's beams.
 //!
 //! Source: the recipe (not the text) of `Place-Categorization-2D` by S. Gholami Shahbandi. It differs from the paper's
-//! Table I, and is kept to the letter because the author published maps with their categories, which it reproduces:
+//! Table I. It is followed exactly, because the author published maps with the categories that it gives:
 //!
 //! - A beam is sampled every cell. The sample of length `l` is the cell `trunc(cell + l (cos, sin))`, moved into the
 //!   image where it lies outside. The beam length is the number of samples before the first one that stops it (so 0
@@ -12,16 +12,17 @@
 //! - End points are divided by the resolution once more before the principal components. These four features come
 //!   twice, the second time without coinciding neighbours.
 //!
-//! Samples on a border of cells are left to the rounding of double precision, as the author left them: that decides
-//! gaps, and gaps decide categories. Departure: a quotient that is no number is 0.
+//! Samples on a border of cells are rounded in double precision as in the author's code: that decides gaps, and gaps
+//! decide categories. Departure: a quotient that is no number is 0.
 //!
-//! Method: each beam is marched alone, but jumps as many samples as the chessboard distance to the next obstacle
-//! allows, which changes no result. Cost: O(cells x beams x jumps), a few jumps per beam.
+//! Method: each beam is followed alone, but skips as many samples as the chessboard distance to the nearest obstacle
+//! allows, which changes no result. Cost: O(cells x beams x skips), a few skips per beam.
 
 use std::f64::consts::TAU;
 
+use super::cell_features::CellFeatures;
+use super::lattice::measured_rows;
 use super::paper_sums::principal_spreads;
-use super::{CellFeatures, measured_rows};
 use crate::geometry::{Vector, direction};
 use crate::grid::{Occupancy, OccupancyGrid};
 use crate::spec::CategorizationOptions;
@@ -48,15 +49,15 @@ pub(super) const NAMES: [&str; 17] = [
     "offsetResampled",
 ];
 
-/// The author's range, metres.
+/// Longest beam in the author's code, metres.
 const DEFAULT_RANGE_M: f64 = 4.0;
-/// The author's gap, in cells.
+/// Smallest gap in the author's code, cells.
 const GAP_CELLS: f64 = 1.0;
-/// Standard deviation, in cells, below which the author's kurtosis is 0.
+/// Standard deviation below which the author's kurtosis is 0, cells.
 const NO_SPREAD: f64 = 2e-6;
-/// Coinciding end points are nearer than this, in the author's unit (cells over resolution).
+/// End points nearer than this coincide, in the author's unit (cells over resolution).
 const COINCIDENT: f64 = 0.5;
-/// Cells of a chunk.
+/// Cells that one task measures.
 const CELLS_PER_CHUNK: usize = 512;
 
 /// The features of a grid, chunk by chunk of its measured cells.
@@ -77,7 +78,7 @@ impl HalmstadFeatures {
         Self { cells, beams: options.beams, caster: Caster::new(grid, options) }
     }
 
-    /// How many chunks there are.
+    /// Number of chunks.
     pub(super) fn chunks(&self) -> usize {
         self.cells.len().div_ceil(CELLS_PER_CHUNK)
     }
@@ -102,7 +103,7 @@ impl HalmstadFeatures {
 struct Caster {
     width: usize,
     height: usize,
-    /// Chessboard distance of each cell to the next one that stops beams.
+    /// Chessboard distance of each cell to the nearest one that stops beams.
     distances: Vec<u16>,
     directions: Vec<Vector>,
     /// Samples per beam.
@@ -134,7 +135,7 @@ impl Caster {
         }
     }
 
-    /// How many samples of a beam come before the one that stops it.
+    /// Number of samples of a beam before the one that stops it.
     fn length(&self, column: f64, row: f64, direction: &Vector) -> i64 {
         let mut sample = 1;
         while sample < self.samples {
@@ -238,7 +239,7 @@ fn without_coincident(points: &[Vector]) -> Vec<Vector> {
     pairs.filter(|(previous, point)| (*point - *previous).norm() >= COINCIDENT).map(|(_, point)| *point).collect()
 }
 
-/// Chessboard distance of each cell to the next one that stops beams: exact in two passes over the grid
+/// Chessboard distance of each cell to the nearest one that stops beams, exact in two passes over the grid
 /// (A. Rosenfeld and J. Pfaltz 1968, doi 10.1016/0031-3203(68)90013-7).
 fn chessboard_distances(grid: &OccupancyGrid, unknown_blocks: bool) -> Vec<u16> {
     let (width, height) = (grid.width(), grid.height());
@@ -250,20 +251,20 @@ fn chessboard_distances(grid: &OccupancyGrid, unknown_blocks: bool) -> Vec<u16> 
     let mut distances: Vec<u16> = grid.cells().iter().map(|cell| if stops(cell) { 0 } else { u16::MAX }).collect();
     for row in 0..height {
         for column in 0..width {
-            relax(&mut distances, width, row * width + column, column, (row > 0).then(|| (row - 1) * width), true);
+            lower(&mut distances, width, row * width + column, column, (row > 0).then(|| (row - 1) * width), true);
         }
     }
     for row in (0..height).rev() {
         for column in (0..width).rev() {
             let ahead = (row + 1 < height).then(|| (row + 1) * width);
-            relax(&mut distances, width, row * width + column, column, ahead, false);
+            lower(&mut distances, width, row * width + column, column, ahead, false);
         }
     }
     distances
 }
 
 /// Lowers the distance of a cell to one more than that of its neighbours in a finished row, and of the one beside it.
-fn relax(distances: &mut [u16], width: usize, cell: usize, column: usize, row: Option<usize>, ascending: bool) {
+fn lower(distances: &mut [u16], width: usize, cell: usize, column: usize, row: Option<usize>, ascending: bool) {
     let mut nearest = distances[cell];
     if let Some(row) = row {
         let near = &distances[row + column.saturating_sub(1)..row + width.min(column + 2)];
@@ -294,7 +295,7 @@ mod tests {
         lengths
     }
 
-    /// The recipe to the letter: look at every sample.
+    /// The recipe as it is written: every sample is looked at.
     fn sample_by_sample(grid: &OccupancyGrid, caster: &Caster, cell: usize) -> Vec<f64> {
         let (column, row) = ((cell % grid.width()) as f64, (cell / grid.width()) as f64);
         let at = |start: f64, step: f64, end: usize| ((start + step) as i64).clamp(0, end as i64 - 1);
@@ -323,8 +324,8 @@ mod tests {
             ";
         let grid = OccupancyGrid::from_ascii(&picture.replace('x', "."), 1.0);
         let caster = Caster::new(&grid, &options(8, 5.0));
-        // A free border is walked along until the range is up. The beam straight down slips into the column beside it,
-        // for the cosine of three quarters of a turn is a little below zero.
+        // Samples outside the image are moved to its border, so beams there reach the range. The beam straight down runs in
+        // the column beside the cell, since the cosine of three quarters of a turn is rounded below zero.
         assert_eq!(lengths(&caster, 3 * 7 + 3), [2.0, 2.0, 4.0, 4.0, 4.0, 1.0, 2.0, 4.0]);
     }
 

@@ -1,24 +1,24 @@
 //! The thirteen features of one cell as functions of twelve sums over its beams.
 //!
-//! With beams `d_0 .. d_(n-1)` (cells), `e_i = d_i - pivot` and `delta_i = d_i - d_(i-1)` around the circle, the sums
-//! are those of `e, e^2, e^3, e^4, |delta|, delta^2`, the perimeter, the gaps, and of `d cos t, d sin t, d^2 cos 2t,
+//! With beams `d_0 .. d_(n-1)` (cells), `e_i = d_i - pivot` and `delta_i = d_i - d_(i-1)` around the circle, the sums are
+//! those of `e, e^2, e^3, e^4, |delta|, delta^2`, the perimeter, the gaps, and of `d cos t, d sin t, d^2 cos 2t,
 //! d^2 sin 2t`. The pivot is any number near the mean: it keeps the powers small, so that single precision is enough
-//! even for the kurtosis of nearly round places. Everything else follows:
-//! `d_i d_(i-1) = (d_i^2 + d_(i-1)^2 - delta_i^2) / 2` gives the area of the polygon of end points.
+//! for the kurtosis of nearly round places. The area of the polygon of end points follows from
+//! `d_i d_(i-1) = (d_i^2 + d_(i-1)^2 - delta_i^2) / 2`.
 
 use std::f64::consts::TAU;
 
-use super::simd::Simd;
+use super::simd::SimdCells;
 use crate::raycast::{PLANE_LENGTH, PLANE_PITCH};
 
-/// How many sums there are.
+/// Number of sums.
 const SUMS: usize = 12;
 
-/// Spread of beam lengths, in cells, below which they count as equal and the kurtosis as nothing: a grid cannot show a
-/// rounder place than this.
+/// Standard deviation of beam lengths below which they count as equal and the kurtosis is 0, cells: a grid cannot show a
+/// rounder place.
 const NEARLY_CONSTANT: f64 = 0.01;
 
-/// What all beams of a direction have in common.
+/// What the beams of one direction have in common.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct BeamTerms {
     /// Cells per unit of length.
@@ -29,9 +29,9 @@ pub(super) struct BeamTerms {
     pub(super) sin_twice: f32,
 }
 
-/// What all beams of all directions have in common.
+/// What the beams of all directions have in common.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct FanTerms {
+pub(super) struct ScanTerms {
     /// Beams around the circle.
     pub(super) beams: usize,
     /// Longest beam, cells.
@@ -42,11 +42,12 @@ pub(super) struct FanTerms {
     pub(super) chord_factor: f32,
 }
 
-/// Cells whose sums are skipped together where none of them is free.
+/// Cells that are skipped together where none of them is free.
 pub(super) const GROUP: usize = 16;
 
-/// The plane of pivots, and that of the lengths of the beam added last.
+/// The plane of pivots.
 const PIVOT: usize = SUMS;
+/// The plane of the lengths of the beam added last.
 const PREVIOUS: usize = SUMS + 1;
 
 /// The sums of all cells of a tile, plane by plane.
@@ -60,10 +61,10 @@ pub(super) struct Planes<T> {
 }
 
 impl<T: Copy + Default> Planes<T> {
-    /// From the start of a plane to the next. Planes a power of two apart would meet in the same lines of the caches.
+    /// Numbers from one plane to the next. Planes a power of two apart would share the same cache lines.
     const STEP: usize = PLANE_LENGTH + 64;
 
-    /// Planes of nothing.
+    /// Planes of zeros.
     pub(super) fn new(count: usize) -> Self {
         Self { numbers: vec![T::default(); count * Self::STEP] }
     }
@@ -102,7 +103,7 @@ impl Default for TileSums {
 }
 
 impl TileSums {
-    /// Begins again.
+    /// Sets all sums and pivots to 0.
     pub(super) fn clear(&mut self) {
         self.0.numbers.fill(0.0);
     }
@@ -119,35 +120,35 @@ impl TileSums {
         self.0.transpose(PIVOT);
     }
 
-    /// Adds one of `of` lengths whose mean becomes the pivot.
+    /// Adds one of the `of` beams whose mean length becomes the pivot.
     #[inline(always)]
-    pub(super) fn add_to_pivots(&mut self, units: &[u16], beam: &BeamTerms, fan: &FanTerms, of: usize) {
+    pub(super) fn add_to_pivots(&mut self, units: &[u16], beam: &BeamTerms, scan: &ScanTerms, of: usize) {
         let share = 1.0 / of as f32;
         for (pivot, &units) in self.0.plane_mut(PIVOT).iter_mut().zip(units) {
-            *pivot += (f32::from(units) * beam.unit).min(fan.limit) * share;
+            *pivot += (f32::from(units) * beam.unit).min(scan.limit) * share;
         }
     }
 
-    /// Adds consecutive beams of the cells of some groups: of each beam, its terms and its plane. The first one follows
-    /// the beam added before, or none.
+    /// Adds consecutive beams (terms and plane of each) of the cells of some groups. Unless `opens`, the first beam follows
+    /// the beam added last.
     #[inline(always)]
     pub(super) fn add<const N: usize>(
         &mut self,
         groups: &[usize],
         beams: &[BeamTerms],
         planes: &Planes<u16>,
-        fan: &FanTerms,
+        scan: &ScanTerms,
         opens: bool,
     ) {
         for start in groups.iter().flat_map(|&group| (group..group + GROUP).step_by(N)) {
-            let mut sums: [Simd<N>; SUMS] = self.load(start);
-            let pivot = Simd::<N>::load(&self.0.plane(PIVOT)[start..]);
-            let mut previous = Simd::<N>::load(&self.0.plane(PREVIOUS)[start..]);
+            let mut sums: [SimdCells<N>; SUMS] = self.load(start);
+            let pivot = SimdCells::<N>::load(&self.0.plane(PIVOT)[start..]);
+            let mut previous = SimdCells::<N>::load(&self.0.plane(PREVIOUS)[start..]);
             for (index, beam) in beams.iter().enumerate() {
-                let length = (Simd::from_units(&planes.plane(index)[start..]) * beam.unit).min(fan.limit);
+                let length = (SimdCells::from_units(&planes.plane(index)[start..]) * beam.unit).min(scan.limit);
                 add_length(&mut sums, length, pivot, beam);
                 if index > 0 || !opens {
-                    add_change(&mut sums, previous, length, fan);
+                    add_change(&mut sums, previous, length, scan);
                 }
                 previous = length;
             }
@@ -158,17 +159,17 @@ impl TileSums {
 
     /// The sums of some cells.
     #[inline(always)]
-    fn load<const N: usize>(&self, start: usize) -> [Simd<N>; SUMS] {
-        let mut sums = [Simd::ZERO; SUMS];
+    fn load<const N: usize>(&self, start: usize) -> [SimdCells<N>; SUMS] {
+        let mut sums = [SimdCells::ZERO; SUMS];
         for (plane, sum) in sums.iter_mut().enumerate() {
-            *sum = Simd::load(&self.0.plane(plane)[start..]);
+            *sum = SimdCells::load(&self.0.plane(plane)[start..]);
         }
         sums
     }
 
-    /// Keeps the sums of some cells.
+    /// Stores the sums of some cells.
     #[inline(always)]
-    fn store<const N: usize>(&mut self, start: usize, sums: &[Simd<N>; SUMS]) {
+    fn store<const N: usize>(&mut self, start: usize, sums: &[SimdCells<N>; SUMS]) {
         for (plane, sum) in sums.iter().enumerate() {
             sum.store(&mut self.0.plane_mut(plane)[start..]);
         }
@@ -181,13 +182,13 @@ impl TileSums {
         groups: &[usize],
         beams: [&BeamTerms; 2],
         units: [&[u16]; 2],
-        fan: &FanTerms,
+        scan: &ScanTerms,
     ) {
         for start in groups.iter().flat_map(|&group| (group..group + GROUP).step_by(N)) {
-            let mut sums: [Simd<N>; SUMS] = self.load(start);
-            let previous = (Simd::from_units(&units[0][start..]) * beams[0].unit).min(fan.limit);
-            let length = (Simd::from_units(&units[1][start..]) * beams[1].unit).min(fan.limit);
-            add_change(&mut sums, previous, length, fan);
+            let mut sums: [SimdCells<N>; SUMS] = self.load(start);
+            let previous = (SimdCells::from_units(&units[0][start..]) * beams[0].unit).min(scan.limit);
+            let length = (SimdCells::from_units(&units[1][start..]) * beams[1].unit).min(scan.limit);
+            add_change(&mut sums, previous, length, scan);
             self.store(start, &sums);
         }
     }
@@ -204,7 +205,12 @@ impl TileSums {
 
 /// Adds the terms of a beam alone.
 #[inline(always)]
-fn add_length<const N: usize>(sums: &mut [Simd<N>; SUMS], length: Simd<N>, pivot: Simd<N>, beam: &BeamTerms) {
+fn add_length<const N: usize>(
+    sums: &mut [SimdCells<N>; SUMS],
+    length: SimdCells<N>,
+    pivot: SimdCells<N>,
+    beam: &BeamTerms,
+) {
     let squared = length * length;
     let shifted = length - pivot;
     let shifted_squared = shifted * shifted;
@@ -220,13 +226,18 @@ fn add_length<const N: usize>(sums: &mut [Simd<N>; SUMS], length: Simd<N>, pivot
 
 /// Adds the terms of a beam and the one before it.
 #[inline(always)]
-fn add_change<const N: usize>(sums: &mut [Simd<N>; SUMS], previous: Simd<N>, length: Simd<N>, fan: &FanTerms) {
+fn add_change<const N: usize>(
+    sums: &mut [SimdCells<N>; SUMS],
+    previous: SimdCells<N>,
+    length: SimdCells<N>,
+    scan: &ScanTerms,
+) {
     let change = length - previous;
     let (change_size, change_squared) = (change.abs(), change * change);
     sums[4] += change_size;
     sums[5] += change_squared;
-    sums[6] += (length * previous * fan.chord_factor + change_squared).sqrt();
-    sums[7] += change_size.above(fan.gap);
+    sums[6] += (length * previous * scan.chord_factor + change_squared).sqrt();
+    sums[7] += change_size.above(scan.gap);
 }
 
 /// The sums of one cell.
@@ -236,7 +247,7 @@ pub(super) struct CellSums {
 }
 
 impl CellSums {
-    /// The features, in the order of [`super::paper::NAMES`].
+    /// The features, in the order of Table I.
     #[inline(always)]
     pub(super) fn features(&self, beams: usize, resolution: f64) -> [f32; 13] {
         let count = beams as f64;

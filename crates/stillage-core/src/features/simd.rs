@@ -1,16 +1,16 @@
-//! A few neighbouring cells at once: arithmetic on short arrays, which compilers turn into vector instructions.
+//! Arithmetic on a few neighbouring cells at once: short arrays, which compilers turn into vector instructions.
 //!
-//! Written with plain loops: what is not inlined, as the closures of `array::from_fn` may not be, is not compiled for the
-//! wider vectors.
+//! Plain loops throughout: closures of `array::from_fn` may not be inlined, and code that is not inlined is not compiled
+//! for the wider vectors.
 
 use std::ops::{Add, AddAssign, Mul, Sub};
 
 /// One number for each of `N` neighbouring cells.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Simd<const N: usize>([f32; N]);
+pub(super) struct SimdCells<const N: usize>([f32; N]);
 
-impl<const N: usize> Simd<N> {
-    /// No number but 0.
+impl<const N: usize> SimdCells<N> {
+    /// All numbers 0.
     pub(super) const ZERO: Self = Self([0.0; N]);
 
     /// The first numbers of a slice.
@@ -25,13 +25,13 @@ impl<const N: usize> Simd<N> {
         *numbers.first_chunk_mut().expect("planes are worked on in whole groups") = self.0;
     }
 
-    /// From the first whole numbers of a slice.
+    /// The first numbers of a slice of whole numbers.
     #[inline(always)]
     pub(super) fn from_units(units: &[u16]) -> Self {
         let units: &[u16; N] = units.first_chunk().expect("planes are worked on in whole groups");
         let mut numbers = Self::ZERO;
         for (number, &units) in numbers.0.iter_mut().zip(units) {
-            // By way of i32, for which there is a vector instruction.
+            // There is a vector instruction for i32, none for u16.
             *number = i32::from(units) as f32;
         }
         numbers
@@ -52,7 +52,7 @@ impl<const N: usize> Simd<N> {
         self.map(f32::sqrt)
     }
 
-    /// One where a value is above the threshold, nothing elsewhere.
+    /// 1 where a value is above the threshold, 0 elsewhere.
     #[inline(always)]
     pub(super) fn above(self, threshold: f32) -> Self {
         self.map(|value| if value > threshold { 1.0 } else { 0.0 })
@@ -75,7 +75,7 @@ impl<const N: usize> Simd<N> {
     }
 }
 
-impl<const N: usize> Add for Simd<N> {
+impl<const N: usize> Add for SimdCells<N> {
     type Output = Self;
 
     #[inline(always)]
@@ -84,7 +84,7 @@ impl<const N: usize> Add for Simd<N> {
     }
 }
 
-impl<const N: usize> Sub for Simd<N> {
+impl<const N: usize> Sub for SimdCells<N> {
     type Output = Self;
 
     #[inline(always)]
@@ -93,7 +93,7 @@ impl<const N: usize> Sub for Simd<N> {
     }
 }
 
-impl<const N: usize> Mul for Simd<N> {
+impl<const N: usize> Mul for SimdCells<N> {
     type Output = Self;
 
     #[inline(always)]
@@ -102,7 +102,7 @@ impl<const N: usize> Mul for Simd<N> {
     }
 }
 
-impl<const N: usize> Mul<f32> for Simd<N> {
+impl<const N: usize> Mul<f32> for SimdCells<N> {
     type Output = Self;
 
     #[inline(always)]
@@ -111,7 +111,7 @@ impl<const N: usize> Mul<f32> for Simd<N> {
     }
 }
 
-impl<const N: usize> AddAssign for Simd<N> {
+impl<const N: usize> AddAssign for SimdCells<N> {
     #[inline(always)]
     fn add_assign(&mut self, other: Self) {
         *self = *self + other;
