@@ -3,7 +3,7 @@
 //! Sources: S. Lloyd 1982 (doi 10.1109/TIT.1982.1056489); D. Arthur and S. Vassilvitskii, *k-means++* (SODA 2007), with
 //! the greedy choice among several candidates that its authors propose and scikit-learn makes.
 //!
-//! Restarts compete on a small sample; the one that fits the whole sample best is finished there. Where there are fewer
+//! Restarts run on a small sample; the one that fits the whole sample best is continued there. Where there are fewer
 //! distinct rows than clusters, there are fewer clusters; a cluster that loses its last row takes the row farthest from
 //! its own centroid.
 //!
@@ -24,20 +24,21 @@ use super::scaling::RowScaling;
 use crate::spec::Scaling;
 use crate::watch::{Stage, Stopped, Watch};
 
-/// Restarts compete on one of so many rows of the sample.
-const COMPETITION: usize = 10;
+/// Restarts are compared on a sample of so many times fewer rows.
+const COMPARISON_DIVISOR: usize = 10;
 
-/// Share of the time of a fit when the competition is over, and when its runs are compared on the whole sample.
-const COMPETED: f64 = 0.4;
-/// See [`COMPETED`].
-const JUDGED: f64 = 0.7;
+/// Share of the time of a fit after which the restarts are run, by estimate.
+const RESTARTS_DONE: f64 = 0.4;
+
+/// Share of the time of a fit after which the restarts are compared on the whole sample, by estimate.
+const COMPARISON_DONE: f64 = 0.7;
 
 /// How to look for centroids.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct KMeansOptions {
     /// Number of clusters, 1 to 255.
     pub k: usize,
-    /// Restarts, the best one wins.
+    /// Restarts; the best one is kept.
     pub restarts: usize,
     /// Most iterations of one run.
     pub max_iterations: usize,
@@ -55,7 +56,7 @@ pub struct KMeansOptions {
 /// [`Stopped`] when the watch says so.
 ///
 /// # Panics
-/// When `k` is 0 or above 255, or the values are no whole rows.
+/// When `k` is 0 or above 255, or the values are not whole rows.
 pub fn k_means(rows: &[f32], columns: usize, options: &KMeansOptions, watch: &Watch<'_>) -> Result<Vec<u8>, Stopped> {
     let scaling = RowScaling::fit(rows, columns, Scaling::None);
     let mut points = Points::default();
@@ -68,7 +69,7 @@ pub fn k_means(rows: &[f32], columns: usize, options: &KMeansOptions, watch: &Wa
 
 /// Centroids and how well they fit.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Run {
+pub(super) struct KMeansRun {
     /// One row each, scaled as the points are: `k`, or fewer where there are fewer distinct points.
     pub centroids: Vec<f32>,
     /// Sum over the points of the squared distance to their centroid.
@@ -76,23 +77,23 @@ pub(super) struct Run {
 }
 
 /// Finds the centroids of points. Reports its progress as that of [`Stage::Clustering`].
-pub(super) fn fit(points: &Points, options: &KMeansOptions, watch: &Watch<'_>) -> Result<Run, Stopped> {
+pub(super) fn fit(points: &Points, options: &KMeansOptions, watch: &Watch<'_>) -> Result<KMeansRun, Stopped> {
     assert!((1..=255).contains(&options.k), "clusters are numbered by a byte");
     if points.len() == 0 {
-        return Ok(Run { centroids: Vec::new(), inertia: 0.0 });
+        return Ok(KMeansRun { centroids: Vec::new(), inertia: 0.0 });
     }
-    // A sample of a sample: only where that one had to be drawn itself.
-    let few = options.fit_rows / COMPETITION;
-    let competition = (points.len() > few).then(|| points.select(sample(points.len(), few, options.seed).into_iter()));
+    // Restarts run on a smaller sample where there are more rows than it holds.
+    let few = options.fit_rows / COMPARISON_DIVISOR;
+    let smaller = (points.len() > few).then(|| points.select(sample(points.len(), few, options.seed).into_iter()));
     let restarts = options.restarts.max(1);
-    let (competed, judged) = if competition.is_some() { (COMPETED, JUDGED) } else { (1.0, 1.0) };
-    let steps = watch.part(0.0, competed).steps(Stage::Clustering, restarts);
-    let runs: Result<Vec<Run>, Stopped> = (0..restarts)
+    let (run_done, comparison_done) = if smaller.is_some() { (RESTARTS_DONE, COMPARISON_DONE) } else { (1.0, 1.0) };
+    let steps = watch.part(0.0, run_done).steps(Stage::Clustering, restarts);
+    let runs: Result<Vec<KMeansRun>, Stopped> = (0..restarts)
         .into_par_iter()
         .map(|restart| {
             let mut random = stream(options.seed, restart as u64);
-            let points = competition.as_ref().unwrap_or(points);
-            // Greedy starts are better as a rule, plain ones differ more: both have their turns.
+            let points = smaller.as_ref().unwrap_or(points);
+            // Greedy starts are usually better, plain ones differ more: the restarts use both in turn.
             let candidates = if restart % 2 == 0 { greedy_candidates(options.k) } else { 1 };
             let run = lloyd(points, first_centroids(points, options.k, candidates, &mut random), options, watch)?;
             steps.count_one();
@@ -100,8 +101,8 @@ pub(super) fn fit(points: &Points, options: &KMeansOptions, watch: &Watch<'_>) -
         })
         .collect();
     let mut runs = runs?;
-    if competition.is_some() {
-        let steps = watch.part(competed, judged).steps(Stage::Clustering, restarts);
+    if smaller.is_some() {
+        let steps = watch.part(run_done, comparison_done).steps(Stage::Clustering, restarts);
         for run in &mut runs {
             run.inertia = cluster_sums(points, &run.centroids, watch)?.inertia;
             steps.count_one();
@@ -109,7 +110,7 @@ pub(super) fn fit(points: &Points, options: &KMeansOptions, watch: &Watch<'_>) -
     }
     let best = runs.into_iter().reduce(|best, run| if run.inertia < best.inertia { run } else { best });
     let best = best.expect("there is at least one restart");
-    if competition.is_some() { lloyd(points, best.centroids, options, watch) } else { Ok(best) }
+    if smaller.is_some() { lloyd(points, best.centroids, options, watch) } else { Ok(best) }
 }
 
 /// Sums of the rows of each cluster.
@@ -166,22 +167,22 @@ fn cluster_sums(points: &Points, centroids: &[f32], watch: &Watch<'_>) -> Result
     }))
 }
 
-/// Rows that compete to be the next first centroid; the number is scikit-learn's.
+/// Candidates for each further first centroid, as many as in scikit-learn.
 fn greedy_candidates(k: usize) -> usize {
     2 + (k as f64).ln() as usize
 }
 
 /// k-means++: each further centroid is a row drawn with a probability in proportion to its squared distance to the
-/// nearest one so far; of some such rows the one that leaves the least. Ends early when every row is a centroid.
+/// nearest one so far; of several such rows the one that leaves the least inertia. Ends early when every row is a centroid.
 fn first_centroids(points: &Points, k: usize, candidates: usize, random: &mut ChaCha8Rng) -> Vec<f32> {
     let mut centroids: Vec<f32> = points.row(below(points.len(), random)).collect();
     let mut distances = vec![f32::INFINITY; points.len()];
-    let mut total = approach(points, &centroids, &mut distances);
+    let mut total = lower_distances(points, &centroids, &mut distances);
     while centroids.len() < k * points.columns() && total > 0.0 {
         let tries = (0..candidates).map(|_| {
             let candidate: Vec<f32> = points.row(draw(&distances, uniform(random) * total)).collect();
             let mut distances = distances.clone();
-            let total = approach(points, &candidate, &mut distances);
+            let total = lower_distances(points, &candidate, &mut distances);
             (total, candidate, distances)
         });
         let best = tries.reduce(|best, other| if other.0 < best.0 { other } else { best });
@@ -192,8 +193,8 @@ fn first_centroids(points: &Points, k: usize, candidates: usize, random: &mut Ch
     centroids
 }
 
-/// Shortens the squared distances to the nearest centroid by those to a new one; gives their sum.
-fn approach(points: &Points, centroid: &[f32], distances: &mut [f32]) -> f64 {
+/// Lowers the squared distances to the nearest centroid to those to a new one; gives their sum.
+fn lower_distances(points: &Points, centroid: &[f32], distances: &mut [f32]) -> f64 {
     let mut total = 0.0;
     for (group, distances) in distances.chunks_mut(SIMD_WIDTH).enumerate() {
         let news = squared_distances(points.group(group), centroid);
@@ -205,23 +206,28 @@ fn approach(points: &Points, centroid: &[f32], distances: &mut [f32]) -> f64 {
     total
 }
 
-/// Moves centroids to the means of their rows until they rest.
-fn lloyd(points: &Points, mut centroids: Vec<f32>, options: &KMeansOptions, watch: &Watch<'_>) -> Result<Run, Stopped> {
+/// Moves centroids to the means of their rows until they move less than the tolerance.
+fn lloyd(
+    points: &Points,
+    mut centroids: Vec<f32>,
+    options: &KMeansOptions,
+    watch: &Watch<'_>,
+) -> Result<KMeansRun, Stopped> {
     let variances = points.variances();
-    let rest = options.tolerance * variances.iter().sum::<f64>() / variances.len() as f64;
+    let least_move = options.tolerance * variances.iter().sum::<f64>() / variances.len() as f64;
     for _ in 0..options.max_iterations {
         let sums = cluster_sums(points, &centroids, watch)?;
         let moved = move_centroids(points, &mut centroids, &sums);
-        if moved <= rest && !sums.counts.contains(&0) {
+        if moved <= least_move && !sums.counts.contains(&0) {
             break;
         }
     }
     let inertia = cluster_sums(points, &centroids, watch)?.inertia;
-    Ok(Run { centroids, inertia })
+    Ok(KMeansRun { centroids, inertia })
 }
 
-/// Moves each centroid to the mean of its rows; one without rows to the row that is farthest from its own. Gives the
-/// sum of the squared moves of the former.
+/// Moves each centroid to the mean of its rows, and one without rows to the row that is farthest from its centroid. Gives
+/// the sum of the squared moves of those with rows.
 fn move_centroids(points: &Points, centroids: &mut [f32], sums: &ClusterSums) -> f64 {
     let mut moved = 0.0;
     let clusters = || centroid_ranges(&sums.counts, points.columns());
@@ -253,7 +259,7 @@ fn farthest(points: &Points, centroids: &[f32]) -> usize {
     farthest.0
 }
 
-/// Where each centroid is among all, and how many rows it has.
+/// Where the numbers of each centroid are, and how many rows it has.
 fn centroid_ranges(counts: &[usize], columns: usize) -> impl Iterator<Item = (Range<usize>, usize)> {
     counts.iter().enumerate().map(move |(cluster, &count)| (cluster * columns..(cluster + 1) * columns, count))
 }
@@ -267,7 +273,7 @@ mod tests {
     const OPTIONS: KMeansOptions =
         KMeansOptions { k: 3, restarts: 4, max_iterations: 100, tolerance: 1e-6, fit_rows: 20_000, seed: 7 };
 
-    fn clusters(values: &[f32], columns: usize, options: &KMeansOptions) -> Run {
+    fn clusters(values: &[f32], columns: usize, options: &KMeansOptions) -> KMeansRun {
         fit(&rows_of(values, columns), options, &Watch::unwatched()).expect("nobody stops it")
     }
 

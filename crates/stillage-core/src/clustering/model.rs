@@ -1,10 +1,12 @@
-//! A fitted model, and what it says of any row.
+//! A fitted model: the cluster and the memberships of any row.
 //!
-//! With centroids, the cluster of a row is that of the nearest one. Its memberships are those in the mixture that
-//! k-means is the limit of: equal weights and one spherical variance, the mean squared distance of the fitted rows to
-//! their centroid over the number of columns. Columns that go together make these memberships surer than they should be;
-//! a [`GaussianMixture`] with full covariances knows better. With a mixture, the cluster of a row is its greatest
-//! membership. Ties go to the lower cluster.
+//! | model | cluster of a row | its memberships |
+//! | --- | --- | --- |
+//! | centroids | the nearest centroid | in a mixture of equal weights and one spherical variance: the mean squared distance of the fitted rows to their centroid, over the number of columns |
+//! | [`GaussianMixture`] | the greatest membership | in the mixture |
+//!
+//! Ties go to the lower cluster. Correlated columns make the memberships of centroids too certain; full covariances do not
+//! have that defect.
 //!
 //! Cost: O(k x columns) per row, x columns again for full covariances. Limits: 255 clusters.
 
@@ -16,7 +18,7 @@ use super::points::{GROUPS_PER_BLOCK, Points, SIMD_WIDTH, nearest, squared_dista
 use super::scaling::RowScaling;
 use crate::watch::{Stopped, Watch};
 
-/// Rows that are scaled and compared at once: their values stay in the cache.
+/// Rows that are scaled before they are compared, so that their values stay in the first-level cache.
 const ROWS_PER_STEP: usize = 16 * SIMD_WIDTH;
 
 /// Clusters of places as a function of their features.
@@ -56,7 +58,7 @@ impl PlaceModel {
         }
     }
 
-    /// Whether there are no clusters: it was fitted to no rows.
+    /// Whether there are no clusters, because it was fitted to no rows.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len() == 0
@@ -97,7 +99,7 @@ impl PlaceModel {
         });
     }
 
-    /// Labels rows group by group, and shows each group: its first row, its scaled rows, and the scratch.
+    /// Labels rows group by group, and calls `show` with the first row of each group, its scaled rows, and the scratch.
     fn walk(&self, rows: &[f32], labels: &mut [u8], mut show: impl FnMut(usize, &[[f32; SIMD_WIDTH]], &mut Scratch)) {
         assert_eq!(rows.len(), labels.len() * self.columns(), "there is a label for each row");
         let mut points = Points::default();
@@ -115,7 +117,7 @@ impl PlaceModel {
         }
     }
 
-    /// The clusters of a group of scaled rows; of a mixture, its memberships are left in the scratch.
+    /// The clusters of a group of scaled rows; the memberships of a mixture are left in the scratch.
     fn labels(&self, group: &[[f32; SIMD_WIDTH]], scratch: &mut Scratch) -> [u32; SIMD_WIDTH] {
         match &self.clusters {
             Clusters::Centroids { values, .. } => nearest(group, values).labels,
@@ -126,8 +128,7 @@ impl PlaceModel {
         }
     }
 
-    /// Numbers the clusters by the mean of `first` over the points they were fitted to, and leaves out those without
-    /// points.
+    /// Numbers the clusters by the mean of `first` over the points they were fitted to, and drops those without points.
     pub(super) fn number(
         &mut self,
         points: &Points,
@@ -184,7 +185,7 @@ fn greatest(memberships: &[[f64; SIMD_WIDTH]]) -> [u32; SIMD_WIDTH] {
 
 /// Memberships of a group in spherical components of equal weight around the centroids.
 fn spherical_memberships(group: &[[f32; SIMD_WIDTH]], centroids: &[f32], variance: f64, scratch: &mut Scratch) {
-    // Without any variance, the nearest centroid has it all.
+    // Without variance the membership in the nearest centroid is 1.
     let precision = variance.max(f64::MIN_POSITIVE).recip();
     let least = nearest(group, centroids).squared_distances;
     let exponents = centroids.chunks_exact(group.len()).map(|centroid| {

@@ -1,17 +1,17 @@
-//! Scaled rows in the layout of the hot loops: groups of [`SIMD_WIDTH`] rows, column by column within a group.
+//! Scaled rows in the layout of the innermost loops: groups of [`SIMD_WIDTH`] rows, column by column within a group.
 //!
-//! One value of a centroid then meets [`SIMD_WIDTH`] rows at once, which the compiler turns into vector instructions; no
-//! number depends on the rows it shares a group with, so results are the same for any division into blocks.
+//! One value of a centroid is compared with [`SIMD_WIDTH`] rows at once, which the compiler turns into vector instructions.
+//! No number depends on the rows in its group, so results are the same for any division into blocks.
 
 use super::random::{below, stream};
 use super::scaling::RowScaling;
 
-/// Rows that are compared with a centroid at once.
+/// Rows that are compared with a centroid at once: a multiple of every SIMD width.
 pub(super) const SIMD_WIDTH: usize = 16;
-/// Groups of [`SIMD_WIDTH`] rows whose sums are taken together.
+/// Groups whose sums one task takes.
 pub(super) const GROUPS_PER_BLOCK: usize = 256;
 
-/// Stream of random numbers that draws the samples; restarts have the streams from 0 on.
+/// Stream of random numbers for the samples; restarts have the streams from 0 on.
 const SAMPLE_STREAM: u64 = u64::MAX;
 
 /// Scaled rows; the last group is filled up with zeros.
@@ -23,19 +23,19 @@ pub(super) struct Points {
 }
 
 /// The nearest centroids of a group of rows.
-pub(super) struct Nearest {
+pub(super) struct NearestCentroids {
     pub labels: [u32; SIMD_WIDTH],
     pub squared_distances: [f32; SIMD_WIDTH],
 }
 
-impl Nearest {
+impl NearestCentroids {
     /// Sum of the squared distances of the first rows.
     pub(super) fn inertia(&self, rows: usize) -> f64 {
         self.squared_distances[..rows].iter().map(|&distance| f64::from(distance)).sum()
     }
 }
 
-/// At most `limit` of `available` rows, ascending, one drawn by the seed of each of as many equal stretches; all of them
+/// At most `limit` of `available` rows, ascending: one drawn at random from each of `limit` equal intervals, or all of them
 /// where there are no more.
 pub(super) fn sample(available: usize, limit: usize, seed: u64) -> Vec<usize> {
     let count = available.min(limit.max(1));
@@ -48,7 +48,7 @@ pub(super) fn sample(available: usize, limit: usize, seed: u64) -> Vec<usize> {
 }
 
 impl Points {
-    /// Takes the chosen rows, scaled, in place of what was there.
+    /// Replaces the rows by the chosen ones, scaled.
     pub(super) fn refill(&mut self, rows: &[f32], scaling: &RowScaling, chosen: impl ExactSizeIterator<Item = usize>) {
         let columns = scaling.columns();
         self.resize(chosen.len(), columns);
@@ -138,8 +138,8 @@ pub(super) fn squared_distances(group: &[[f32; SIMD_WIDTH]], centroid: &[f32]) -
 
 /// The nearest centroids of a group, the first of equally near ones.
 #[inline]
-pub(super) fn nearest(group: &[[f32; SIMD_WIDTH]], centroids: &[f32]) -> Nearest {
-    let mut nearest = Nearest { labels: [0; SIMD_WIDTH], squared_distances: [f32::INFINITY; SIMD_WIDTH] };
+pub(super) fn nearest(group: &[[f32; SIMD_WIDTH]], centroids: &[f32]) -> NearestCentroids {
+    let mut nearest = NearestCentroids { labels: [0; SIMD_WIDTH], squared_distances: [f32::INFINITY; SIMD_WIDTH] };
     for (label, centroid) in centroids.chunks_exact(group.len()).enumerate() {
         let distances = squared_distances(group, centroid);
         for (slot, &distance) in distances.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! Random numbers of the clustering: from the seed alone (`ChaCha`, the same on every machine), a stream for each use.
+//! Random numbers from a seed alone (`ChaCha`, the same on every machine), with a stream for each use.
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
@@ -21,7 +21,7 @@ pub(super) fn below(end: usize, random: &mut ChaCha8Rng) -> usize {
     ((uniform(random) * end as f64) as usize).min(end - 1)
 }
 
-/// The first row at which the running sum of weights exceeds `target`; never one without weight.
+/// The first row at which the running sum of weights exceeds `target`; never one of weight 0.
 pub(super) fn draw(weights: &[f32], target: f64) -> usize {
     let mut sum = 0.0;
     let mut drawn = 0;

@@ -4,9 +4,10 @@
 
 use super::*;
 use crate::features::FeatureSource;
-use crate::spec::CategorizationOptions;
+use crate::spec::{CategorizationOptions, CategoryCount, Covariance, Scaling};
 use crate::test_maps;
 use crate::vectors::Vectors;
+use crate::watch::Watch;
 
 const ROWS: usize = 2_000;
 const COLUMNS: usize = 13;

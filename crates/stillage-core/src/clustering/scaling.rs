@@ -1,7 +1,7 @@
-//! Columns made comparable. Scaling decides more about clusters than any other choice, so it is an option, not a habit.
+//! Scaling of the columns, so that they are comparable. It is an option, since it changes clusters more than any other.
 //!
-//! A scaling is fitted once, to the rows that the clusters are fitted to, and is then a part of the model: scaled values
-//! are computed on the way to the clusters and never stored. Statistics are sums in double precision over fixed blocks
+//! A scaling is fitted once, to the rows that the clusters are fitted to, and is then a part of the model. Scaled values are
+//! not stored. Statistics are sums in double precision over fixed blocks
 //! of rows, combined in order: the same for any number of threads. Cost: O(values), twice for the fit.
 
 use rayon::prelude::*;
@@ -9,10 +9,10 @@ use serde::{Deserialize, Serialize};
 
 use crate::spec::Scaling;
 
-/// Rows whose sums are taken together.
+/// Rows whose sums one task takes.
 const ROWS_PER_BLOCK: usize = 4_096;
 
-/// Spread, relative to the mean, below which a column counts as constant: what single precision leaves of one.
+/// Standard deviation over the mean below which a column counts as constant: the rounding of single precision.
 const CONSTANT: f64 = 1e-6;
 
 /// A scaling of each column of a row.
@@ -32,10 +32,10 @@ struct ColumnScaling {
 impl RowScaling {
     /// Finds the scaling of `rows`, `columns` numbers each. Constant columns become zero where they are divided by
     /// their spread; `DivideByMean` divides by the mean of absolute values, which is the mean for lengths and counts,
-    /// and keeps columns of either sign from blowing up.
+    /// and does not vanish for columns of either sign.
     ///
     /// # Panics
-    /// When the values are no whole rows, or there are no columns.
+    /// When the values are not whole rows, or there are no columns.
     #[must_use]
     pub fn fit(rows: &[f32], columns: usize, scaling: Scaling) -> Self {
         assert!(columns > 0 && rows.len().is_multiple_of(columns), "rows have {columns} values each");
@@ -74,7 +74,7 @@ impl RowScaling {
         row.iter().zip(&self.columns).map(|(&value, column)| column.apply(value) as f32)
     }
 
-    /// Sum of a function of the (so far scaled) values of each column.
+    /// Sum of a function of the values of each column, scaled by what is fitted so far.
     fn sums(&self, rows: &[f32], function: impl Fn(usize, f64) -> f64 + Sync) -> Vec<f64> {
         let columns = self.columns.len();
         let blocks: Vec<Vec<f64>> = rows

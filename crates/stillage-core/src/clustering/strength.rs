@@ -1,10 +1,11 @@
-//! How many clusters: the most that one half of the rows finds again in the other.
+//! The number of clusters, by prediction strength: the largest number whose clusters in one half of the rows are found again
+//! in the other half.
 //!
 //! Source: R. Tibshirani and G. Walther, *Cluster validation by prediction strength* (2005,
-//! doi 10.1198/106186005X59243). Both halves of a sample are clustered. Of each cluster of one half, the share of pairs
-//! of rows is taken that the centroids of the other half keep together; the strength is the smallest share. Departure: of
-//! both directions of several halvings the median is taken, not the mean, since a few rows far out spoil some halvings.
-//! The number of clusters is the largest of at least [`STRONG`] strength.
+//! doi 10.1198/106186005X59243). Both halves of a sample are clustered. For each cluster of one half, the share of its pairs
+//! of rows is counted that the centroids of the other half put together; the strength is the smallest share. The number of
+//! clusters is the largest of at least [`STRONG`] strength. Departure: the median over both directions of several halvings
+//! is taken, not the mean, since a few outliers spoil some halvings.
 //!
 //! Compared on 38 maps (26 of offices and flats, 12 of warehouses, three of these generated), thirteen features,
 //! z-scores, 2 to 8 clusters:
@@ -12,28 +13,28 @@
 //! | criterion | numbers found |
 //! | --- | --- |
 //! | silhouette (to centroids), Calinski-Harabasz, Davies-Bouldin | 2 or 3 on most: open space against narrow space |
-//! | bend of the inertia | 3 or 4 on nearly all: it hangs on the range, not on the map |
-//! | Bayesian criterion of a mixture | not tried alone: it takes neighbouring cells for independent |
+//! | bend of the inertia | 3 or 4 on nearly all: it depends on the range, not on the map |
+//! | Bayesian information criterion of a mixture | not tried: it counts neighbouring cells as independent |
 //! | prediction strength | 2 on 1 map, 3 on 3, 4 on 7, 5 on 10, 6 on 7, 7 on 5, 8 on 5 |
 //!
-//! On five office maps with drawn rooms, hallways and doors, the number that agrees best with the drawing (V-measure) is
-//! 5, 5, 5, 2 and 10; on three generated warehouses it is 4, 3 and 7.
+//! For comparison, the number that agrees best with the true places (V-measure): 5, 5, 5, 2 and 10 on five office maps with
+//! drawn rooms, hallways and doors; 4, 3 and 7 on three generated warehouses.
 //!
-//! Cost: for each number and halving, k-means on two halves of [`HALF`] rows. Limits: rows from one map are no
-//! independent draws, so the strength tells whether k-means is sure of its clusters, not whether another map has them.
-//! Where the strength is near the bound, another seed may find another number, as a rule one more or less.
+//! Cost: for each number and halving, k-means on two halves of [`HALF`] rows. Limits: rows of one map are not independent,
+//! so the strength says whether the clusters are stable on this map, not whether another map has them. Where the strength
+//! is near the bound, another seed may find another number, usually one more or less.
 
-use super::Candidate;
 use super::kmeans::{self, KMeansOptions};
 use super::points::{Points, nearest, sample};
 use super::random::{shuffled, stream};
+use super::report::Candidate;
 use crate::watch::{Stage, Stopped, Watch};
 
-/// Strength that clusters must have: the middle of the 0.8 to 0.9 that the authors recommend.
+/// Least strength of the clusters: the middle of the range 0.8 to 0.9 that the authors recommend.
 const STRONG: f64 = 0.85;
 /// Rows in a half.
 const HALF: usize = 5_000;
-/// How often the rows are halved.
+/// Number of halvings.
 const HALVINGS: u64 = 5;
 /// Stream of random numbers of the first halving; samples and restarts have others.
 const FIRST_STREAM: u64 = 1 << 32;
@@ -79,8 +80,8 @@ pub(super) fn choose(candidates: &[Candidate]) -> usize {
     strong.or_else(strongest).map_or(1, |candidate| candidate.k)
 }
 
-/// The smallest share, over the clusters of points, of pairs that other centroids keep together. A cluster of one row
-/// has no pairs, and half of a single row no centroids.
+/// The smallest share, over the clusters of points, of pairs that other centroids put together; 1 for a cluster of one row
+/// and without centroids.
 fn strength(points: &Points, own: &[f32], others: &[f32]) -> f64 {
     if own.is_empty() || others.is_empty() {
         return 1.0;

@@ -1,8 +1,8 @@
 //! Expectation-maximization of a Gaussian mixture.
 //!
-//! Starts from clusters (k-means), as scikit-learn does. Each column's variance gets a share of the data's own added, so
-//! that no component shrinks to a point; a component that explains less than a row per column is given up, and there
-//! are fewer components. Ends when the mean log-likelihood of a row gains less than the tolerance.
+//! Starts from clusters (k-means), as scikit-learn does. A share of each column's variance over all rows is added to its
+//! variance in each component, so that no component shrinks to a point. A component of less weight than one row per column
+//! is dropped. Ends when the mean log-likelihood of a row gains less than the tolerance.
 //!
 //! Sums are taken over fixed blocks of rows and combined in order. Cost: O(rows x k x columns^2) per iteration with full
 //! covariances, O(rows x k x columns) with diagonal ones.
@@ -10,14 +10,15 @@
 use nalgebra::{Cholesky, DMatrix};
 use rayon::prelude::*;
 
-use super::{Component, GaussianMixture, Scratch, Whitening, triangle};
+use super::component::{NormalComponent, Whitening, triangle};
+use super::gaussian_mixture::{GaussianMixture, Scratch};
 use crate::clustering::points::{GROUPS_PER_BLOCK, Points, SIMD_WIDTH, nearest};
 use crate::spec::Covariance;
 use crate::watch::{Stopped, Watch};
 
-/// Share of the variance of a column in all rows that is added to it in each component. A place category of a hundredth
-/// of the map's own spread is an artefact of the grid; ten thousand times more than scikit-learn's guard against
-/// singular matrices alone.
+/// Share of a column's variance over all rows that is added to its variance in each component. A category narrower than a
+/// hundredth of the variance of the map is an artefact of the grid. (scikit-learn adds 1e-6, against singular matrices
+/// only.)
 pub(in crate::clustering) const REGULARIZATION: f64 = 1e-2;
 
 /// Gain in mean log-likelihood of a row below which a fit ends (scikit-learn: 1e-3).
@@ -36,9 +37,9 @@ pub(in crate::clustering) struct Fitted {
 }
 
 impl Fitted {
-    /// Bayesian information criterion of the fit to `rows` rows (G. Schwarz 1978): less is better.
+    /// Bayesian information criterion of the fit to `rows` rows (G. Schwarz 1978); lower is better.
     pub(in crate::clustering) fn criterion(&self, rows: usize) -> f64 {
-        let parameters = |component: &Component| {
+        let parameters = |component: &NormalComponent| {
             let (Whitening::Diagonal(factors) | Whitening::Full(factors)) = &component.whitening;
             component.mean.len() + factors.len() + 1
         };
@@ -48,7 +49,7 @@ impl Fitted {
     }
 }
 
-/// Fits a mixture that starts at `centroids` to points, of which there are some.
+/// Fits a mixture to at least one point, starting at `centroids`.
 pub(in crate::clustering) fn fit(
     points: &Points,
     centroids: &[f32],
@@ -75,7 +76,7 @@ pub(in crate::clustering) fn fit(
         let now = expected.log_likelihood / points.len() as f64;
         let gain = now - log_likelihood;
         log_likelihood = now;
-        // A component that was given up may cost a little: that is no end.
+        // Dropping a component may lower the likelihood a little, so the size of the change counts.
         let is_settled = gain.abs() < MIN_GAIN;
         if is_settled || iterations == max_iterations {
             return Ok(Fitted { mixture, log_likelihood, iterations });
@@ -188,12 +189,12 @@ impl Moments {
         }
     }
 
-    /// The mixture that explains the rows best under these memberships.
+    /// The mixture of greatest likelihood under these memberships.
     fn mixture(&self, guard: &[f64]) -> GaussianMixture {
         let columns = self.columns;
         let least = columns as f64;
         let kept: Vec<usize> = (0..self.weights.len()).filter(|&part| self.weights[part] >= least).collect();
-        // With fewer rows than columns, the heaviest component stands for all.
+        // With fewer rows than columns, only the heaviest component is kept.
         let heaviest =
             (0..self.weights.len()).max_by(|&a, &b| self.weights[a].total_cmp(&self.weights[b]).then(b.cmp(&a)));
         let kept = if kept.is_empty() { heaviest.into_iter().collect() } else { kept };
@@ -207,7 +208,7 @@ impl Moments {
                 Covariance::Diagonal => diagonal_whitening(products, weight, &mean, guard),
                 Covariance::Full => full_whitening(products, weight, &mean, guard),
             };
-            Component::new(weight / total, mean, whitening)
+            NormalComponent::new(weight / total, mean, whitening)
         });
         GaussianMixture { components: components.collect() }
     }
@@ -230,7 +231,7 @@ fn diagonal_whitening(squares: &[f64], weight: f64, mean: &[f64], guard: &[f64])
     Whitening::Diagonal(squares.iter().zip(mean).zip(guard).map(factor).collect())
 }
 
-/// Inverse Cholesky factor from sums of products; of the diagonal alone should rounding have left no such factor.
+/// Inverse Cholesky factor from sums of products; of the diagonal alone where rounding leaves no such factor.
 fn full_whitening(products: &[f64], weight: f64, mean: &[f64], guard: &[f64]) -> Whitening {
     let columns = mean.len();
     let covariance = DMatrix::from_fn(columns, columns, |row, column| {
