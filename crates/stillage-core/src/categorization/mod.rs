@@ -1,77 +1,47 @@
 //! Place categories: features, scaled and clustered (paper, II-A; doi 10.1109/ECMR.2015.7324207).
 //!
-//! A clustering is fitted to the features of a sample of the measured cells, and gives every measured cell a category
-//! while its features are at hand, and its memberships where they are asked for; relaxation, an option, lets neighbours
-//! settle on one. A free cell that was not measured takes the category of the nearest
-//! measured one, going through free space, and through walls only where there is no other way. The paper stops at the
-//! clusters; here they are numbered by their mean beam length, from the narrowest places to the widest, so that the
-//! same map has the same numbers whatever the seed.
+//! A clustering is fitted to the features of a sample of the measured cells. It gives every measured cell a category, part
+//! by part, and memberships where they are asked for; relaxation, an option, brings neighbours to agree. A free cell that
+//! is not measured takes the category of the nearest measured one through free space, or through walls where there is no
+//! other way. Departure: the paper stops at the clusters; here they are numbered by their mean beam length, from the
+//! narrowest places to the widest, so that the same map has the same numbers whatever the seed.
 //!
-//! Cost: that of the features and of the clustering, and O(cells) for the cells between. Limits: 32 categories by the
+//! Cost: that of the features and of the clustering, and O(cells) for the cells in between. Limits: 32 categories by the
 //! checked options, 253 by the type.
 
+mod category_map;
 mod parts;
 mod spread;
 
-use serde::{Deserialize, Serialize};
-
-use crate::clustering::{self, FitOptions, FitReport, Method};
+use crate::clustering::{self, FitOptions, Method};
 use crate::features::FeatureSource;
 use crate::grid::{Occupancy, OccupancyGrid};
-use crate::relaxation::{Lattice, Memberships, RelaxationReport, relax_cells};
+use crate::relaxation::{Lattice, Memberships, relax_cells};
 use crate::spec::{CategorizationOptions, ClusteringMethod, FeatureProfile};
 use crate::vectors::Vectors;
 use crate::watch::{Stage, Stopped, Watch};
 
-pub(crate) use parts::KEPT_CELLS;
-pub(crate) use parts::sampled_share;
+pub use category_map::{Category, CategoryMap};
+pub(crate) use parts::{KEPT_CELLS, sampled_share};
 use parts::{PartLabels, Sample, assign_parts};
 use spread::spread;
 
-/// Cells that categories are fitted to: the standard error of a centroid is then below half a percent of the spread.
+/// Cells that categories are fitted to: the standard error of a centroid is below half a percent of the standard
+/// deviation of a feature.
 pub(crate) const FIT_CELLS: usize = 200_000;
-/// When centroids rest. On flat ground a looser one moves thousands of cells by the seed.
+/// Movement of the centroids below which k-means ends ([`FitOptions::tolerance`]). With a looser one, thousands of cells
+/// change their category with the seed on maps without clear clusters.
 const TOLERANCE: f64 = 1e-6;
-/// The same of the author, who fitted to all cells (the default of scikit-learn).
+/// The same in the author's code, which fits to all cells (the default of scikit-learn).
 const AUTHORS_TOLERANCE: f64 = 1e-4;
 
-/// The category of every cell.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct CategoryMap {
-    /// Category of each cell, row-major; [`CategoryMap::NONE`] where the cell is not free.
-    pub cells: Vec<u8>,
-    /// The clusters, by category. Numbered in a canonical order (ascending mean beam length of the cluster).
-    pub categories: Vec<Category>,
-    /// Names of the features behind [`Category::mean_features`].
-    pub feature_names: Vec<String>,
-    /// How the clusters were found.
-    pub fit: FitReport,
-    /// What the relaxation of the cells did, where it was asked for.
-    pub relaxation: Option<RelaxationReport>,
-}
-
-/// One cluster of places.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Category {
-    /// How many free cells carry it.
-    pub cells: usize,
-    /// Mean of each feature over the measured cells of the cluster (before any relaxation), unscaled, in the order of
-    /// [`CategoryMap::feature_names`].
-    pub mean_features: Vec<f64>,
-}
-
-impl CategoryMap {
-    /// No category: the cell is not free.
-    pub const NONE: u8 = u8::MAX;
-}
-
-/// The categories of a map, and how sure they are.
+/// The categories of a map, with memberships where they are asked for.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Categorization {
     /// The category of every cell.
     pub map: CategoryMap,
-    /// The distribution of every measured cell over the categories; absent where no one asked for it, since then a cell
-    /// is of its category and no other.
+    /// The distribution of every measured cell over the categories; absent where neither a mixture nor a relaxation is asked
+    /// for, so that a cell has its category alone.
     pub memberships: Option<CellMemberships>,
 }
 
@@ -140,7 +110,7 @@ fn measured_cells(cells: &[u8]) -> Vec<u32> {
     (0..cells.len()).filter(|&cell| cells[cell] != CategoryMap::NONE).map(|cell| cell as u32).collect()
 }
 
-/// What the options mean for the clustering.
+/// The options of the clustering.
 fn fit_options(options: &CategorizationOptions, seed: u64) -> FitOptions {
     let (tolerance, fit_rows) = match options.profile {
         FeatureProfile::Paper13 => (TOLERANCE, FIT_CELLS),
@@ -162,7 +132,7 @@ fn fit_options(options: &CategorizationOptions, seed: u64) -> FitOptions {
     }
 }
 
-/// The categories with the means of their features, their cells yet to be counted.
+/// The categories with the means of their features; their cells are not counted yet.
 fn describe(parts: &[PartLabels], count: usize, columns: usize) -> Vec<Category> {
     (0..count)
         .map(|category| {
@@ -179,9 +149,9 @@ impl CellMemberships {
     fn gather(cells: Vec<u32>, parts: &[PartLabels], count: usize) -> Self {
         let mut shares = Memberships::new(cells.len(), count);
         for part in parts {
-            // Without cells there are no categories.
+            // There are no categories without cells.
             let mut of_part = part.shares.chunks_exact(count.max(1));
-            // No cell of another part lies between neighbours in a row.
+            // Between neighbours in a row lies no cell of another part, so a run is contiguous.
             for run in part.cells.chunk_by(|one, next| one + 1 == *next) {
                 let start = cells.binary_search(&run[0]).expect("every cell of a part was measured");
                 for (place, packed) in (start..).zip(of_part.by_ref().take(run.len())) {

@@ -1,7 +1,8 @@
-//! Features part by part: a sample for the clustering, then every cell its label while its features are at hand.
+//! Features part by part: a sample for the clustering, then the label of every cell.
 //!
-//! The features of all cells of a big site would fill a gigabyte, so they never exist together. The parts of the sample
-//! are kept until they are labelled, so nothing is measured twice; a map of up to [`KEPT_CELLS`] is its own sample.
+//! The features of all cells of a large site would fill a gigabyte, so they never exist together: each part is measured,
+//! labelled and dropped. The parts of the sample are kept until they are labelled, so nothing is measured twice; a map of
+//! up to [`KEPT_CELLS`] is its own sample.
 
 use std::ops::Range;
 
@@ -14,23 +15,23 @@ use crate::features::{CellFeatures, FeatureSource, Workspace};
 use crate::relaxation::Memberships;
 use crate::watch::{Stage, Stopped, Watch};
 
-/// Cells whose features are kept for the clustering: 104 MB of them, from a hundred and more parts all over the map.
+/// Cells whose features are kept for the clustering: 104 MB, from more than a hundred parts all over the map.
 pub(crate) const KEPT_CELLS: usize = 2_000_000;
 
-/// Share of so many free cells that the sample holds; 1 where it holds them all.
+/// Share of `cells` free cells that the sample holds; 1 where it holds them all.
 pub(crate) fn sampled_share(cells: usize) -> f64 {
     (KEPT_CELLS as f64 / cells.max(1) as f64).min(1.0)
 }
 
-/// The features of some parts, drawn by lot, or of all.
+/// The features of some parts, drawn at random, or of all.
 pub(super) struct Sample {
-    /// Cells of the parts, and where their rows are; nothing for the parts that were not drawn.
+    /// By part, its cells and the range of their values in `rows`; `None` for the parts that were not drawn.
     parts: Vec<Option<(Vec<u32>, Range<usize>)>>,
     rows: Vec<f32>,
 }
 
 impl Sample {
-    /// Draws as many parts as hold [`KEPT_CELLS`] of so many `cells` on average, and measures them.
+    /// Draws as many parts as hold [`KEPT_CELLS`] of `cells` cells on average, and measures them.
     pub(super) fn measure(
         source: &FeatureSource<'_>,
         cells: usize,
@@ -38,7 +39,7 @@ impl Sample {
         watch: &Watch<'_>,
     ) -> Result<Self, Stopped> {
         let sample = Self::of(source, draw(source.parts(), sampled_share(cells), seed), watch)?;
-        // The lot may fall on empty parts alone.
+        // All drawn parts may be empty.
         if sample.rows.is_empty() { Self::of(source, (0..source.parts()).collect(), watch) } else { Ok(sample) }
     }
 
@@ -72,14 +73,14 @@ impl Sample {
 fn draw(parts: usize, share: f64, seed: u64) -> Vec<usize> {
     let wanted = ((parts as f64 * share).ceil() as usize).min(parts);
     let mut random = ChaCha8Rng::seed_from_u64(seed);
-    let mut lots: Vec<usize> = (0..parts).collect();
+    let mut order: Vec<usize> = (0..parts).collect();
     for place in 0..wanted {
         let other = place + (random.next_u64() % (parts - place) as u64) as usize;
-        lots.swap(place, other);
+        order.swap(place, other);
     }
-    lots.truncate(wanted);
-    lots.sort_unstable();
-    lots
+    order.truncate(wanted);
+    order.sort_unstable();
+    order
 }
 
 /// The labels of the cells of a part, and what they add to the description of the categories.

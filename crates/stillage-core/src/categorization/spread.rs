@@ -1,15 +1,15 @@
-//! Categories of the free cells between the measured ones.
+//! Categories of the free cells that were not measured.
 
 use std::collections::VecDeque;
 
-use super::CategoryMap;
+use super::category_map::CategoryMap;
 use crate::grid::{Occupancy, OccupancyGrid};
 use crate::watch::{Stopped, Watch};
 
-/// Cells between two looks at the stop flag.
+/// Cells between two checks of the stop flag.
 const CELLS_PER_CHECK: usize = 1 << 16;
 
-/// Spreads the categories of the measured cells to the other free cells, to the nearest first.
+/// Gives every other free cell the category of the nearest measured one. Cost: O(cells).
 pub(super) fn spread(
     grid: &OccupancyGrid,
     measured: &[u32],
@@ -30,7 +30,7 @@ pub(super) fn spread(
     {
         return Ok(());
     }
-    // Some free space is cut off from every measured cell: look through the walls.
+    // Free cells without a way to a measured cell: the nearest one through other cells.
     let reached: Vec<u32> =
         (0..cells.len()).filter(|&cell| cells[cell] != CategoryMap::NONE).map(|cell| cell as u32).collect();
     flood(grid.width(), &reached, cells, |_| true, watch)?;
@@ -40,8 +40,8 @@ pub(super) fn spread(
     Ok(())
 }
 
-/// Gives the category of the nearest source to every cell that may be entered, in chessboard steps; of equally near
-/// sources the one whose wave comes first, the lower cell.
+/// Gives every cell that may be entered the category of the nearest source, in chessboard steps; of equally near sources
+/// the first in breadth-first order.
 fn flood(
     width: usize,
     sources: &[u32],
@@ -50,9 +50,9 @@ fn flood(
     watch: &Watch<'_>,
 ) -> Result<(), Stopped> {
     let height = cells.len() / width;
-    let mut wave: VecDeque<u32> = sources.iter().copied().collect();
+    let mut queue: VecDeque<u32> = sources.iter().copied().collect();
     let mut steps = 0_usize;
-    while let Some(cell) = wave.pop_front() {
+    while let Some(cell) = queue.pop_front() {
         steps += 1;
         if steps.is_multiple_of(CELLS_PER_CHECK) {
             watch.check()?;
@@ -64,7 +64,7 @@ fn flood(
                 let near = near_row * width + near_column;
                 if cells[near] == CategoryMap::NONE && enters(near) {
                     cells[near] = cells[cell];
-                    wave.push_back(near as u32);
+                    queue.push_back(near as u32);
                 }
             }
         }
