@@ -1,10 +1,10 @@
 //! Directions that only a part of a map has.
 //!
-//! The energy of a whole map is a sum of squares: a few hundred aligned racks leave a hall of another direction far below
-//! any threshold, though it is as clear to the eye. So the map is asked block by block. A block whose own best pair of
-//! perpendicular directions stands out, and far above all pairs that are known, votes for its own; a pair with votes
-//! enough is refined on the blocks that voted for it. Cost: that of one more scan, since the blocks share the sample.
-//! Limits: parts smaller than [`LEAST_BLOCKS`] blocks have no say.
+//! The energy of a whole map is a sum of squares, so a hall of another direction beside a few hundred aligned racks stays
+//! far below any threshold. So the map is scanned block by block. A block votes for its best pair of perpendicular
+//! directions if that pair stands out, and far above all known pairs; a pair with enough votes is refined on the blocks
+//! that voted for it. Cost: that of one more scan, since the blocks share the sample. Limits: parts smaller than
+//! [`LEAST_BLOCKS`] blocks are not found.
 
 use rayon::prelude::*;
 
@@ -16,12 +16,13 @@ use crate::watch::{Stopped, Watch};
 const BLOCK_M: f64 = 20.0;
 /// Fewest cells of a block that show a direction.
 const LEAST_CELLS: usize = 300;
-/// How far the best pair of a block stands out, deviations of scattered cells, and how far above the known pairs.
+/// Least contrast of the best pair of a block, standard deviations of that of scattered cells.
 const LEAST_DEVIATIONS: f64 = 20.0;
+/// Least contrast of the best pair of a block, over that of the known pairs.
 const ABOVE_KNOWN: f64 = 2.0;
-/// Votes within this are for one pair, radians: half of what keeps two apart.
-const SAME_VOTE: f64 = 1.5 * std::f64::consts::PI / 180.0;
-/// Votes that a pair needs: furniture of a room stands askew, too.
+/// Votes within this are for one pair, radians: half the distance of two peaks of a scan.
+const SAME_PAIR: f64 = 1.5 * std::f64::consts::PI / 180.0;
+/// Votes that a pair needs: the furniture of one room may be turned as well.
 const LEAST_BLOCKS: usize = 4;
 
 /// Pairs that parts of a map have and that are none of `known`; one direction of each, radians.
@@ -42,7 +43,7 @@ pub(super) fn pairs(
         votes.into_iter().zip(blocks).filter_map(|(vote, block)| Some((vote?, block))).collect();
     let mut pairs = Vec::new();
     loop {
-        let is_for = |angle: f64, vote: f64| pair_angle_between(vote, angle) <= SAME_VOTE;
+        let is_for = |angle: f64, vote: f64| pair_angle_between(vote, angle) <= SAME_PAIR;
         let supporters = |angle: f64| votes.iter().filter(|vote| is_for(angle, vote.0)).count();
         let counts = votes.iter().map(|vote| (supporters(vote.0), vote.0));
         let best = counts.reduce(|best, other| if other.0 > best.0 { other } else { best });
@@ -57,7 +58,7 @@ pub(super) fn pairs(
     }
 }
 
-/// The best pair of a block, if no known one explains it.
+/// The best pair of a block, unless a known one explains it.
 fn vote(block: &OccupiedSample, known: &[f64], watch: &Watch<'_>) -> Result<Option<f64>, Stopped> {
     if block.len() < LEAST_CELLS {
         return Ok(None);

@@ -1,17 +1,21 @@
 //! Radiogram energy: how sharply a map is aligned along a direction.
 //!
 //! Project the occupied cells on the normal of the direction, count them per bin of one cell, and add up the squares:
-//! the sum is largest where walls and racks fall into few bins. What counts is the *contrast*: the energy above the
-//! running median of the neighbouring directions. Source: the criterion of the accuracy study behind this project
-//! (worst error of 31 maps 0.07 degrees and nothing missed or invented, against 0.25 degrees at the median and three
-//! regions missed for gradient histograms); the same idea finds the skew of scanned pages (W. Postl, *Detection of
-//! linear oblique structures and skew scan in digitized documents*, ICPR 1986).
+//! the sum is largest where walls and racks fall into few bins. The *contrast* of a direction is its energy above the
+//! running median of the neighbouring directions. Source: the accuracy study behind this project; the same idea finds the
+//! skew of scanned pages (W. Postl, *Detection of linear oblique structures and skew scan in digitized documents*, ICPR
+//! 1986). Measured there on 31 maps:
 //!
-//! Cells are points jittered inside their cell, else the pixel grid itself would be the best alignment. The jitter and
-//! the choice of a sample are hashes of the cell's index: the same on every run and any number of threads.
+//! | method | error | missed |
+//! | --- | --- | --- |
+//! | radiogram energy | 0.07 degrees at worst | nothing |
+//! | gradient histogram | 0.25 degrees in the median | three regions |
 //!
-//! Cost: O(cells + sample x angles). Limits: the energy of a direction falls about as 1 / error, so a scan in steps of
-//! 0.25 degrees sees every alignment, but one in much wider steps would not.
+//! Cells are points jittered inside their cell, since otherwise the pixel grid itself would be the best alignment. The
+//! jitter and the choice of a sample are hashes of the cell's index: the same on every run and any number of threads.
+//!
+//! Cost: O(cells + sample x angles). Limits: the energy of a direction falls about as 1 / error; a scan in steps of 0.25
+//! degrees finds every alignment, one in much wider steps would not.
 
 use rayon::prelude::*;
 
@@ -21,22 +25,23 @@ use crate::grid::{Occupancy, OccupancyGrid};
 use crate::signal::{self, Boundary};
 use crate::watch::{Stopped, Watch};
 
-/// About how many cells a sample holds (accuracy study: more change nothing).
+/// About how many cells a sample holds; in the accuracy study more changed nothing.
 pub const SAMPLE_CELLS: usize = 120_000;
-/// Points that a sample has at least, several per cell if need be: the energy of few cells is smooth that way.
+/// Fewest points of a sample, several per cell if needed, so that the energy of few cells is smooth.
 const MIN_POINTS: usize = 4_096;
-/// What is left of the noise where cells are copied: measured on random grids of 20 to 3000 cells.
+/// Factor on the noise where each cell has several points: measured on random grids of 20 to 3000 cells.
 const NOISE_OF_COPIES: f64 = 0.3;
-/// Directions of a scan over half a turn: steps of 0.25 degrees (accuracy study).
+/// Directions of a scan over half a turn (accuracy study).
 const SCAN_ANGLES: usize = 720;
+/// Step of a scan, degrees.
 const SCAN_STEP_DEG: f64 = 180.0 / SCAN_ANGLES as f64;
 /// Half the width of the running median, scan steps: 15 degrees in all (accuracy study).
 const MEDIAN_REACH: usize = 30;
-/// Distance that the maxima of a scan keep, scan steps: 3 degrees (accuracy study).
+/// Least distance of two maxima of a scan, scan steps: 3 degrees (accuracy study).
 const PEAK_DISTANCE: f64 = 12.0;
-/// How far an orientation may move when it is refined, scan steps: 1.5 degrees.
+/// Largest move of an orientation when it is refined, scan steps: 1.5 degrees.
 const REFINE_REACH: isize = 6;
-/// Steps and their number to either side of the search for a pair, degrees: from 1.5 down to 0.0125.
+/// Search for a pair: steps in degrees, and their number to either side.
 const PAIR_STEPS_DEG: [(f64, i32); 3] = [(0.25, 6), (0.05, 5), (0.0125, 4)];
 /// Steps of the search near the best angle of the scan, degrees.
 const FINE_STEPS_DEG: [f64; 2] = [0.05, 0.0125];
@@ -46,7 +51,7 @@ const FINE_STEPS_DEG: [f64; 2] = [0.05, 0.0125];
 pub struct OccupiedSample {
     /// Points per cell.
     copies: usize,
-    /// In cells: `f32` holds them to 0.004 cells on the largest grids.
+    /// Column and row with fractions; `f32` is exact to 0.004 cells on the largest grids.
     points: Vec<[f32; 2]>,
 }
 
@@ -169,7 +174,7 @@ impl OccupiedSample {
         let normal = [-sine as f32, cosine as f32];
         let offset = |[x, y]: [f32; 2]| normal[0] * x + normal[1] * y;
         let corners = [[left, bottom], [right, bottom], [left, top], [right, top]].map(offset);
-        // A bin to spare on either side for what rounding does at the corners.
+        // A spare bin on either side for rounding at the corners.
         let low = corners.iter().copied().fold(f32::INFINITY, f32::min) - 1.0;
         let high = corners.iter().copied().fold(f32::NEG_INFINITY, f32::max);
         let mut bins = vec![0_u32; (high - low) as usize + 2];
@@ -197,14 +202,16 @@ fn for_each_occupied(
     Ok(())
 }
 
-/// The energies over all directions and what they stand out from.
+/// The energies over all directions, and their running median.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EnergyScan {
+    /// By step of the scan.
     energies: Vec<f64>,
+    /// Running median of the energies.
     background: Vec<f64>,
 }
 
-/// A direction and how far its energy stands out.
+/// A direction and its contrast.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Alignment {
     /// Direction of lines, radians in `[-pi/2, pi/2)`.
@@ -238,7 +245,7 @@ impl EnergyScan {
         self.energies[step] - self.background[step]
     }
 
-    /// The contrasts over `[-pi/2, pi/2)`, negative ones as nothing, sum 1; empty without contrast.
+    /// The contrasts over `[-pi/2, pi/2)`, negative ones as 0, of sum 1; empty without contrast.
     #[must_use]
     pub fn normalized_contrasts(&self) -> Vec<f64> {
         let contrasts: Vec<f64> = (0..self.energies.len() as isize).map(|step| self.contrast(step).max(0.0)).collect();
@@ -255,8 +262,7 @@ impl EnergyScan {
     /// Standard deviation that the energy would have if the cells were scattered at random.
     ///
     /// For bins that hold a Poisson number of cells with mean `l`, the sum of squares over `b` bins has the variance
-    /// `b (4 l^3 + 6 l^2 + l)`; the mean energy is `l` and up to one more for the cell itself. Copies of the cells smooth
-    /// most of it away.
+    /// `b (4 l^3 + 6 l^2 + l)`; the mean energy is `l` to `l + 1`. Several points per cell smooth most of the noise away.
     #[must_use]
     pub fn noise(&self, sample: &OccupiedSample) -> f64 {
         let per_bin = self.mean_energy();
@@ -301,7 +307,7 @@ impl EnergyScan {
         let contrasts: Vec<f64> = steps.iter().map(|&step| self.contrast(step)).collect();
         let best = highest(&contrasts);
         if best == 0 || best + 1 == steps.len() {
-            // The foot of something further away, which is a peak of its own.
+            // No maximum nearby: this is the slope of a peak further away, which is found by itself.
             return Ok(Alignment { angle: fold_half_turn(angle), contrast: self.contrast(start) });
         }
         let background = self.background[steps[best].rem_euclid(SCAN_ANGLES as isize) as usize];

@@ -1,12 +1,11 @@
 //! Histogram of gradient orientations, weighted by magnitude ("wHOG" in the paper, II-B).
 //!
-//! The picture is 1 where a cell is occupied and 0 elsewhere, so the rim of the unknown is no structure; it continues
-//! beyond the grid as its border cells do. Gradients are first derivatives of a Gaussian, separable. A row with its
-//! few occupied cells is filtered by adding one kernel per occupied cell, columns by sums of whole rows, which the
-//! compiler vectorizes.
+//! The picture is 1 where a cell is occupied and 0 elsewhere, so the border of the unknown has no gradient; beyond the grid
+//! the border cells repeat. Gradients are first derivatives of a Gaussian, separable. A row is filtered by adding one
+//! kernel per occupied cell, columns by sums of whole rows, which the compiler vectorizes.
 //!
-//! Departure: the author's code blurs twice and takes an 11 x 11 Sobel kernel of the grey picture, all in pixels;
-//! here one scale in metres says it. Cost: O(cells x kernel). Limits: the kernel is held to 1 to 32 cells.
+//! Departure: the author's code blurs twice and takes an 11 x 11 Sobel kernel of the grey picture, all in pixels; here
+//! there is one scale, in metres. Cost: O(cells x kernel). Limits: the standard deviation is limited to 1 to 32 cells.
 
 use std::f32::consts::{FRAC_PI_2, PI};
 
@@ -16,14 +15,14 @@ use crate::grid::{Occupancy, OccupancyGrid};
 use crate::spec::OrientationOptions;
 use crate::watch::{Stopped, Watch};
 
-/// Range of the standard deviation, cells: below one the derivative is not sampled well, above the cost runs away.
+/// Range of the standard deviation, cells: below it the derivative is not sampled well, above it the cost is too high.
 const SIGMA_CELLS: [f64; 2] = [1.0, 32.0];
-/// Gradients below this are rounding (the picture has a range of 1).
+/// Gradients below this are rounding (the picture has values from 0 to 1).
 const MIN_MAGNITUDE: f32 = 1e-4;
 /// Rows filtered by one task. Fixed, so that sums do not depend on the number of threads.
 const STRIP_ROWS: usize = 64;
 
-/// Sums per part of the grid and bin; a part that was not met is empty.
+/// Sums by part of the grid and bin; a part without gradients is empty.
 type Histograms = Vec<Vec<f64>>;
 
 /// Adds up gradient magnitudes by direction of line (gradient plus a quarter turn), for each of `count` parts.
@@ -50,7 +49,7 @@ where
                 let Some(part) = (magnitude > MIN_MAGNITUDE).then(|| part_of(column, row)).flatten() else { return };
                 let sums = &mut sums[part];
                 sums.resize(options.bins, 0.0);
-                // Shared between the two nearest bin centres: a direction on the edge of a bin is not drawn to one side.
+                // Shared between the two nearest bin centres, so that directions at the edge of a bin are not biased.
                 let (bin, rest) = bin_of_line(along, across, options.bins);
                 sums[bin] += f64::from(magnitude * (1.0 - rest));
                 sums[(bin + 1) % options.bins] += f64::from(magnitude * rest);
@@ -67,8 +66,8 @@ where
     Ok(totals)
 }
 
-/// Where among the bins over `[-pi/2, pi/2)` the line across a gradient lies: the bin whose centre is the last before
-/// it, and the way to the next, 0 to 1.
+/// The position among the bins over `[-pi/2, pi/2)` of the line across a gradient: the bin whose centre is the last before
+/// it, and the fraction of the way to the next centre.
 fn bin_of_line(along: f32, across: f32, bins: usize) -> (usize, f32) {
     // The line runs along (-across, along); its angle is folded to half a turn and counted from -pi/2.
     let angle = along.atan2(-across) + FRAC_PI_2;
@@ -154,7 +153,7 @@ impl FilteredRow {
         let first = cells.iter().position(|&cell| cell == Occupancy::Occupied)?;
         let (width, reach) = (cells.len(), kernels.reach());
         let mut row = Self { smooth: vec![0.0; width], slope: vec![0.0; width] };
-        // Columns are counted from `reach` left of the grid, where its first cell goes on.
+        // Columns are counted from `reach` left of the grid, where its first cell repeats.
         let start = if first == 0 { 0 } else { first + reach };
         for padded in start..width + 2 * reach {
             let column = padded.saturating_sub(reach).min(width - 1);
@@ -168,13 +167,13 @@ impl FilteredRow {
     /// Adds the response to one occupied cell at a column counted from `reach` left of the grid.
     fn add(&mut self, padded: usize, kernels: &Kernels) {
         let reach = kernels.reach();
-        // It touches the columns from two reaches before its padded column to that column.
+        // It reaches the columns from two reaches before its padded column to that column.
         let from = padded.saturating_sub(2 * reach);
         let to = (padded + 1).min(self.smooth.len());
         let skipped = from + 2 * reach - padded;
         for (index, column) in (from..to).enumerate() {
             self.smooth[column] += kernels.smooth[skipped + index];
-            // The slope is that of the picture, hence the kernel mirrored: before an occupied cell it rises.
+            // A convolution mirrors its kernel, and the kernel of the slope is odd.
             self.slope[column] -= kernels.slope[skipped + index];
         }
     }

@@ -1,40 +1,46 @@
 //! Mixture of wrapped normal distributions with a uniform floor, over directions of lines (period pi).
 //!
-//! Source: the paper, II-B: "GMM acts as an aggressive low-pass filter". Fitted by expectation-maximization on the
-//! bins of a histogram; the number of components is the one of least Bayesian information criterion (G. Schwarz,
-//! *Estimating the dimension of a model*, 1978). Each normal is wrapped by its nearest image, which is exact to 1e-4
-//! for the deviations allowed here.
+//! Source: the paper, II-B: "GMM acts as an aggressive low-pass filter". Fitted by expectation-maximization on the bins of
+//! a histogram; the number of components is that of the least Bayesian information criterion (G. Schwarz, *Estimating the
+//! dimension of a model*, 1978). Only the nearest image of each wrapped normal is counted, exact to 1e-4 for the deviations
+//! allowed here.
 //!
-//! Cost: O(bins x components) per iteration. Limits: components start at the highest bins, so results depend on them;
-//! they are the same on every run.
+//! Cost: O(bins x components) per iteration. Limits: components start at the highest bins, and the result depends on the
+//! start; it is the same on every run.
 
 use std::f64::consts::PI;
 
+use super::bins::angle_at;
 use crate::geometry::fold_half_turn;
 use crate::watch::{Stopped, Watch};
 
-/// What the histogram is worth in independent observations: the gradients of neighbouring cells are not independent,
-/// so the criterion must not count each of them (3000 in the accuracy study).
+/// Independent observations that the histogram counts for in the criterion (3000 in the accuracy study): the gradients of
+/// neighbouring cells are not independent.
 const OBSERVATIONS: f64 = 3_000.0;
 /// Parameters of a component: mean, deviation, weight.
 const PARAMETERS: f64 = 3.0;
-/// Most iterations, and the gain in log-likelihood per observation below which they end.
+/// Most iterations of a fit.
 const ITERATIONS: usize = 60;
+/// Gain in log-likelihood per observation below which a fit ends.
 const MIN_GAIN: f64 = 1e-7;
-/// Deviations at the start, and their range, degrees: below half a degree there are only artefacts of the pixel grid,
-/// above twenty there is no orientation any more and the floor takes over.
+/// Standard deviation of each component at the start, degrees.
 const FIRST_DEVIATION_DEG: f64 = 3.0;
+/// Range of the standard deviation, degrees: narrower peaks are artefacts of the pixel grid, wider ones no orientation.
 const DEVIATIONS_DEG: [f64; 2] = [0.5, 20.0];
-/// Angle that the first means keep, degrees.
+/// Least angle between the means at the start, degrees.
 const FIRST_SEPARATION_DEG: f64 = 6.0;
-/// Weight of the floor at the start, and its least.
+/// Weight of the floor at the start.
 const FIRST_FLOOR: f64 = 0.3;
+/// Least weight of the floor.
 const MIN_FLOOR: f64 = 1e-6;
 /// Numbers of components without a better criterion after which the search for their number ends.
 const PATIENCE: usize = 2;
+/// Deviations from the mean beyond which a density is taken as 0: it is below 1e-15 of the peak there.
+const MAX_DEVIATIONS: f64 = 8.5;
 
+/// A weighted wrapped normal distribution; angles in radians.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Component {
+struct WrappedNormal {
     mean: f64,
     deviation: f64,
     weight: f64,
@@ -43,7 +49,8 @@ struct Component {
 /// A fitted mixture. The weights of the components and the floor sum to 1.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Mixture {
-    components: Vec<Component>,
+    components: Vec<WrappedNormal>,
+    /// Weight of the uniform distribution.
     floor: f64,
 }
 
@@ -68,7 +75,7 @@ impl Mixture {
         Ok(best.1)
     }
 
-    /// Components at the highest bins that keep some distance.
+    /// Components at the highest bins that are far enough apart.
     fn start(histogram: &[f64], count: usize) -> Self {
         let mut order: Vec<usize> = (0..histogram.len()).collect();
         order.sort_by(|&one, &other| histogram[other].total_cmp(&histogram[one]).then(one.cmp(&other)));
@@ -83,7 +90,7 @@ impl Mixture {
         }
         let weight = (1.0 - FIRST_FLOOR) / means.len().max(1) as f64;
         let deviation = FIRST_DEVIATION_DEG.to_radians();
-        let components = means.into_iter().map(|mean| Component { mean, deviation, weight }).collect();
+        let components = means.into_iter().map(|mean| WrappedNormal { mean, deviation, weight }).collect();
         Self { components, floor: FIRST_FLOOR }
     }
 
@@ -153,29 +160,29 @@ impl Mixture {
         (0..bins).map(|bin| self.density(bin_center(bin, bins)) * PI / bins as f64).collect()
     }
 
-    /// Share of what has no orientation.
+    /// Weight of the uniform floor.
     pub(super) fn floor(&self) -> f64 {
         self.floor
     }
 }
 
-impl Component {
+impl WrappedNormal {
     /// Signed angle from the mean, and the weighted density there.
     fn density(&self, angle: f64) -> (f64, f64) {
-        // Both angles are folded already, so one turn at most is needed; this is the innermost loop.
+        // Both angles are folded, so at most one half turn is added. This is the innermost loop.
         let difference = angle - self.mean;
         let distance = if difference.abs() > PI / 2.0 { difference - PI.copysign(difference) } else { difference };
         let scaled = distance / self.deviation;
-        // Further out it is less than 1e-15 of the height: not worth an exponential.
-        let bell = if scaled.abs() < 8.5 { (-0.5 * scaled * scaled).exp() } else { 0.0 };
+        let bell = if scaled.abs() < MAX_DEVIATIONS { (-0.5 * scaled * scaled).exp() } else { 0.0 };
         (distance, self.weight * bell / (self.deviation * (2.0 * PI).sqrt()))
     }
 }
 
 fn bin_center(bin: usize, bins: usize) -> f64 {
-    super::angle_at(bin as f64, bins)
+    angle_at(bin as f64, bins)
 }
 
+/// Bayesian information criterion; lower is better.
 fn criterion(mixture: &Mixture, likelihood: f64) -> f64 {
     -2.0 * OBSERVATIONS * likelihood + PARAMETERS * mixture.components.len() as f64 * OBSERVATIONS.ln()
 }
@@ -185,7 +192,7 @@ mod tests {
     use super::*;
 
     fn histogram(peaks: &[(f64, f64, f64)], floor: f64) -> Vec<f64> {
-        let components = peaks.iter().map(|&(mean, deviation, weight)| Component {
+        let components = peaks.iter().map(|&(mean, deviation, weight)| WrappedNormal {
             mean: mean.to_radians(),
             deviation: deviation.to_radians(),
             weight,

@@ -1,8 +1,13 @@
 //! Orientations of drawn halls, degenerate grids and real maps.
 
+use std::f64::consts::PI;
+
+use super::energy::OccupiedSample;
 use super::*;
+use crate::geometry::line_angle_between;
 use crate::grid::{GridFrame, Occupancy};
 use crate::test_maps::{self, Hall};
+use crate::watch::Stage;
 use crate::{Point, StopFlag};
 use expect_test::expect;
 use proptest::prelude::*;
