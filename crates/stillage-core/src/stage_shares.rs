@@ -1,12 +1,12 @@
-//! How the time of an analysis divides among its stages, estimated before the first one.
+//! The share of each stage in the time of an analysis, estimated before the first stage.
 //!
-//! One table of shares does not serve all maps: beams take a third of the time of a small map and two thirds of that of
-//! a site of the paper's size, and options move it as much. So the time of each stage is estimated from the cells of the
-//! map and the options, by the measured rates below. The tests hold the estimate to measured runs.
+//! No fixed shares fit all maps: beams take a third of the time of a small map and two thirds of that of a site of the
+//! paper's size, and options change it as much. So the time of each stage is estimated from the cells of the map and the
+//! options, by the measured rates below. The tests compare the estimate with measured runs.
 //!
-//! Rates are nanoseconds on two threads of an AMD EPYC with AVX-512, fitted on 2026-11-28 to the runs in the tests. Only
-//! their ratios matter. Limits: what a map holds decides as well (rows, directions, iterations until clusters rest), so a
-//! stage of a small map may take twice its estimate; lines of the paper's method may be so many that faces take longest.
+//! Rates are nanoseconds on two threads of an AMD EPYC with AVX-512, fitted on 2026-11-28 to the runs in the tests; only
+//! their ratios matter. Limits: the content of a map counts as well (rows, directions, iterations of k-means), so a stage of
+//! a small map may take twice its estimate; with very many lines of the paper's method the arrangement takes longest.
 
 use crate::categorization::{FIT_CELLS, KEPT_CELLS, sampled_share};
 use crate::grid::{Occupancy, OccupancyGrid};
@@ -17,7 +17,9 @@ use crate::spec::{
 };
 use crate::watch::Stage;
 
-/// For each cell of the grid, whatever it holds: a pass or several over the whole grid.
+pub use crate::watch::StageShares;
+
+// Passes over the whole grid, for each cell, ns.
 const DECLUTTER: f64 = 10.0;
 const ORIENTATION_ENERGY: f64 = 15.0;
 const ORIENTATION_PAPER: f64 = 15.0;
@@ -30,39 +32,41 @@ const SITE_PLAN: f64 = 30.0;
 const ARRANGEMENT: f64 = 8.0;
 const ANNOTATION: f64 = 8.0;
 
-/// Beams of `paper13` at 360 a cell: the first sweep and the sweeps of the tiles for each cell of the grid, the sums of
-/// the features for each measured cell.
+/// First sweep of `paper13` at 360 beams, for each cell of the grid, ns.
 const FIRST_SWEEP: f64 = 36.0;
+/// Sweeps of the tiles of `paper13` at 360 beams, for each cell of the grid, ns.
 const TILE_SWEEPS: f64 = 170.0;
+/// Sums of the features of `paper13` at 360 beams, for each measured cell, ns.
 const FEATURE_SUMS: f64 = 145.0;
-/// Beams and features of `halmstad2017` at 360 beams, for each measured cell.
+/// Beams and features of `halmstad2017` at 360 beams, for each measured cell, ns.
 const HALMSTAD: f64 = 26_000.0;
-/// Labelling a measured cell, and keeping it.
+/// Labelling and storing a measured cell, ns.
 const LABEL: f64 = 20.0;
-/// One iteration of the relaxation of a cell, for each category.
+/// One iteration of the relaxation of a cell, for each category, ns.
 const RELAXATION: f64 = 8.0;
 
-/// k-means for each row and category: all iterations of one restart, and the last run on the whole sample.
+/// All iterations of one restart of k-means, for each row and category, ns.
 const RESTART: f64 = 31.0;
+/// Last run of k-means on the whole sample, for each row and category, ns.
 const LAST_RUN: f64 = 60.0;
-/// The same for a restart of `halmstad2017`, whose tolerance is finer in effect and whose rows are longer.
+/// One restart of `halmstad2017`, for each row and category, ns: its rows are longer and it takes more iterations.
 const HALMSTAD_RESTART: f64 = 90.0;
-/// Rows for which restarts compete, as a share of the fitted ones.
-const COMPETITION: f64 = 0.1;
-/// k-means when the number is found, in times of its last run; a mixture after it as well.
+/// Rows on which restarts are compared, as a share of the fitted ones.
+const COMPARISON: f64 = 0.1;
+/// Time of the search for the number of clusters, and that of a mixture, over that of k-means.
 const SEARCH: f64 = 7.0;
 
-/// One occupied cell of the sample of the radiogram energy.
+/// Radiogram energy, for each occupied cell of the sample, ns.
 const ORIENTATION_SAMPLE: f64 = 1_000.0;
 
-/// How many cells a map has, of all kinds.
+/// How many cells a map has.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct CellCounts {
-    /// All.
+    /// Cells of the grid.
     pub cells: usize,
-    /// Free ones.
+    /// Free cells.
     pub free: usize,
-    /// Occupied ones.
+    /// Occupied cells.
     pub occupied: usize,
 }
 
@@ -75,33 +79,15 @@ impl CellCounts {
     }
 }
 
-/// The share of each stage in the time of an analysis.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct StageShares([f64; Stage::ALL.len()]);
-
-impl Default for StageShares {
-    /// The same for all: before anything is known.
-    fn default() -> Self {
-        Self([1.0 / Stage::ALL.len() as f64; Stage::ALL.len()])
-    }
-}
-
 impl StageShares {
     /// Estimates the shares for a map and options.
     #[must_use]
     pub fn estimate(counts: &CellCounts, options: &AnalysisOptions) -> Self {
-        let times = Stage::ALL.map(|stage| nanoseconds(stage, counts, options));
-        let whole: f64 = times.iter().sum();
-        if whole > 0.0 { Self(times.map(|time| time / whole)) } else { Self::default() }
-    }
-
-    /// Share of a stage, 0 to 1; all together are 1.
-    #[must_use]
-    pub const fn of(&self, stage: Stage) -> f64 {
-        self.0[stage as usize]
+        Self::of_times(Stage::ALL.map(|stage| nanoseconds(stage, counts, options)))
     }
 }
 
+/// Estimated time of a stage.
 fn nanoseconds(stage: Stage, counts: &CellCounts, options: &AnalysisOptions) -> f64 {
     let cells = counts.cells as f64;
     let sample = counts.occupied.min(energy::SAMPLE_CELLS) as f64;
@@ -134,12 +120,12 @@ fn nanoseconds(stage: Stage, counts: &CellCounts, options: &AnalysisOptions) -> 
     }
 }
 
-/// Cells that are measured.
+/// Number of measured cells.
 fn measured(counts: &CellCounts, options: &CategorizationOptions) -> f64 {
     counts.free as f64 / (options.stride * options.stride) as f64
 }
 
-/// Features of the sample, and those of the other cells.
+/// Time of the features of the sample, and of those of the other cells, ns.
 fn features(counts: &CellCounts, options: &CategorizationOptions) -> [f64; 2] {
     let beams = options.beams as f64 / 360.0;
     let (cells, measured) = (counts.cells as f64, measured(counts, options));
@@ -158,8 +144,8 @@ fn clustering(counts: &CellCounts, options: &CategorizationOptions) -> f64 {
     let k_means = match options.profile {
         FeatureProfile::Halmstad2017 => HALMSTAD_RESTART * k * restarts * kept,
         FeatureProfile::Paper13 => {
-            let competing = fitted.min(COMPETITION * FIT_CELLS as f64);
-            k * (RESTART * restarts * competing + LAST_RUN * fitted)
+            let compared = fitted.min(COMPARISON * FIT_CELLS as f64);
+            k * (RESTART * restarts * compared + LAST_RUN * fitted)
         }
     };
     let search = if options.k == CategoryCount::Auto { SEARCH } else { 0.0 };
@@ -172,7 +158,7 @@ fn labels(counts: &CellCounts, options: &CategorizationOptions) -> f64 {
     measured(counts, options) * (LABEL + RELAXATION * iterations * clusters(options) as f64)
 }
 
-/// The number of categories, or the middle of the range in which it is found.
+/// The number of categories, or the middle of the range that is searched.
 fn clusters(options: &CategorizationOptions) -> usize {
     match options.k {
         CategoryCount::Fixed(count) => count,

@@ -15,7 +15,7 @@ pub struct CategorizationOptions {
     pub max_range_m: Option<f64>,
     /// Whether unknown cells stop beams.
     pub unknown_blocks: bool,
-    /// Every how many columns and rows a free cell is measured; the cells between take the category of the nearest.
+    /// Step between measured columns and rows; the free cells in between take the category of the nearest measured one.
     pub stride: usize,
     /// Smallest difference of consecutive beams that counts as a gap, metres.
     pub gap_m: f64,
@@ -29,7 +29,7 @@ pub struct CategorizationOptions {
     pub clustering: ClusteringMethod,
     /// Covariances of the components of a Gaussian mixture.
     pub covariance: Covariance,
-    /// Restarts of k-means, the best one wins.
+    /// Restarts of k-means; the best one is kept.
     pub restarts: usize,
     /// Most iterations of one run of k-means or of expectation-maximization.
     pub max_iterations: usize,
@@ -40,9 +40,9 @@ pub struct CategorizationOptions {
 /// A number of categories: in JSON a number or `"auto"`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum CategoryCount {
-    /// As many as the features tell apart reliably.
+    /// As many as are found reliably, by prediction strength.
     Auto,
-    /// So many.
+    /// This many.
     Fixed(usize),
 }
 
@@ -66,11 +66,11 @@ pub enum Covariance {
     Full,
 }
 
-/// Options of a probabilistic relaxation: neighbours settle on categories that go together.
+/// Options of a probabilistic relaxation: neighbours move towards categories that go together.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields, rename_all = "camelCase")]
 pub struct RelaxationOptions {
-    /// Most iterations; it ends earlier when nothing moves.
+    /// Most iterations; it ends earlier when no share changes any more.
     pub iterations: usize,
 }
 
@@ -80,7 +80,7 @@ pub struct RelaxationOptions {
 pub enum FeatureProfile {
     /// The thirteen features of the paper's Table I, in metres, over closed scans.
     Paper13,
-    /// The seventeen numbers of the author's published code of 2017, in pixels, with its rays.
+    /// The seventeen features of the author's published code of 2017, in pixels, with its beams.
     Halmstad2017,
 }
 
@@ -127,7 +127,7 @@ impl Default for RelaxationOptions {
 
 impl Serialize for CategoryCount {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        // Formats for programs do not tell a number from a word: there, automatic is none.
+        // Binary formats cannot tell a number from a word: there `Auto` is `None`.
         match (*self, serializer.is_human_readable()) {
             (Self::Auto, true) => serializer.serialize_str(AUTO),
             (Self::Fixed(count), true) => serializer.serialize_u64(count as u64),
@@ -147,7 +147,7 @@ impl<'de> Deserialize<'de> for CategoryCount {
     }
 }
 
-/// The word for a number that is found.
+/// The word for [`CategoryCount::Auto`].
 const AUTO: &str = "auto";
 
 /// Reads a [`CategoryCount`].

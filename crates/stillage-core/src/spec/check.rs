@@ -1,6 +1,22 @@
-//! The range of each option.
+//! The range of each option, and options that were checked.
 
-use super::{AnalysisOptions, AnalysisSpec, CategoryCount};
+use serde::Serialize;
+
+use super::categorization::CategoryCount;
+use super::options::AnalysisOptions;
+
+/// Options that were checked: each value is within its range.
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+#[serde(transparent)]
+pub struct AnalysisSpec(AnalysisOptions);
+
+impl AnalysisSpec {
+    /// The options behind the spec, with every default filled in.
+    #[must_use]
+    pub const fn options(&self) -> &AnalysisOptions {
+        &self.0
+    }
+}
 
 /// One option that cannot be used.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -82,7 +98,7 @@ impl AnalysisOptions {
     }
 }
 
-/// Collects what is out of range.
+/// The problems found so far.
 #[derive(Default)]
 struct Check {
     problems: Vec<OptionProblem>,
@@ -122,7 +138,7 @@ impl Check {
 
 #[cfg(test)]
 mod tests {
-    use super::super::RelaxationOptions;
+    use super::super::categorization::RelaxationOptions;
     use super::*;
 
     #[test]

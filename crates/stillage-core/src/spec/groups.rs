@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::RelaxationOptions;
+use super::categorization::RelaxationOptions;
 
 /// Overrides of the thresholds in the map's own metadata. Used when the map is read, not by the stages.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
@@ -22,7 +22,7 @@ pub struct OrientationOptions {
     pub method: OrientationMethod,
     /// Standard deviation of the Gaussian derivative, metres (at least one cell).
     pub gradient_scale_m: f64,
-    /// Bins of the histogram over half a turn.
+    /// Number of bins of the histogram over half a turn.
     pub bins: usize,
     /// Most components of the circular Gaussian mixture; their number is chosen by BIC.
     pub max_components: usize,
@@ -58,7 +58,7 @@ pub struct RegionOptions {
     pub wavelengths_m: [f64; 2],
     /// Smoothing of the texture energy, metres.
     pub smoothing_m: f64,
-    /// Side of a tile, the grain of region boundaries, metres.
+    /// Side of a tile, metres: region boundaries run along tiles.
     pub tile_m: f64,
     /// Smallest region, as a share of the known area.
     pub min_share: f64,
@@ -100,7 +100,7 @@ pub struct DecompositionOptions {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub enum DecompositionMethod {
-    /// Aisles first, then rows, then the cells of each row by the evidence for their borders.
+    /// Aisles, then rows, then the places of each row by the evidence for their borders.
     Adaptive,
     /// Infinite lines through the peaks of the radiograms.
     Paper,
@@ -190,9 +190,9 @@ pub struct DeclutterOptions {
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub enum DeclutterMethod {
-    /// By size and by the occupied cells around, against the rate of speckle of this map.
+    /// By size and by the occupied cells around, relative to the rate of speckle of this map.
     #[default]
     Adaptive,
-    /// Nothing is removed: the stages see the map as it is.
+    /// Nothing is removed.
     None,
 }

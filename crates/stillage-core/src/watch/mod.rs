@@ -1,75 +1,11 @@
-//! How a long computation is stopped and how it tells where it is.
+//! Stopping a long computation, and reporting its progress.
+
+mod stage;
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
-use crate::stage_shares::StageShares;
-
-/// The stages of [`crate::analyze`], in their order. The paper's decomposition has neither rooms, rows nor site plan.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Stage {
-    /// Removal of lone hits, small holes and specks.
-    Declutter,
-    /// Beams from every free cell of a sample, or of the whole map, reduced to features.
-    Features,
-    /// Clustering of the features into place categories.
-    Clustering,
-    /// Features of the cells outside the sample, and the category of every cell.
-    Categorization,
-    /// Dominant orientations of the whole map.
-    Orientation,
-    /// Regions of one direction or texture, and their own orientations.
-    Regions,
-    /// Projections along the orientations, and the infinite lines of the paper's method.
-    Radiography,
-    /// Passages and gates of the ground, and the rooms between them (adaptive method).
-    Rooms,
-    /// Aisles, rows and their places, and which rooms are halls (adaptive method).
-    Rows,
-    /// Goods that stand in rooms, and the borders of rooms (adaptive method).
-    SitePlan,
-    /// Subdivision into faces and its dual graph.
-    Arrangement,
-    /// Categories, occupancy and evidence of faces and edges.
-    Annotation,
-}
-
-impl Stage {
-    /// Every stage, in order.
-    pub const ALL: [Self; 12] = [
-        Self::Declutter,
-        Self::Features,
-        Self::Clustering,
-        Self::Categorization,
-        Self::Orientation,
-        Self::Regions,
-        Self::Radiography,
-        Self::Rooms,
-        Self::Rows,
-        Self::SitePlan,
-        Self::Arrangement,
-        Self::Annotation,
-    ];
-
-    /// The name used in reports and job states.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Declutter => "declutter",
-            Self::Features => "features",
-            Self::Clustering => "clustering",
-            Self::Categorization => "categorization",
-            Self::Orientation => "orientation",
-            Self::Regions => "regions",
-            Self::Radiography => "radiography",
-            Self::Rooms => "rooms",
-            Self::Rows => "rows",
-            Self::SitePlan => "site-plan",
-            Self::Arrangement => "arrangement",
-            Self::Annotation => "annotation",
-        }
-    }
-}
+pub use stage::{Stage, StageShares};
 
 /// The computation was asked to stop.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
@@ -86,28 +22,28 @@ impl StopFlag {
         self.0.store(true, Ordering::Relaxed);
     }
 
-    /// Whether the flag is up.
+    /// Whether the flag is raised.
     #[must_use]
     pub fn is_raised(&self) -> bool {
         self.0.load(Ordering::Relaxed)
     }
 }
 
-/// Told of the progress of a computation, from any of its threads.
+/// Receives the progress of a computation, from any of its threads.
 pub trait Observer: Sync {
-    /// The computation begins; its stages will take these shares of its time, by estimate.
+    /// The computation begins; these are the estimated shares of its stages in its time.
     fn begin(&self, _shares: &StageShares) {}
 
     /// `stage` is done to `fraction` of its time (0 when it begins, 1 when it ends).
     fn progress(&self, stage: Stage, fraction: f64);
 }
 
-/// What a computation carries along: a stop flag to ask and an observer to tell.
+/// A stop flag that a computation checks, and an observer that it reports to.
 #[derive(Clone, Copy)]
 pub struct Watch<'a> {
     stop: Option<&'a StopFlag>,
     observer: Option<&'a dyn Observer>,
-    /// Which part of its stage the work is, from and to.
+    /// The part of its stage that the work is: from and to, 0 to 1.
     part: [f64; 2],
 }
 
@@ -115,25 +51,25 @@ pub struct Watch<'a> {
 const ALMOST_DONE: f64 = 0.999;
 
 impl<'a> Watch<'a> {
-    /// Watches both.
+    /// A watch with a stop flag and an observer.
     #[must_use]
     pub fn new(stop: &'a StopFlag, observer: &'a dyn Observer) -> Self {
         Self { stop: Some(stop), observer: Some(observer), part: [0.0, 1.0] }
     }
 
-    /// Never stops, tells nobody.
+    /// A watch that never stops and reports to nobody.
     #[must_use]
     pub const fn unwatched() -> Self {
         Self { stop: None, observer: None, part: [0.0, 1.0] }
     }
 
-    /// Stops as this one does, but tells nobody.
+    /// The same stop flag without an observer.
     #[must_use]
     pub const fn silent(self) -> Self {
         Self { observer: None, ..self }
     }
 
-    /// For work that is a part of a stage: its fractions from 0 to 1 become those from `from` to `to` of the whole.
+    /// The watch for a part of this work: its fractions 0 to 1 become `from` to `to` of the whole.
     #[must_use]
     pub fn part(self, from: f64, to: f64) -> Self {
         let [start, end] = self.part;
@@ -141,10 +77,10 @@ impl<'a> Watch<'a> {
         Self { part: [within(from), within(to)], ..self }
     }
 
-    /// Fails once the stop flag is raised. Ask at least every 50 ms of work.
+    /// Fails once the stop flag is raised. To be called at least every 50 ms of work.
     ///
     /// # Errors
-    /// [`Stopped`] once the flag is up.
+    /// [`Stopped`] once the flag is raised.
     pub fn check(&self) -> Result<(), Stopped> {
         if self.stop.is_some_and(StopFlag::is_raised) { Err(Stopped) } else { Ok(()) }
     }
@@ -168,7 +104,7 @@ impl<'a> Watch<'a> {
         }
     }
 
-    /// Counts equal steps of a stage, or of the part of it that this watch is for.
+    /// A counter of `count` equal steps of a stage, or of the part of it that this watch is for.
     pub(crate) fn steps(self, stage: Stage, count: usize) -> Steps<'a> {
         Steps { watch: self, stage, count, done: AtomicUsize::new(0) }
     }
@@ -176,7 +112,7 @@ impl<'a> Watch<'a> {
     /// Runs one stage between its two progress reports.
     ///
     /// # Errors
-    /// [`Stopped`] when the flag was up before the stage began, or whatever the stage itself answers.
+    /// [`Stopped`] when the flag is raised before the stage begins or during it.
     pub fn stage<T>(&self, stage: Stage, run: impl FnOnce() -> Result<T, Stopped>) -> Result<T, Stopped> {
         self.check()?;
         self.report(stage, 0.0);
