@@ -50,12 +50,12 @@ fn samples([from, to]: [Point; 2]) -> (impl Iterator<Item = Point>, f64) {
 
 /// Length that counts, and the part of it that is right.
 #[derive(Debug, Clone, Copy, Default)]
-struct Tally {
+struct BorderLength {
     all: f64,
     right: f64,
 }
 
-impl Tally {
+impl BorderLength {
     fn share(of: &[Self]) -> Option<f64> {
         let all: f64 = of.iter().map(|tally| tally.all).sum();
         let right: f64 = of.iter().map(|tally| tally.right).sum();
@@ -82,7 +82,7 @@ pub(super) fn compare(
     let tally = |segment: &[Point; 2], counts: &(dyn Fn(Point) -> bool + Sync), other: &Segments| {
         watch.check()?;
         let (points, step) = samples(*segment);
-        let mut tally = Tally::default();
+        let mut tally = BorderLength::default();
         for point in points.filter(|&point| counts(point)) {
             tally.all += step;
             tally.right += if other.near(point, NEARBY) { step } else { 0.0 };
@@ -90,9 +90,9 @@ pub(super) fn compare(
         Ok(tally)
     };
     let around = |point: Point| of_places.near(point, AROUND) || in_place(point);
-    let recall: Result<Vec<Tally>, Stopped> =
+    let recall: Result<Vec<BorderLength>, Stopped> =
         of_places.segments.par_iter().map(|segment| tally(segment, &|_| true, &of_faces)).collect();
-    let precision: Result<Vec<Tally>, Stopped> =
+    let precision: Result<Vec<BorderLength>, Stopped> =
         of_faces.segments.par_iter().map(|segment| tally(segment, &around, &of_places)).collect();
-    Ok([Tally::share(&recall?), Tally::share(&precision?)])
+    Ok([BorderLength::share(&recall?), BorderLength::share(&precision?)])
 }

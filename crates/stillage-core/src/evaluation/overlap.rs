@@ -78,7 +78,7 @@ impl BoxIndex {
 
 /// A convex window, counter-clockwise, and whether its area counts or is taken away.
 #[derive(Debug)]
-struct Piece {
+struct ConvexPiece {
     sign: f64,
     window: Vec<Point>,
 }
@@ -87,7 +87,7 @@ struct Piece {
 #[derive(Debug)]
 pub(super) struct FaceAreas {
     /// By face; entry 0, the unbounded face, is empty.
-    pieces: Vec<Vec<Piece>>,
+    pieces: Vec<Vec<ConvexPiece>>,
     rings: Vec<Vec<Vec<Point>>>,
     pub(super) areas: Vec<f64>,
     index: BoxIndex,
@@ -108,7 +108,7 @@ impl FaceAreas {
         let mut clip = Clip::default();
         let overlap = |face: u32| {
             let piece =
-                |piece: &Piece| piece.sign * rings.iter().map(|ring| clip.area(ring, &piece.window)).sum::<f64>();
+                |piece: &ConvexPiece| piece.sign * rings.iter().map(|ring| clip.area(ring, &piece.window)).sum::<f64>();
             (face, self.pieces[face as usize].iter().map(piece).sum::<f64>())
         };
         let candidates = self.index.meeting(&Bounds::around(rings.iter().flatten()));
@@ -145,11 +145,11 @@ impl Match {
 }
 
 /// A face as a signed sum of convex windows.
-fn pieces(rings: &[Vec<Point>]) -> Vec<Piece> {
+fn pieces(rings: &[Vec<Point>]) -> Vec<ConvexPiece> {
     if let [ring] = rings
         && is_convex(ring)
     {
-        return vec![Piece { sign: 1.0, window: ring.clone() }];
+        return vec![ConvexPiece { sign: 1.0, window: ring.clone() }];
     }
     let triangles = rings.iter().flat_map(|ring| {
         let apex = ring.first().copied();
@@ -157,7 +157,7 @@ fn pieces(rings: &[Vec<Point>]) -> Vec<Piece> {
             let window = [apex?, pair[0], pair[1]];
             let area = ring_area(&window);
             let ordered = if area > 0.0 { window } else { [window[0], window[2], window[1]] };
-            (area != 0.0).then(|| Piece { sign: area.signum(), window: ordered.to_vec() })
+            (area != 0.0).then(|| ConvexPiece { sign: area.signum(), window: ordered.to_vec() })
         })
     });
     triangles.collect()
@@ -220,7 +220,8 @@ mod tests {
 
     fn common(face: &[Vec<Point>], area: &[Vec<Point>]) -> f64 {
         let mut clip = Clip::default();
-        let piece = |piece: &Piece| piece.sign * area.iter().map(|ring| clip.area(ring, &piece.window)).sum::<f64>();
+        let piece =
+            |piece: &ConvexPiece| piece.sign * area.iter().map(|ring| clip.area(ring, &piece.window)).sum::<f64>();
         pieces(face).iter().map(piece).sum()
     }
 

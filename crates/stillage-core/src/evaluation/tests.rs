@@ -1,9 +1,9 @@
-use std::f64::consts::FRAC_PI_4;
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
 use expect_test::{Expect, expect};
 
 use super::*;
-use crate::geometry::{direction, normal};
+use crate::geometry::{Point, direction, normal};
 use crate::semantics::apply;
 use crate::semantics::pictures::{DrawnMap, RESOLUTION};
 
