@@ -33,7 +33,7 @@ pub struct Analysis {
     pub height: usize,
     /// The options, whole.
     pub options: AnalysisOptions,
-    /// What was taken for clutter before the first stage.
+    /// What the first stage removed as clutter.
     pub clutter: declutter::Removed,
     /// Cell -> category.
     pub categories: CategoryMap,
@@ -68,7 +68,7 @@ pub struct Analysis {
 pub struct Diagnostic {
     /// Stable, for programs: `no-free-cells`, `no-orientation`, `no-lines`, ...
     pub code: String,
-    /// For people: what it is, and how to mend it.
+    /// For people: what it is, and how to correct it.
     pub message: String,
 }
 
@@ -82,7 +82,7 @@ impl Diagnostic {
 
 /// Runs every stage on a grid.
 ///
-/// Never fails but by being stopped: a map without structure gives one face and a [`Diagnostic`].
+/// Fails only when it is stopped: a map without structure gives one face and a [`Diagnostic`].
 ///
 /// # Errors
 /// [`Stopped`] when the watch says so.
@@ -153,7 +153,7 @@ pub fn analyze(grid: &OccupancyGrid, spec: &AnalysisSpec, watch: &Watch<'_>) -> 
     Ok(analysis)
 }
 
-/// Says what a user should know about a degenerate or cluttered map.
+/// Remarks on a degenerate or cluttered map.
 fn diagnose(grid: &OccupancyGrid, analysis: &Analysis) -> Vec<Diagnostic> {
     use crate::grid::Occupancy::{Free, Occupied};
     let mut diagnostics = Vec::new();

@@ -1,8 +1,8 @@
 //! Connected components of cells, as runs along the rows.
 //!
-//! Cells beside one another in a row are one run; runs that touch those of the row before belong together (A. Rosenfeld
-//! and J. Pfaltz, *Sequential operations in digital picture processing*, 1966, doi 10.1145/321356.321357, on runs in place
-//! of cells, with union-find). Components are ordered by their first cells. Cost: O(cells) time, O(runs) memory.
+//! Neighbouring cells of a row are one run; runs that touch those of the row before are joined by union-find (A. Rosenfeld
+//! and J. Pfaltz, *Sequential operations in digital picture processing*, 1966, doi 10.1145/321356.321357, with runs in place
+//! of cells). Components are ordered by their first cells. Cost: O(cells) time, O(runs) memory.
 
 use std::ops::Range;
 
@@ -18,7 +18,7 @@ pub(crate) enum Neighbours {
     Eight,
 }
 
-/// Cells beside one another in a row.
+/// Neighbouring cells of a row.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Run {
     pub row: u32,
@@ -42,7 +42,8 @@ pub(crate) struct Components {
 }
 
 impl Components {
-    /// The components of those of `cells` cells, in rows of `width`, that `is_member` names by row-major index.
+    /// The components of the cells for which `is_member` holds (by row-major index), of a grid of `cells` cells in rows of
+    /// `width`.
     ///
     /// # Errors
     /// [`Stopped`] when the watch says so.
@@ -85,7 +86,7 @@ impl Components {
         }
         let mut sum = 0;
         for end in &mut ends {
-            // Where the component starts; filling it makes that its end.
+            // The start of the component; it becomes the end as the runs are put in.
             sum += std::mem::replace(end, sum);
         }
         let mut sorted = vec![Run { row: 0, columns: 0..0 }; runs.len()];
@@ -174,7 +175,7 @@ impl<'a> Component<'a> {
         [low..high, first..last + 1]
     }
 
-    /// From corner to opposite corner of its bounds, cells.
+    /// Diagonal of its bounds, cells.
     pub(crate) fn diagonal(&self) -> f64 {
         let [columns, rows] = self.bounds().map(|side| side.len() as f64);
         columns.hypot(rows)

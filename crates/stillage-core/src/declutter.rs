@@ -1,19 +1,22 @@
-//! Declutter: lone hits and thin leaks are told from structure before anything relies on free space.
+//! Declutter: single hits and small holes are removed before any stage relies on free space.
 //!
-//! Scanners leave single hits in free space, and one of them closes an aisle for everything that asks how wide it is.
-//! Size alone does not tell them from structure: a rack post of 0.09 m is one to four cells. What tells is company.
-//! A small component of occupied cells is lone unless more occupied area lies around it than speckle of the rate that
-//! this very map shows would bring there; the rate is read from the cleanest tiles, where there is nothing else. Lone
-//! ones go. Of those in company, hits are told from structure by their number: speckle falls on the ground beside goods
-//! as often as on the open floor, so of so many components of one size on one kind of ground, so many are expected to
-//! be speckle. Where that is most of them, all go: hits on the floor before a rack do, legs at the rim of what the
-//! scanner saw do not. What goes takes the state of the ground around it. Small unknown holes in free space are free,
-//! and small free specks in unknown ground unknown: ground that nobody saw stays outside the site.
+//! Scanners leave single hits in free space, and one of them would close an aisle for every stage that measures widths.
+//! Size alone does not tell them from structure: a rack post of 0.09 m is one to four cells. So the occupied cells around a
+//! small component decide, and how many components are like it:
 //!
-//! Source: the connected-component filters of document analysis (kFill and its kin, L. O'Gorman 1992), with the local
-//! density in place of a fixed size, and the false discovery rate (Y. Benjamini and Y. Hochberg 1995, doi
-//! 10.1111/j.2517-6161.1995.tb02031.x) in place of a threshold. Cost: O(cells). Limits: lone posts below three cells
-//! are taken for speckle; hits that touch structure stay.
+//! 1. The rate of speckle is measured on the cleanest tiles of the map, which hold nothing but floor.
+//! 2. A small component is *lone* unless the occupied area around it is more than speckle of that rate would bring. Lone
+//!    components are removed, except large ones (posts).
+//! 3. The others are classed by size and surroundings. Speckle of the rate would bring a known number of each class; where
+//!    that is most of the class, the whole class is removed. So hits on the floor before a rack are removed, and the legs at
+//!    the border of what the scanner saw are not.
+//! 4. Removed cells take the state of the cells around them. Small unknown holes in free space become free; small free
+//!    specks in unknown ground become unknown, so that ground nobody saw stays outside the site.
+//!
+//! Source: the connected-component filters of document analysis (kFill, L. O'Gorman 1992), with the local density in place
+//! of a fixed size, and the false discovery rate (Y. Benjamini and Y. Hochberg 1995, doi
+//! 10.1111/j.2517-6161.1995.tb02031.x) in place of a threshold. Cost: O(cells). Limits: lone posts below three cells are
+//! removed; hits that touch structure stay.
 
 use serde::{Deserialize, Serialize};
 
@@ -22,52 +25,53 @@ use crate::grid::{Occupancy, OccupancyGrid};
 use crate::spec::{DeclutterMethod, DeclutterOptions};
 use crate::watch::{Stopped, Watch};
 
-/// Components above this area are structure whatever stands around them, square metres (a block of a pallet has 0.02).
+/// Area above which a component is structure, whatever is around it, square metres: that of a block of a pallet.
 const SMALL_AREA: f64 = 0.02;
-/// Components of at least so many cells and so much area are seldom speckle: three hits that touch.
-const FIRM_CELLS: usize = 3;
-/// See [`FIRM_CELLS`]; a post of 0.09 m has 0.008 square metres.
-const FIRM_AREA: f64 = 0.006;
-/// Half the window in which company is counted, metres: the blocks of a pallet are 0.35 to 0.6 m apart.
-const COMPANY_REACH_M: f64 = 0.5;
-/// Occupied area that is company, square metres: two posts, or three blocks of a pallet of which little is seen.
-const COMPANY_AREA: f64 = 0.015;
-/// Deviations of a Poisson count that company must be above the speckle that is expected.
+/// Fewest cells of a lone component that is kept as a post: three touching hits are rarely speckle.
+const POST_CELLS: usize = 3;
+/// Least area of a lone component that is kept as a post, square metres: a post of 0.09 m has 0.008.
+const POST_AREA: f64 = 0.006;
+/// Half the side of the square in which occupied cells are counted, metres: the blocks of a pallet are 0.35 to 0.6 m apart.
+const NEIGHBOURHOOD_REACH_M: f64 = 0.5;
+/// Occupied area around a component that is not lone, square metres: two posts, or three blocks of a pallet that are hardly
+/// seen.
+const NEIGHBOUR_AREA: f64 = 0.015;
+/// Poisson deviations by which the cells around must exceed the expected speckle as well. Chosen by hand.
 const DEVIATIONS: f64 = 4.0;
 /// Side of the tiles in which the rate of speckle is measured, metres.
 const RATE_TILE_M: f64 = 4.0;
-/// Rank among the tiles that is taken for the rate: a fifth of the tiles hold nothing but floor.
+/// Rank of the tile whose rate is taken, as a share of the tiles: on any site a fifth hold nothing but floor.
 const RATE_RANK: f64 = 0.2;
-/// Rate below which a map is clean: a lone hit in 2000 cells.
+/// Rate below which a map has no speckle, hits per cell: one in 2000.
 const CLEAN_RATE: f64 = 5e-4;
-/// Number of eight-connected shapes of one cell, two, three and four: so many ways hits have to touch.
+/// Number of eight-connected shapes of one, two, three and four cells (fixed polyplets): the ways in which hits can touch.
 const SHAPES: [f64; 4] = [1.0, 4.0, 20.0, 110.0];
-/// Share of the components of one size and ground that may be speckle before all of them are taken for it.
-const MOST_CHANCE: f64 = 0.5;
-/// Unknown holes up to this area are free when free cells surround them, square metres.
+/// Expected speckle above which a class of components is removed, as a share of the class: the majority.
+const SPECKLE_SHARE: f64 = 0.5;
+/// Largest area of a hole or speck, square metres.
 const HOLE_AREA: f64 = 0.03;
 
-/// A grid without clutter, and what was taken away.
+/// A grid without clutter, and what was removed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Decluttered {
-    /// The grid with the clutter turned into the ground around it, free or unknown.
+    /// The grid, with the clutter as free or unknown as the cells around it.
     pub grid: OccupancyGrid,
     /// What was removed.
     pub removed: Removed,
 }
 
-/// Cells that were read otherwise than the map says.
+/// Cells whose state was changed.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Removed {
     /// Occupied cells (row-major index) taken for speckle, ascending.
     pub occupied: Vec<u32>,
     /// Unknown cells (row-major index) taken for holes, ascending.
     pub unknown: Vec<u32>,
-    /// Share of the floor's cells that carry a lone hit.
+    /// Rate of speckle: hits of one cell per free cell of clean floor.
     pub rate: f64,
 }
 
-/// Turns lone hits, small holes and specks into the ground around them, if the options say so.
+/// Removes single hits, small holes and specks, if the options say so.
 ///
 /// # Errors
 /// [`Stopped`] when the watch says so.
@@ -79,34 +83,36 @@ pub fn declutter(grid: &OccupancyGrid, options: &DeclutterOptions, watch: &Watch
 }
 
 fn without_clutter(grid: &OccupancyGrid, watch: &Watch<'_>) -> Result<Decluttered, Stopped> {
-    let hits = components(grid, Occupancy::Occupied, watch)?;
-    let rate = speckle_rate(grid, &hits, watch)?;
-    let company = Company::new(grid, watch)?;
+    let obstacles = components(grid, Occupancy::Occupied, watch)?;
+    let rate = speckle_rate(grid, &obstacles, watch)?;
+    let counts = OccupiedCounts::new(grid, watch)?;
     let cell_area = grid.resolution() * grid.resolution();
     let is_lone = |cell: usize, own: usize| {
-        let (count, window) = company.around(cell);
+        let (count, window) = counts.around(cell);
         let expected = rate * window as f64;
-        (count.saturating_sub(own) as f64) < COMPANY_AREA / cell_area + expected + DEVIATIONS * expected.sqrt()
+        (count.saturating_sub(own) as f64) < NEIGHBOUR_AREA / cell_area + expected + DEVIATIONS * expected.sqrt()
     };
-    let chance = Chance::of(grid, &hits, rate, is_lone, watch)?;
+    let speckle = SpeckleClasses::of(grid, &obstacles, rate, is_lone, watch)?;
     let is_clutter = |component: &Component<'_>| {
         let area = component.len() as f64 * cell_area;
         if area > SMALL_AREA {
             false
         } else if is_lone(component.first(), component.len()) {
-            let is_firm = area >= FIRM_AREA && (rate < CLEAN_RATE || component.len() >= FIRM_CELLS);
-            !is_firm || chance.explains(component.len(), true, Ground::around(grid, component.cells()))
+            let is_post = area >= POST_AREA && (rate < CLEAN_RATE || component.len() >= POST_CELLS);
+            !is_post || speckle.explains(component.len(), true, Surroundings::around(grid, component.cells()))
         } else {
-            chance.explains(component.len(), false, Ground::around(grid, component.cells()))
+            speckle.explains(component.len(), false, Surroundings::around(grid, component.cells()))
         }
     };
-    let clutter: Vec<Component<'_>> = hits.iter().filter(is_clutter).collect();
+    let clutter: Vec<Component<'_>> = obstacles.iter().filter(is_clutter).collect();
     let mut occupied: Vec<u32> = clutter.iter().flat_map(Component::cells).map(|cell| cell as u32).collect();
     occupied.sort_unstable();
     let mut unknown: Vec<u32> = components(grid, Occupancy::Unknown, watch)?
         .iter()
         .filter(|hole| {
-            hole.len() as f64 * cell_area <= HOLE_AREA && stands_off(grid, *hole) && !is_at_border(grid, *hole)
+            hole.len() as f64 * cell_area <= HOLE_AREA
+                && is_clear_of_obstacles(grid, *hole)
+                && !is_at_border(grid, *hole)
         })
         .flat_map(|hole| hole.cells())
         .map(|cell| cell as u32)
@@ -123,7 +129,7 @@ fn without_clutter(grid: &OccupancyGrid, watch: &Watch<'_>) -> Result<Decluttere
     let specks = OccupancyGrid::new(grid.width(), grid.height(), *grid.frame(), cells.clone());
     for speck in components(&specks, Occupancy::Free, watch)?.iter() {
         let is_small = speck.len() as f64 * cell_area <= HOLE_AREA;
-        if is_small && stands_off(&specks, speck) && ground_around(&specks, speck) == Occupancy::Unknown {
+        if is_small && is_clear_of_obstacles(&specks, speck) && ground_around(&specks, speck) == Occupancy::Unknown {
             speck.cells().for_each(|cell| cells[cell] = Occupancy::Unknown);
         }
     }
@@ -133,16 +139,16 @@ fn without_clutter(grid: &OccupancyGrid, watch: &Watch<'_>) -> Result<Decluttere
 
 /// What lies around a cell or a small component, beside other occupied cells.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Ground {
-    /// Free cells only: the floor.
+enum Surroundings {
+    /// Free cells only: on the floor.
     Free,
     /// Unknown cells only: behind what the scanner saw.
     Unknown,
     /// Both.
-    Rim,
+    Mixed,
 }
 
-impl Ground {
+impl Surroundings {
     fn around(grid: &OccupancyGrid, cells: impl Iterator<Item = usize>) -> Self {
         let (mut is_free, mut is_unknown) = (false, false);
         for cell in cells {
@@ -157,25 +163,25 @@ impl Ground {
         match (is_free, is_unknown) {
             (true, false) => Self::Free,
             (false, true) => Self::Unknown,
-            _ => Self::Rim,
+            _ => Self::Mixed,
         }
     }
 }
 
-/// Which components are as many as chance would have them.
-struct Chance {
-    /// By number of cells less one, then by company and ground.
+/// The classes of components that are speckle: as many as its rate would bring.
+struct SpeckleClasses {
+    /// By number of cells less one, then by [`class`].
     explains: [[bool; CLASSES]; SHAPES.len()],
 }
 
-/// Lone or in company, on three kinds of ground.
+/// Number of classes of one size: lone or not, in three kinds of surroundings.
 const CLASSES: usize = 6;
 
-fn class(is_lone: bool, ground: Ground) -> usize {
+fn class(is_lone: bool, ground: Surroundings) -> usize {
     ground as usize + if is_lone { CLASSES / 2 } else { 0 }
 }
 
-impl Chance {
+impl SpeckleClasses {
     fn of(
         grid: &OccupancyGrid,
         components: &Components,
@@ -193,30 +199,30 @@ impl Chance {
             for (column, &cell) in grid.row(row).iter().enumerate() {
                 let index = row * grid.width() + column;
                 if cell != Occupancy::Occupied {
-                    cells[class(is_lone(index, 0), Ground::around(grid, std::iter::once(index)))] += 1;
+                    cells[class(is_lone(index, 0), Surroundings::around(grid, std::iter::once(index)))] += 1;
                 }
             }
         }
         let mut counts = [[0_usize; CLASSES]; SHAPES.len()];
         for component in components.iter().filter(|component| component.len() <= SHAPES.len()) {
             let is_lone = is_lone(component.first(), component.len());
-            counts[component.len() - 1][class(is_lone, Ground::around(grid, component.cells()))] += 1;
+            counts[component.len() - 1][class(is_lone, Surroundings::around(grid, component.cells()))] += 1;
         }
         for (size, shapes) in SHAPES.iter().enumerate() {
             for class in 0..CLASSES {
                 let expected = shapes * rate.powi(size as i32 + 1) * cells[class] as f64;
-                explains[size][class] = expected > MOST_CHANCE * counts[size][class] as f64;
+                explains[size][class] = expected > SPECKLE_SHARE * counts[size][class] as f64;
             }
         }
         Ok(Self { explains })
     }
 
-    fn explains(&self, cells: usize, is_lone: bool, ground: Ground) -> bool {
+    fn explains(&self, cells: usize, is_lone: bool, ground: Surroundings) -> bool {
         self.explains.get(cells - 1).is_some_and(|of_size| of_size[class(is_lone, ground)])
     }
 }
 
-/// What surrounds a small component: unknown where most of its neighbours are.
+/// The state that a removed component takes: unknown where most of its free and unknown neighbours are.
 fn ground_around(grid: &OccupancyGrid, component: Component<'_>) -> Occupancy {
     let (mut free, mut unknown) = (0, 0);
     for cell in component.cells() {
@@ -235,7 +241,7 @@ fn ground_around(grid: &OccupancyGrid, component: Component<'_>) -> Occupancy {
 }
 
 /// Whether no occupied cell touches a component.
-fn stands_off(grid: &OccupancyGrid, component: Component<'_>) -> bool {
+fn is_clear_of_obstacles(grid: &OccupancyGrid, component: Component<'_>) -> bool {
     component.cells().all(|cell| {
         let (column, row) = ((cell % grid.width()) as i64, (cell / grid.width()) as i64);
         let beside = [(1, 0), (-1, 0), (0, 1), (0, -1)].map(|(right, up)| grid.at(column + right, row + up));
@@ -251,7 +257,7 @@ fn is_at_border(grid: &OccupancyGrid, component: Component<'_>) -> bool {
     })
 }
 
-/// Share of the cells of clean floor that are a component of their own: the lower fifth of the tiles.
+/// Hits of one cell per free cell, on the cleanest fifth of the tiles.
 fn speckle_rate(grid: &OccupancyGrid, components: &Components, watch: &Watch<'_>) -> Result<f64, Stopped> {
     let side = ((RATE_TILE_M / grid.resolution()) as usize).max(1);
     let (columns, rows) = (grid.width().div_ceil(side), grid.height().div_ceil(side));
@@ -284,16 +290,16 @@ fn components(grid: &OccupancyGrid, occupancy: Occupancy, watch: &Watch<'_>) -> 
     Components::of([grid.width(), cells.len()], Neighbours::Eight, |cell| cells[cell] == occupancy, watch)
 }
 
-/// Counts of occupied cells in any rectangle.
-struct Company {
+/// Counts of occupied cells in any rectangle, by a summed-area table (F. C. Crow 1984, doi 10.1145/800031.808600).
+struct OccupiedCounts {
     width: usize,
     height: usize,
     reach: usize,
-    /// Sums over all cells below and left of a corner, `(width + 1) * (height + 1)` of them.
+    /// Occupied cells below and left of each corner of the cells, `(width + 1) * (height + 1)` of them.
     sums: Vec<u32>,
 }
 
-impl Company {
+impl OccupiedCounts {
     fn new(grid: &OccupancyGrid, watch: &Watch<'_>) -> Result<Self, Stopped> {
         let (width, height) = (grid.width(), grid.height());
         let mut sums = vec![0_u32; (width + 1) * (height + 1)];
@@ -305,11 +311,11 @@ impl Company {
                 sums[(row + 1) * (width + 1) + column + 1] = sums[row * (width + 1) + column + 1] + along;
             }
         }
-        let reach = (COMPANY_REACH_M / grid.resolution()).round() as usize;
+        let reach = (NEIGHBOURHOOD_REACH_M / grid.resolution()).round() as usize;
         Ok(Self { width, height, reach, sums })
     }
 
-    /// Occupied cells around a cell, and the cells of the window.
+    /// Occupied cells in the square around a cell, and all cells of that square.
     fn around(&self, cell: usize) -> (usize, usize) {
         let (column, row) = (cell % self.width, cell / self.width);
         let (left, right) = (column.saturating_sub(self.reach), (column + self.reach + 1).min(self.width));
@@ -345,7 +351,7 @@ mod tests {
     }
 
     #[test]
-    fn the_blocks_of_a_pallet_keep_each_other_company() {
+    fn the_blocks_of_a_pallet_stay() {
         let row = "................##.....##.....##................\n";
         let gap = "................................................\n";
         let picture: String = (0..30).map(|line| if line % 7 == 3 && line < 20 { row } else { gap }).collect();

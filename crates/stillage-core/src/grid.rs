@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::geometry::{Point, direction, normal};
 
-/// What a map says of one cell.
+/// State of one cell of a map.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[repr(u8)]
 pub enum Occupancy {
@@ -12,7 +12,7 @@ pub enum Occupancy {
     Free = 0,
     /// Seen to hold an obstacle.
     Occupied = 1,
-    /// Never seen, or seen without a verdict.
+    /// Never seen, or seen without a clear result.
     Unknown = 2,
 }
 
@@ -23,7 +23,7 @@ pub struct GridFrame {
     pub resolution: f64,
     /// Position of the grid's lower left corner in the map frame, metres.
     pub origin: Point,
-    /// Counter-clockwise turn of the grid in the map frame, radians.
+    /// Counter-clockwise rotation of the grid in the map frame, radians.
     pub yaw: f64,
 }
 

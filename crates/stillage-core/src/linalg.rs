@@ -41,7 +41,7 @@ impl PrincipalComponents {
         &self.variances
     }
 
-    /// Drops the axes after the first ones that hold `share` of the variance, and all after the first `most`.
+    /// Keeps the first axes that hold `share` of the variance, and `most` of them at most.
     #[must_use]
     pub fn keep(mut self, share: f64, most: usize) -> Self {
         let wanted = share * self.variances.iter().sum::<f64>();

@@ -1,23 +1,24 @@
-//! How much memory an analysis will need, known before it begins.
+//! How much memory an analysis needs, estimated before it begins.
 //!
-//! The larger sum of what is held at two peaks: while cells get their categories, and while ground is parted into rooms.
-//! Measured at 20.5 million cells with the defaults: 968 MiB for the whole process, where 1,171 are estimated.
+//! The estimate is the larger of two peaks: while cells get their categories, and while the ground is divided into rooms. At
+//! 20.5 million cells with the default options it is 1,171 MiB; 968 MiB were measured for the whole process.
 
 use crate::categorization::KEPT_CELLS;
 use crate::features;
 use crate::raycast::border_bytes_per_cell;
 use crate::spec::{AnalysisOptions, CategoryCount, ClusteringMethod};
 
-/// What the smallest map takes: tables, and tiles at work.
+/// Memory of the smallest map, bytes: tables, and the working memory of tiles.
 const BASE_BYTES: f64 = 16.0 * 1024.0 * 1024.0;
 
-/// Grid, both masks of the sweep, the categories, the numbers of the measured cells and their labels, for each cell.
+/// Bytes per cell while cells get their categories: grid, both masks of the sweep, categories, numbers and labels of the
+/// measured cells.
 const BYTES_PER_CELL: f64 = 16.0;
 
-/// The same while rooms are found, with the nearest obstacles and the basins of the flood, and frames of the regions.
+/// Bytes per cell while rooms are found: also the nearest obstacles, the basins of the flood and the frames of the regions.
 const ROOM_BYTES_PER_CELL: f64 = 54.0;
 
-/// Bytes that the analysis of a map of so many cells needs at its peak, by estimate: on the safe side.
+/// Bytes that the analysis of a map of `cells` cells needs at its peak; the estimate is meant to be too high.
 #[must_use]
 pub fn analysis_bytes(cells: u64, options: &AnalysisOptions) -> u64 {
     let categorization = &options.categorization;
@@ -27,7 +28,7 @@ pub fn analysis_bytes(cells: u64, options: &AnalysisOptions) -> u64 {
         CategoryCount::Fixed(count) => count as f64,
         CategoryCount::Auto => categorization.max_k as f64,
     };
-    // Twice: by part and together, or before and after a step of the relaxation.
+    // Two copies of 16 bits: by part and together, or before and after an iteration of the relaxation.
     let per_cell = BYTES_PER_CELL + border_bytes_per_cell(categorization.beams) + 2.0 * 2.0 * memberships;
     let sample =
         cells.min(KEPT_CELLS as f64) * (features::names(categorization.profile).len() * size_of::<f32>()) as f64;

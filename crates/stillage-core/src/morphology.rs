@@ -1,5 +1,5 @@
-//! Opening of cells by a square: the cells that squares which fit can cover (G. Matheron, *Random sets and integral
-//! geometry*, 1975).
+//! Opening by a square: the cells covered by the squares that fit into a set of cells (G. Matheron, *Random sets and
+//! integral geometry*, 1975).
 //!
 //! An opening is [`fitting_squares`], then [`mark_covered`]. Squares lie along the grid, so each half is one pass over the
 //! cells with running lengths. Cost: O(cells), whatever the side.
@@ -15,7 +15,7 @@ pub(crate) fn fitting_squares(
     watch: &Watch<'_>,
 ) -> Result<Vec<bool>, Stopped> {
     let side = side.max(1);
-    // Along a row: cells at the end of `side` open ones. Up the columns: squares that fit.
+    // `run` counts open cells along the row, `depth` the rows up to here whose run is long enough.
     let mut depth = vec![0_u32; columns];
     let mut fits = vec![false; columns * rows];
     for row in 0..rows {

@@ -1,16 +1,15 @@
 //! Radiography: the occupied cells of a region are projected along its orientations; peaks become lines.
 //!
-//! Source: the paper, II-B "Cell Decomposition". Facts of the author's published code (Hann window, peaks at least
-//! 0.15 of the highest, a distance between them) set the defaults, turned into metres.
+//! Source: the paper, II-B "Cell Decomposition". The author's published code (Hann window, peaks of at least 0.15 of the
+//! highest, a least distance between them) gives the defaults, turned into metres.
 //!
-//! Departures: cell centres are projected, each shared between its two nearest bins, where the author rotates the
-//! picture and so blurs it and loses its corners; and it is done per region, so a line ends where its region ends
-//! (II-D says why). Like in the paper a line is otherwise infinite and its peak is judged against the highest of the
-//! radiogram, even where that is the outer wall of the building: what one wall outshines is lost. Lines by local
-//! support are a matter of another method.
+//! Departures: cell centres are projected, each shared between its two nearest bins, where the author rotates the picture,
+//! which blurs it and cuts its corners; and each region is projected by itself, so a line ends where its region ends (II-D
+//! gives the reason). As in the paper a line is otherwise infinite, and its peak is compared with the highest of the
+//! radiogram, even where that is the outer wall of the building: alignments far weaker than a wall are not found.
 //!
-//! Cost: O(cells + occupied cells x orientations + lines x tiles crossed). Limits: alignments closer than the smallest
-//! distance are one line.
+//! Cost: O(cells + occupied cells x orientations + lines x tiles crossed). Limits: alignments closer than the least distance
+//! are one line.
 
 use serde::{Deserialize, Serialize};
 
@@ -22,14 +21,14 @@ use crate::signal::{self, Boundary, Peak};
 use crate::spec::DecompositionOptions;
 use crate::watch::{Stopped, Watch};
 
-/// What counts as nothing, cells: a line this near the border of a region belongs to it, and stretches and gaps this
-/// short, where a line meets the corner of a tile, are none.
+/// Lengths below this count as 0, cells: distances of a line from the border of a region, and intervals and gaps where a
+/// line meets the corner of a tile.
 const TOLERANCE_CELLS: f64 = 1e-6;
 
 /// Projection of the occupied cells of a region on the normal of an orientation.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Radiogram {
-    /// Region it was taken of.
+    /// Region whose cells are projected.
     pub region: u8,
     /// Direction of projection (and of its lines), radians.
     pub orientation: f64,
@@ -93,7 +92,7 @@ impl Radiogram {
         self.start + (position + 0.5) * self.bin
     }
 
-    /// Drops the empty bins at either end but for a margin.
+    /// Drops the empty bins at either end, except a margin.
     fn trim(&mut self, margin: usize) {
         let is_filled = |value: &f64| *value > 0.0;
         let first = self.values.iter().position(is_filled).unwrap_or(self.values.len()).saturating_sub(margin);
@@ -169,7 +168,7 @@ impl Projection {
         Self { radiogram, normal: [normal.x, normal.y], origin }
     }
 
-    /// Shares a cell between the two bins whose centres its own lies between.
+    /// Shares a cell between the two nearest bins.
     fn add(&mut self, column: usize, row: usize) {
         let position = self.normal[0] * (column as f64 + 0.5) + self.normal[1] * (row as f64 + 0.5) + self.origin;
         let (bin, share) = (position as usize, position.fract());
@@ -178,7 +177,7 @@ impl Projection {
     }
 }
 
-/// The stretches of an infinite line that lie in the tiles of its region and in the grid.
+/// The intervals of an infinite line that lie in the tiles of its region and in the grid.
 fn extents(line: &Line, grid: &OccupancyGrid, regions: &RegionMap) -> Vec<[f64; 2]> {
     let resolution = grid.resolution();
     let size = [grid.width() as f64 * resolution, grid.height() as f64 * resolution];
@@ -192,24 +191,24 @@ fn extents(line: &Line, grid: &OccupancyGrid, regions: &RegionMap) -> Vec<[f64; 
     };
     let tolerance = TOLERANCE_CELLS * resolution;
     let beside = across * tolerance;
-    let mut stretches: Vec<[f64; 2]> = Vec::new();
+    let mut intervals: Vec<[f64; 2]> = Vec::new();
     for pair in cuts.windows(2) {
         let middle = foot + along * f64::midpoint(pair[0], pair[1]);
         if !(is_inside(middle + beside) || is_inside(middle - beside)) {
             continue;
         }
-        match stretches.last_mut() {
+        match intervals.last_mut() {
             Some(last) if pair[0] - last[1] <= tolerance => last[1] = pair[1],
-            _ => stretches.push([pair[0], pair[1]]),
+            _ => intervals.push([pair[0], pair[1]]),
         }
     }
-    stretches.retain(|[start, end]| end - start > tolerance);
-    stretches
+    intervals.retain(|[start, end]| end - start > tolerance);
+    intervals
 }
 
 /// Where a line enters and leaves the rectangle from the origin to `size` and crosses the sides of tiles, ascending.
 fn tile_crossings(foot: Point, along: crate::Vector, size: [f64; 2], tile: f64) -> Vec<f64> {
-    // A component this small is rounding: over any grid the line does not leave its column or row.
+    // A component this small is rounding: the line stays in its column or row over any grid.
     let is_parallel = |component: f64| component.abs() < 1e-12;
     let (mut start, mut end) = (f64::NEG_INFINITY, f64::INFINITY);
     for axis in 0..2 {

@@ -13,7 +13,7 @@ pub(crate) fn runs_where(count: usize, is_in: impl Fn(usize) -> bool) -> impl It
     })
 }
 
-/// Maximal runs of equal values, ascending; together they cover all of them.
+/// Maximal runs of equal values, ascending; together they cover all values.
 pub(crate) fn runs_of_equal<T: PartialEq>(values: &[T]) -> impl Iterator<Item = Range<usize>> {
     let mut next = 0;
     values.chunk_by(PartialEq::eq).map(move |run| {

@@ -4,8 +4,7 @@
 //! wavelet peaks follow P. Du, W. A. Kibbe and S. M. Lin, *Improved peak detection in mass spectrum by incorporating
 //! continuous wavelet transform-based pattern matching* (Bioinformatics 22(17), 2006,
 //! doi 10.1093/bioinformatics/btl355), the method behind the paper's "peak detection based on CWT" (II-B).
-//! Departures: circular signals are handled as such; there is no noise percentile, because the signals it is used on
-//! here are mixtures that were smoothed before.
+//! Departures: circular signals wrap around; there is no noise percentile, because the signals here are smooth already.
 //!
 //! Cost: O(n w) for a kernel of w bins; ridges O(n log n) per scale; peaks O(p k) for p maxima of which k are kept.
 
@@ -33,7 +32,7 @@ impl Boundary {
 /// A symmetric Hann window of `width` bins from zero to zero, of odd length and sum 1; `[1]` below two bins.
 #[must_use]
 pub fn hann_window(width: f64) -> Vec<f64> {
-    // Samples on the zeros themselves would only cost time.
+    // Samples at the zeros of the window are left out.
     let reach = ((width / 2.0).ceil() as isize - 1).max(0);
     let weights: Vec<f64> =
         (-reach..=reach).map(|offset| 1.0 + (std::f64::consts::TAU * offset as f64 / width.max(1.0)).cos()).collect();
@@ -139,14 +138,14 @@ pub fn keep_apart(mut peaks: Vec<Peak>, min_distance: f64, length: usize, bounda
     kept
 }
 
-/// How ridges of the wavelet transform are followed and judged.
+/// How ridges of the wavelet transform are followed, and which of them count.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RidgeSpec {
     /// Widths of the wavelets, bins, ascending: the distance from the centre to the zero crossing.
     pub widths: Vec<f64>,
     /// Scales in a row that a ridge may miss.
     pub max_gap: usize,
-    /// Scales at which a ridge must have been seen.
+    /// Fewest scales at which a ridge is found.
     pub min_length: usize,
 }
 
@@ -171,15 +170,15 @@ pub fn wavelet_transform(values: &[f64], widths: &[f64], boundary: Boundary) -> 
 
 /// A chain of maxima over the scales, from the widest wavelet down.
 struct Ridge {
-    /// Where it was last seen.
+    /// Bin at the last scale where it was found.
     bin: usize,
-    /// Scales at which it was seen.
+    /// Number of scales where it was found.
     length: usize,
-    /// Scales since it was last seen.
+    /// Number of scales since then.
     gap: usize,
 }
 
-/// Bins where the maxima of the wavelet transform line up over many scales, ascending.
+/// Bins of the ridges: where maxima of the wavelet transform lie near one another over many scales. Ascending.
 #[must_use]
 pub fn ridge_peaks(values: &[f64], boundary: Boundary, spec: &RidgeSpec) -> Vec<usize> {
     let mut ridges: Vec<Ridge> = Vec::new();
@@ -201,7 +200,7 @@ pub fn ridge_peaks(values: &[f64], boundary: Boundary, spec: &RidgeSpec) -> Vec<
     bins
 }
 
-/// Continues each live ridge with its nearest maximum within reach; the other maxima begin ridges of their own.
+/// Continues each ridge whose gap is not too long with its nearest maximum within reach; the other maxima start new ridges.
 fn follow(ridges: &mut Vec<Ridge>, maxima: &[usize], reach: f64, length: usize, boundary: Boundary, max_gap: usize) {
     let mut taken = vec![false; maxima.len()];
     for ridge in ridges.iter_mut().filter(|ridge| ridge.gap <= max_gap) {

@@ -1,9 +1,9 @@
-//! The ground of the site: all of the map but the unexplored ground that reaches its border.
+//! The ground of the site: all of the map except the unexplored ground that reaches its border.
 //!
-//! Unknown cells behind goods and between racks belong to the site, those around the building do not. The ground outside
-//! is found on a coarse grid, whose cells are known where the robot saw any part of them: a square wider than a place
-//! moves in from beyond the border over unknown coarse cells only. So the outside does not leak in through gaps between
-//! goods, nor into goods before a wall that shows only between them. Cost: O(cells).
+//! Unknown cells behind goods and between racks belong to the site, those around the building do not. The ground outside is
+//! found on a coarse grid, whose cells are known where any of their cells is: a square wider than a place is moved in from
+//! beyond the border, over unknown coarse cells only, and what it covers is outside. So the outside does not enter gaps
+//! between goods. Cost: O(cells).
 
 use crate::components::{Components, Neighbours};
 use crate::grid::{Occupancy, OccupancyGrid};
@@ -13,7 +13,7 @@ use crate::watch::{Stopped, Watch};
 
 /// Side of a coarse cell, metres: wider than the gaps between goods.
 const COARSE_M: f64 = 0.25;
-/// Side of the square that fills the ground outside, coarse cells: wider than a place.
+/// Side of the square that covers the ground outside, coarse cells: wider than a place.
 const SQUARE: usize = 5;
 
 /// The ground of a grid that lies in its site, by region.
@@ -82,10 +82,10 @@ fn known_coarse_cells(grid: &OccupancyGrid, side: usize, watch: &Watch<'_>) -> R
     Ok(is_known)
 }
 
-/// The unknown coarse cells that the square covers on its way in from beyond the border.
+/// The unknown coarse cells that the square covers when it moves in from beyond the border.
 fn outside(is_known: &[bool], columns: usize, watch: &Watch<'_>) -> Result<Vec<bool>, Stopped> {
     let rows = is_known.len().checked_div(columns).unwrap_or(0);
-    // Beyond the border all is unknown.
+    // Beyond the border all coarse cells are unknown.
     let [across, down] = [columns, rows].map(|side| side + 2 * SQUARE);
     let coarse_cell = |padded: usize| {
         let (column, row) = ((padded % across).wrapping_sub(SQUARE), (padded / across).wrapping_sub(SQUARE));

@@ -1,16 +1,16 @@
-//! Code compiled several times, for vectors of several widths, and chosen when the program runs.
+//! Code compiled several times, for several SIMD widths; the width is chosen when the program runs.
 //!
-//! One plain x86-64 binary runs everywhere and still uses AVX2 or AVX-512 where the machine has them; elsewhere (aarch64
-//! among others) the portable path is compiled for the vectors that every such machine has. A [`Kernel`] is ordinary
-//! safe code over short arrays whose length is a parameter: the numbers of an array never mix, and nothing is contracted
-//! to a fused multiply-add, so every path gives the same bytes.
+//! One x86-64 binary runs on every machine and uses AVX2 or AVX-512 where they are available; elsewhere (aarch64 and others)
+//! the portable path is compiled for the vectors that every such machine has. A [`Kernel`] is ordinary safe code over short
+//! arrays whose length is a parameter. The numbers of an array are never combined with one another, and there is no fused
+//! multiply-add, so every width gives the same bytes.
 
 #![allow(unsafe_code, reason = "calls of functions compiled for features that were just detected: the one place")]
 
-/// The vectors of a machine that kernels are compiled for, by their width.
+/// The vectors that kernels are compiled for, by width.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Vectors {
-    /// Those that every machine of the target has: SSE2 on x86-64, NEON on aarch64.
+    /// The vectors that every machine of the target has: SSE2 on x86-64, NEON on aarch64.
     Portable,
     /// 256 bits.
     #[cfg(target_arch = "x86_64")]
@@ -20,18 +20,18 @@ pub enum Vectors {
     Avx512,
 }
 
-/// Work that is worth being compiled for every width.
+/// A computation that is compiled for every width.
 pub trait Kernel {
-    /// What it gives.
+    /// Its result.
     type Output;
 
-    /// Does the work on `SIMD_WIDTH` single precision numbers at a time. Mark it, and all that it calls in its inner loops,
-    /// `#[inline(always)]`: what is not inlined is compiled for the portable path only.
+    /// Computes with `SIMD_WIDTH` single precision numbers at a time. It, and every function it calls in inner loops, must be
+    /// `#[inline(always)]`: a function that is not inlined is compiled for the portable path only.
     fn run<const SIMD_WIDTH: usize>(self) -> Self::Output;
 }
 
 impl Vectors {
-    /// Every path that this machine can take, the narrowest first.
+    /// All that this machine supports, the narrowest first.
     #[must_use]
     pub fn available() -> Vec<Self> {
         #[cfg(target_arch = "x86_64")]
@@ -53,7 +53,7 @@ impl Vectors {
         vec![Self::Portable]
     }
 
-    /// The widest that this machine has.
+    /// The widest that this machine supports.
     #[must_use]
     pub fn widest() -> Self {
         Self::available().pop().unwrap_or(Self::Portable)
@@ -62,7 +62,7 @@ impl Vectors {
     /// Runs a kernel compiled for these vectors.
     ///
     /// # Panics
-    /// When this machine does not have them.
+    /// When this machine does not support them.
     pub fn run<K: Kernel>(self, kernel: K) -> K::Output {
         assert!(self == Self::Portable || Self::available().contains(&self), "{self:?} is not of this machine");
         match self {

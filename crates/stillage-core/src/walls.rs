@@ -1,14 +1,14 @@
 //! Walls: occupied cells that are connected over many metres.
 //!
-//! Goods and racks are short components or rows of dots; a wall is long, straight and thin, and outshines them in every
-//! projection. Where a stage asks how goods stand, walls are left out. Cost: O(cells). Limits: goods that touch one
-//! another over many metres are taken for walls, so no stage relies on what is left alone.
+//! Goods and racks are short components or rows of dots. A wall is long, straight and thin, and has more energy than they
+//! have in every projection, so stages that look for the directions of goods leave walls out. Cost: O(cells). Limits: goods
+//! that touch one another over many metres count as walls, so no stage relies on the other cells alone.
 
 use crate::components::{Components, Neighbours};
 use crate::grid::{Occupancy, OccupancyGrid};
 use crate::watch::{Stopped, Watch};
 
-/// Components longer than this are walls, metres: two pallets in a row are shorter.
+/// Length above which a component is a wall, metres: two pallets in a row are shorter.
 const WALL_M: f64 = 4.0;
 
 /// For every cell, row-major, whether it is part of a wall.
