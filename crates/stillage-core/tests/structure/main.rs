@@ -16,44 +16,6 @@ use files::{Files, Sources};
 
 /// Files that still lie on a circle; this list only shrinks.
 const STANDING: &[&str] = &[
-    "crates/stillage-core/src/categorization/mod.rs",
-    "crates/stillage-core/src/categorization/parts.rs",
-    "crates/stillage-core/src/categorization/spread.rs",
-    "crates/stillage-core/src/clustering/kmeans.rs",
-    "crates/stillage-core/src/clustering/mixture/em.rs",
-    "crates/stillage-core/src/clustering/mixture/mod.rs",
-    "crates/stillage-core/src/clustering/mod.rs",
-    "crates/stillage-core/src/clustering/model.rs",
-    "crates/stillage-core/src/clustering/strength.rs",
-    "crates/stillage-core/src/features/halmstad.rs",
-    "crates/stillage-core/src/features/mod.rs",
-    "crates/stillage-core/src/features/paper.rs",
-    "crates/stillage-core/src/features/paper_sums.rs",
-    "crates/stillage-core/src/orientation/energy.rs",
-    "crates/stillage-core/src/orientation/mixture.rs",
-    "crates/stillage-core/src/orientation/mod.rs",
-    "crates/stillage-core/src/raycast/directions.rs",
-    "crates/stillage-core/src/raycast/march.rs",
-    "crates/stillage-core/src/raycast/mask.rs",
-    "crates/stillage-core/src/raycast/mod.rs",
-    "crates/stillage-core/src/raycast/sweep.rs",
-    "crates/stillage-core/src/raycast/tile_sweep.rs",
-    "crates/stillage-core/src/relaxation/cells.rs",
-    "crates/stillage-core/src/relaxation/faces.rs",
-    "crates/stillage-core/src/relaxation/mod.rs",
-    "crates/stillage-core/src/segmentation/directions.rs",
-    "crates/stillage-core/src/segmentation/gabor.rs",
-    "crates/stillage-core/src/segmentation/mod.rs",
-    "crates/stillage-core/src/segmentation/patterns.rs",
-    "crates/stillage-core/src/segmentation/tiles.rs",
-    "crates/stillage-core/src/semantics/apply.rs",
-    "crates/stillage-core/src/semantics/mod.rs",
-    "crates/stillage-core/src/semantics/suggestion.rs",
-    "crates/stillage-core/src/spec/check.rs",
-    "crates/stillage-core/src/spec/mod.rs",
-    "crates/stillage-core/src/spec/preset.rs",
-    "crates/stillage-core/src/stage_shares.rs",
-    "crates/stillage-core/src/watch.rs",
     "src/app/context.rs",
     "src/app/features.rs",
     "src/app/grid.rs",
@@ -108,21 +70,7 @@ const STANDING: &[&str] = &[
 ];
 
 /// Types that still share a name; this list only shrinks.
-const SHARED_NAMES: &[&str] = &[
-    "Arguments",
-    "Borders",
-    "Component",
-    "Geometry",
-    "Line",
-    "MapView",
-    "Piece",
-    "Progress",
-    "Run",
-    "Running",
-    "Simd",
-    "Walk",
-    "Window",
-];
+const SHARED_NAMES: &[&str] = &["Arguments", "Geometry", "MapView", "Progress", "Running", "Walk", "Window"];
 
 /// The sources below a folder of this package.
 fn sources(folder: &str) -> Sources {
