@@ -2,25 +2,25 @@
 //!
 //! Recall: share of the length of the borders of true places that has a border of a face nearby. Precision: share of
 //! the length of the borders of faces in and around true places that has the border of a place nearby; what faces do
-//! elsewhere is no matter of places. Borders are sampled.
+//! elsewhere does not count. Borders are sampled.
 //!
 //! Cost: O(length of the borders / step x borders nearby).
 
 use rayon::prelude::*;
 
-use super::overlap::BoxIndex;
+use super::box_index::BoxIndex;
 use crate::arrangement::Subdivision;
 use crate::geometry::{Bounds, Point, polygon, segment};
 use crate::watch::{Stopped, Watch};
 
-/// Nearby, metres: three cells of a common map, as in the study of the method's accuracy.
+/// Distance at which borders agree, metres: three cells of a common map, as in the accuracy study.
 const NEARBY: f64 = 0.15;
-/// Around a true place, metres: half of a flue and more.
+/// Distance from a true place within which borders of faces count, metres: more than half a flue.
 const AROUND: f64 = 0.3;
 /// Distance of the samples, metres: a cell of a common map.
 const STEP: f64 = 0.05;
 
-/// Segments, to be asked how near they are.
+/// Segments with an index, for queries by distance.
 struct Segments {
     segments: Vec<[Point; 2]>,
     index: BoxIndex,
@@ -48,7 +48,7 @@ fn samples([from, to]: [Point; 2]) -> (impl Iterator<Item = Point>, f64) {
     ((0..count).map(at), length / count as f64)
 }
 
-/// Length that counts, and the part of it that is right.
+/// Length of borders that counts, and the part of it that agrees.
 #[derive(Debug, Clone, Copy, Default)]
 struct BorderLength {
     all: f64,
@@ -57,8 +57,8 @@ struct BorderLength {
 
 impl BorderLength {
     fn share(of: &[Self]) -> Option<f64> {
-        let all: f64 = of.iter().map(|tally| tally.all).sum();
-        let right: f64 = of.iter().map(|tally| tally.right).sum();
+        let all: f64 = of.iter().map(|length| length.all).sum();
+        let right: f64 = of.iter().map(|length| length.right).sum();
         (all > 0.0).then(|| right / all)
     }
 }
@@ -79,20 +79,20 @@ pub(super) fn compare(
         let here = Bounds { low: point, high: point };
         whole.meeting(&here).iter().any(|&place| polygon::contains(&places[place as usize], point))
     };
-    let tally = |segment: &[Point; 2], counts: &(dyn Fn(Point) -> bool + Sync), other: &Segments| {
+    let measure = |segment: &[Point; 2], counts: &(dyn Fn(Point) -> bool + Sync), other: &Segments| {
         watch.check()?;
         let (points, step) = samples(*segment);
-        let mut tally = BorderLength::default();
+        let mut length = BorderLength::default();
         for point in points.filter(|&point| counts(point)) {
-            tally.all += step;
-            tally.right += if other.near(point, NEARBY) { step } else { 0.0 };
+            length.all += step;
+            length.right += if other.near(point, NEARBY) { step } else { 0.0 };
         }
-        Ok(tally)
+        Ok(length)
     };
     let around = |point: Point| of_places.near(point, AROUND) || in_place(point);
     let recall: Result<Vec<BorderLength>, Stopped> =
-        of_places.segments.par_iter().map(|segment| tally(segment, &|_| true, &of_faces)).collect();
+        of_places.segments.par_iter().map(|segment| measure(segment, &|_| true, &of_faces)).collect();
     let precision: Result<Vec<BorderLength>, Stopped> =
-        of_faces.segments.par_iter().map(|segment| tally(segment, &around, &of_places)).collect();
+        of_faces.segments.par_iter().map(|segment| measure(segment, &around, &of_places)).collect();
     Ok([BorderLength::share(&recall?), BorderLength::share(&precision?)])
 }

@@ -26,6 +26,7 @@
 //! overlap.
 
 mod boundary;
+mod box_index;
 mod evaluator;
 mod occupancy;
 mod overlap;

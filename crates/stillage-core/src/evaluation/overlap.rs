@@ -7,76 +7,14 @@
 //!
 //! Cost: O(points of the area) for each convex piece of a face whose box meets the area's.
 
+use super::box_index::BoxIndex;
 use crate::arrangement::{FaceId, Subdivision};
 use crate::geometry::{Bounds, Point, polygon, ring_area};
 
-/// Intersection over union above which a face is a place: at one half it can be at most one.
+/// Intersection over union above which a face fits a place: above one half at most one face can.
 const SAME: f64 = 0.5;
 
-/// Side of a bucket, metres: a few pallets.
-const BUCKET: f64 = 2.0;
-/// Most buckets along one side: maps of any size in memory of a fixed size.
-const MOST_BUCKETS: usize = 1024;
-
-/// Which of many boxes meet a box: a uniform grid of buckets.
-///
-/// Cost: O(buckets that a box covers) to enter it, O(boxes in the buckets it covers) to ask.
-#[derive(Debug)]
-pub(super) struct BoxIndex {
-    boxes: Vec<Bounds>,
-    low: Point,
-    /// Side of a bucket by axis, metres.
-    side: [f64; 2],
-    count: [usize; 2],
-    buckets: Vec<Vec<u32>>,
-}
-
-impl BoxIndex {
-    pub(super) fn new(boxes: Vec<Bounds>) -> Self {
-        let corners = boxes.iter().filter(|bounds| !bounds.is_empty());
-        let Bounds { low, high } = Bounds::around(corners.flat_map(|bounds| [&bounds.low, &bounds.high]));
-        let extent = [high.x - low.x, high.y - low.y].map(|extent| if extent.is_finite() { extent } else { 0.0 });
-        let count = extent.map(|extent| ((extent / BUCKET) as usize + 1).min(MOST_BUCKETS));
-        let side = [0, 1].map(|axis| (extent[axis] / count[axis] as f64).max(BUCKET));
-        let mut index = Self { boxes: Vec::new(), low, side, count, buckets: vec![Vec::new(); count[0] * count[1]] };
-        for (number, bounds) in boxes.iter().enumerate() {
-            for bucket in index.covered(bounds) {
-                index.buckets[bucket].push(number as u32);
-            }
-        }
-        index.boxes = boxes;
-        index
-    }
-
-    /// The buckets that a box covers.
-    fn covered(&self, bounds: &Bounds) -> impl Iterator<Item = usize> + use<> {
-        let columns = self.count[0];
-        let bucket = |value: f64, low: f64, axis: usize| {
-            ((((value - low) / self.side[axis]).max(0.0)) as usize).min(self.count[axis] - 1)
-        };
-        let range = |from: f64, to: f64, low: f64, axis: usize| {
-            // A box without points covers nothing.
-            if from <= to { bucket(from, low, axis)..bucket(to, low, axis) + 1 } else { 0..0 }
-        };
-        let x = range(bounds.low.x, bounds.high.x, self.low.x, 0);
-        let y = range(bounds.low.y, bounds.high.y, self.low.y, 1);
-        y.flat_map(move |row| x.clone().map(move |column| row * columns + column))
-    }
-
-    /// The boxes that meet a box, ascending.
-    pub(super) fn meeting(&self, bounds: &Bounds) -> Vec<u32> {
-        let mut found: Vec<u32> = self
-            .covered(bounds)
-            .flat_map(|bucket| self.buckets[bucket].iter().copied())
-            .filter(|&number| self.boxes[number as usize].meets(bounds))
-            .collect();
-        found.sort_unstable();
-        found.dedup();
-        found
-    }
-}
-
-/// A convex window, counter-clockwise, and whether its area counts or is taken away.
+/// A convex window, counter-clockwise; the sign says whether its area is added or subtracted.
 #[derive(Debug)]
 struct ConvexPiece {
     sign: f64,
@@ -132,12 +70,12 @@ pub(super) struct Match {
 }
 
 impl Match {
-    /// Whether a face with so much area in common is the place.
+    /// Whether a face with this area in common fits the place.
     pub(super) fn fits(&self, (face, common): (u32, f64), face_areas: &[f64]) -> bool {
         common / (face_areas[face as usize] + self.area - common) > SAME
     }
 
-    /// The face that is the place.
+    /// The face that fits the place.
     pub(super) fn fitting(&self, face_areas: &[f64]) -> Option<u32> {
         let found = self.overlaps.iter().find(|&&overlap| self.fits(overlap, face_areas));
         found.map(|&(face, _)| face)
@@ -172,7 +110,7 @@ fn is_convex(ring: &[Point]) -> bool {
     })
 }
 
-/// Room for clipping, kept between calls.
+/// Working memory for clipping, reused between calls.
 #[derive(Debug, Default)]
 struct Clip {
     ring: Vec<Point>,
@@ -249,20 +187,6 @@ mod tests {
     }
 
     proptest! {
-        #[test]
-        fn boxes_are_found_as_by_comparing_all(
-            boxes in prop::collection::vec((-20.0..20.0, -20.0..20.0, 0.0..9.0, 0.0..9.0), 0..40),
-            (x, y, size) in (-25.0..25.0, -25.0..25.0, 0.0..8.0)
-        ) {
-            let bounds = |&(x, y, width, height): &(f64, f64, f64, f64)| {
-                Bounds { low: Point::new(x, y), high: Point::new(x + width, y + height) }
-            };
-            let boxes: Vec<Bounds> = boxes.iter().map(bounds).collect();
-            let asked = bounds(&(x, y, size, size));
-            let expected: Vec<u32> = (0..boxes.len() as u32).filter(|&number| boxes[number as usize].meets(&asked)).collect();
-            prop_assert_eq!(BoxIndex::new(boxes).meeting(&asked), expected);
-        }
-
         #[test]
         fn common_area_is_that_of_a_count(
             radii in prop::collection::vec(0.5..4.0, 3..9), (x, y, side) in (0.0..6.0, 0.0..6.0, 1.0..5.0)

@@ -1,4 +1,4 @@
-//! What is true of a site, as somebody surveyed or generated it.
+//! The truth of a site, surveyed or generated.
 
 use crate::geometry::{Point, Vector, polygon, ring_area};
 use crate::grid::GridFrame;
