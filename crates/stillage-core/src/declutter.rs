@@ -36,11 +36,12 @@ const NEIGHBOURHOOD_REACH_M: f64 = 0.5;
 /// Occupied area around a component that is not lone, square metres: two posts, or three blocks of a pallet that are hardly
 /// seen.
 const NEIGHBOUR_AREA: f64 = 0.015;
-/// Poisson deviations by which the cells around must exceed the expected speckle as well. Chosen by hand.
+/// Poisson deviations by which the cells around must exceed the expected speckle as well.
+/// No measurement is recorded for this value.
 const DEVIATIONS: f64 = 4.0;
 /// Side of the tiles in which the rate of speckle is measured, metres.
 const RATE_TILE_M: f64 = 4.0;
-/// Rank of the tile whose rate is taken, as a share of the tiles: on any site a fifth hold nothing but floor.
+/// Rank of the tile whose rate is taken, as a share of the tiles: a fifth of them hold nothing but floor.
 const RATE_RANK: f64 = 0.2;
 /// Rate below which a map has no speckle, hits per cell: one in 2000.
 const CLEAN_RATE: f64 = 5e-4;
@@ -257,7 +258,7 @@ fn is_at_border(grid: &OccupancyGrid, component: Component<'_>) -> bool {
     })
 }
 
-/// Hits of one cell per free cell, on the cleanest fifth of the tiles.
+/// Rate of speckle: hits of one cell per free cell, of the tile at [`RATE_RANK`] in ascending order.
 fn speckle_rate(grid: &OccupancyGrid, components: &Components, watch: &Watch<'_>) -> Result<f64, Stopped> {
     let side = ((RATE_TILE_M / grid.resolution()) as usize).max(1);
     let (columns, rows) = (grid.width().div_ceil(side), grid.height().div_ceil(side));

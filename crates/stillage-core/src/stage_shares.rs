@@ -49,7 +49,7 @@ const RELAXATION: f64 = 8.0;
 const RESTART: f64 = 31.0;
 /// Last run of k-means on the whole sample, for each row and category, ns.
 const LAST_RUN: f64 = 60.0;
-/// One restart of `halmstad2017`, for each row and category, ns: its rows are longer and it takes more iterations.
+/// One restart of `halmstad2017`, for each row and category, ns: its tolerance is in effect finer and its rows are longer.
 const HALMSTAD_RESTART: f64 = 90.0;
 /// Rows on which restarts are compared, as a share of the fitted ones.
 const COMPARISON: f64 = 0.1;

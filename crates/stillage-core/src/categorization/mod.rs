@@ -30,7 +30,7 @@ use spread::spread;
 /// deviation of a feature.
 pub(crate) const FIT_CELLS: usize = 200_000;
 /// Movement of the centroids below which k-means ends ([`FitOptions::tolerance`]). With a looser one, thousands of cells
-/// change their category with the seed on maps without clear clusters.
+/// may change their category with the seed.
 const TOLERANCE: f64 = 1e-6;
 /// The same in the author's code, which fits to all cells (the default of scikit-learn).
 const AUTHORS_TOLERANCE: f64 = 1e-4;

@@ -27,10 +27,11 @@ use crate::watch::{Stage, Stopped, Watch};
 /// Restarts are compared on a sample of so many times fewer rows.
 const COMPARISON_DIVISOR: usize = 10;
 
-/// Share of the time of a fit after which the restarts are run, by estimate.
+/// Share of the time of a fit after which the restarts are run. No measurement is recorded for this value.
 const RESTARTS_DONE: f64 = 0.4;
 
-/// Share of the time of a fit after which the restarts are compared on the whole sample, by estimate.
+/// Share of the time of a fit after which the restarts are compared on the whole sample. No measurement is recorded for
+/// this value.
 const COMPARISON_DONE: f64 = 0.7;
 
 /// How to look for centroids.

@@ -31,7 +31,7 @@ impl<const N: usize> SimdCells<N> {
         let units: &[u16; N] = units.first_chunk().expect("planes are worked on in whole groups");
         let mut numbers = Self::ZERO;
         for (number, &units) in numbers.0.iter_mut().zip(units) {
-            // There is a vector instruction for i32, none for u16.
+            // By way of i32, for which there is a vector instruction.
             *number = i32::from(units) as f32;
         }
         numbers

@@ -2,7 +2,7 @@
 //!
 //! Racks may be turned against their hall, and its walls have far more energy, so cells that are no wall are searched by
 //! themselves as well, and then blocks of the map ([`blocks`]). Each direction is fitted to the points of its lines
-//! ([`slope`]). Cost: that of three scans of [`super::energy`].
+//! ([`slope`]). Cost: that of four scans of [`super::energy`].
 
 use std::f64::consts::PI;
 

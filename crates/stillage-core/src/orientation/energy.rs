@@ -6,10 +6,10 @@
 //! skew of scanned pages (W. Postl, *Detection of linear oblique structures and skew scan in digitized documents*, ICPR
 //! 1986). Measured there on 31 maps:
 //!
-//! | method | error | missed |
+//! | method | error | missed or invented |
 //! | --- | --- | --- |
 //! | radiogram energy | 0.07 degrees at worst | nothing |
-//! | gradient histogram | 0.25 degrees in the median | three regions |
+//! | gradient histogram | 0.25 degrees in the median | three regions missed |
 //!
 //! Cells are points jittered inside their cell, since otherwise the pixel grid itself would be the best alignment. The
 //! jitter and the choice of a sample are hashes of the cell's index: the same on every run and any number of threads.

@@ -1,6 +1,7 @@
 //! Distributions over categories: shares of sum 1.
 
-/// Least share of a category in a distribution before the first iteration. Chosen by hand: a share of 0 would stay 0.
+/// Least share of a category in a distribution before the first iteration. A share of 0 would stay 0. No
+/// measurement is recorded for this value.
 pub(super) const LEAST_SHARE: f32 = 0.01;
 
 /// Largest change of a share in one iteration below which relaxation ends (1e-3 in earlier work on place labelling).

@@ -37,8 +37,8 @@ const BIN_M: f64 = 0.05;
 const LEAST_CELLS: usize = 30;
 /// A tile without structure nearer than this has no direction of its own, metres.
 const OWN_REACH_M: f64 = 2.0;
-/// Factor on the least share of a region, below which a piece of one direction is absorbed. Chosen by hand: a direction is
-/// surer evidence of a region than a texture.
+/// Factor on `min_share`: pieces of one direction below that share of the known cells are absorbed.
+/// No measurement is recorded for this value.
 const SHARE_FACTOR: f64 = 0.25;
 
 /// The pairs of directions and the pair of every tile.

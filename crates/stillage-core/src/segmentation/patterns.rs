@@ -20,10 +20,9 @@ const MIN_CELLS: usize = 60;
 /// Least contrast of a pattern's orientation, as a share of the mean energy: below 0.1 for scattered points, above 1 for
 /// blocks of racks.
 const MIN_RELATIVE_CONTRAST: f64 = 0.3;
-/// Orientations that differ by less are the same (modulo a quarter turn), degrees: below half the least separation of
-/// orientations, which is 6.
+/// Orientations that differ by less are the same (modulo a quarter turn), degrees. No measurement is recorded for this value.
 const AGREEMENT_DEG: f64 = 2.0;
-/// Two patterns are one where the orientation of either has at least this share of the other's own contrast in it.
+/// Two patterns are one if in either of them the other's orientation has at least this share of the contrast of its own.
 const SHARED_CONTRAST: f64 = 0.5;
 
 /// A division of the tiles into patterns of different orientations.

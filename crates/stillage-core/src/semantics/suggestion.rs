@@ -16,15 +16,16 @@ use crate::analysis::Analysis;
 use crate::categorization::CategoryMap;
 
 /// Least likelihood of a suggested label; below it the category stays unidentified, since a wrong label opens or closes
-/// ways. Chosen by hand.
+/// ways. No measurement is recorded for this value.
 const LEAST_LIKELIHOOD: f64 = 0.35;
 /// Factor on the likelihood of a label that is drivable and nothing else: it fits every free place, so a more specific
-/// label is preferred. Chosen by hand.
+/// label is preferred. No measurement is recorded for this value.
 const PLAIN_DRIVABLE: f64 = 0.75;
 /// Share of a category's area that was cut out as plots above which their kinds decide: the majority.
 const MAJORITY: f64 = 0.5;
 
-// Ramps: a statement is false below the first value, true above the second, and in between by degrees. Chosen by hand.
+// Ramps: a statement is false below the first value, true above the second, and in between by degrees. No
+// measurement is recorded for their values; where a comment gives a reason, that is their origin.
 
 /// Median face area, square metres: a place for one EUR pallet has about 1, a bay of three 4.
 const LARGER_THAN_ONE_PLACE: [f64; 2] = [2.0, 4.0];
