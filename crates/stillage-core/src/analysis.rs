@@ -113,7 +113,7 @@ pub fn analyze(grid: &OccupancyGrid, spec: &AnalysisSpec, watch: &Watch<'_>) -> 
         let planned = annotation::PlannedGround { plots: &plots, rooms: &room_of_faces };
         annotation::merge_alike(grid, &regions, subdivision, planned, &options.annotation, watch)
     })?;
-    let graph = AdjacencyGraph::dual(&subdivision);
+    let graph = AdjacencyGraph::dual(&subdivision, watch)?;
     let cells = CellFaces::of_grid(&subdivision, grid);
     let rooms = RoomMap::of(&rooms, &subdivision, &cells);
     let annotations = watch.stage(Stage::Annotation, || {

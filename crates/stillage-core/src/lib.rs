@@ -2,16 +2,23 @@
 //!
 //! The method is that of S. Gholami Shahbandi, B. Åstrand and R. Philippsen, *Semi-supervised semantic
 //! labeling of adaptive cell decomposition maps in well-structured environments* (ECMR 2015,
-//! doi 10.1109/ECMR.2015.7324207). Its Fig. 2 is this crate, top to bottom:
+//! doi 10.1109/ECMR.2015.7324207). Its Fig. 2 is this crate. The head of a module says where it departs from the
+//! paper; the preset `paper` brings the paper's own way back.
 //!
 //! ```text
-//! grid ── raycast ── features ── categorization ──────────────┐      geometric level, no human input:
-//!   └──── orientation ── segmentation ── radiography          │      [`analyze`]
-//!                              └── arrangement ── adjacency ──┴── annotation ── Analysis
-//!                                                                                  │
-//!         rule set + assignment (one human decision per category) ── semantics ────┴── SemanticMap
-//!                                                                  layout, routing ──┘    human level: [`semantics::apply`]
+//! grid ─ declutter ─┬─ raycast ─ features ─ clustering ─ categorization ────────────────────────┐
+//!                   └─ orientation ─ segmentation ─┬─ site_plan (rooms, decomposition) ─┐       │
+//!                                                  └─ radiography (the paper's lines) ──┤       │
+//!                                                                                  arrangement  │
+//!                                                                     adjacency ────────┴─── annotation ─ Analysis
+//!                                                                                                            │
+//!                     rule set, assignment (one human decision per category) ─ semantics ─ SemanticMap ──────┘
+//!                                                                                               │
+//!                                                                                       layout, routing
 //! ```
+//!
+//! Everything up to the [`Analysis`] is the geometric level, without human input: [`analyze`]. The rest is the human level:
+//! [`semantics::apply`].
 //!
 //! Where the truth of a site is known, [`evaluation`] says how well both levels fit it.
 //!
@@ -22,28 +29,42 @@
 //! *grid frame*: metres from the lower left corner of the grid, x along the columns, y up along the rows.
 //! [`grid::GridFrame`] carries it into the map frame (origin and yaw).
 
+// Shared by many stages.
 pub mod geometry;
 pub mod grid;
-
-pub mod features;
-pub mod raycast;
-
-pub mod clustering;
 pub mod linalg;
-pub mod relaxation;
+pub mod line;
+pub mod plot;
 pub mod signal;
 pub mod vectors;
 
-pub mod categorization;
+mod components;
+mod morphology;
+mod runs;
+mod site_ground;
+mod walls;
+
+// The stages, in the order of the data.
 pub mod declutter;
+
+pub mod raycast;
+
+pub mod features;
+
+pub mod clustering;
+
+pub mod categorization;
+
 pub mod orientation;
+
 pub mod segmentation;
 
-pub mod decomposition;
-pub mod line;
-pub mod plot;
 pub mod radiography;
+
 pub mod rooms;
+
+pub mod decomposition;
+
 pub mod site_plan;
 
 pub mod arrangement;
@@ -52,23 +73,23 @@ pub mod adjacency;
 
 pub mod annotation;
 
-pub mod analysis;
-pub mod memory;
+pub mod relaxation;
 
+pub mod analysis;
+
+// The human level.
 pub mod semantics;
 
 pub mod layout;
+
 pub mod routing;
 
 pub mod evaluation;
 
-mod components;
-mod morphology;
-mod runs;
-mod site_ground;
+// What a computation is asked for, and what it costs.
+pub mod memory;
 pub mod spec;
 pub mod stage_shares;
-mod walls;
 pub mod watch;
 
 #[cfg(test)]

@@ -1,10 +1,10 @@
 //! The adjacency graph A = (nodes, links), dual of the subdivision (paper, II-B).
 //!
-//! D(.) is the identity on ids: node i is the dual of face i, link i of edge i, so D(D(x)) = x by construction. Two
+//! The dual D is the identity on ids: node i is the dual of face i, link i of edge i, so D(D(x)) = x by construction. Two
 //! faces that share several edges are joined by as many links (the author's code joins them by one), and no link joins
 //! a node to itself, since every edge of a subdivision separates two faces.
 //!
-//! A node lies well inside its face, where the paper draws it: see [`pole()`]. Cost: O(E), and the poles.
+//! The position of a node is a point well inside its face: see [`pole()`]. Cost: O(edges), and the search for the points.
 
 mod pole;
 
@@ -15,6 +15,7 @@ pub(crate) use pole::pole;
 
 use crate::arrangement::{EdgeId, FaceId, Subdivision};
 use crate::geometry::Point;
+use crate::watch::{Stopped, Watch};
 
 /// Dual graph of a subdivision: node i is the dual of face i, link i of edge i.
 ///
@@ -29,12 +30,16 @@ pub struct AdjacencyGraph {
 
 impl AdjacencyGraph {
     /// Builds the dual.
-    #[must_use]
-    pub fn dual(subdivision: &Subdivision) -> Self {
+    ///
+    /// # Errors
+    /// [`Stopped`] when the watch says so.
+    pub fn dual(subdivision: &Subdivision, watch: &Watch<'_>) -> Result<Self, Stopped> {
         let mut positions = vec![Point::origin(); subdivision.face_count()];
-        positions.par_iter_mut().enumerate().skip(1).for_each(|(face, position)| {
+        positions.par_iter_mut().enumerate().skip(1).try_for_each(|(face, position)| {
+            watch.check()?;
             *position = pole(&subdivision.rings(FaceId(face as u32)));
-        });
+            Ok(())
+        })?;
         let mut neighbors = vec![Vec::new(); subdivision.face_count()];
         for edge in subdivision.edges() {
             let [left, right] = subdivision.sides(edge);
@@ -43,7 +48,7 @@ impl AdjacencyGraph {
                 neighbors[right.index()].push((edge, left));
             }
         }
-        Self { positions, neighbors }
+        Ok(Self { positions, neighbors })
     }
 
     /// A point well inside a face.

@@ -1,9 +1,9 @@
-//! A point well inside a polygon: its pole of inaccessibility, where that is worth looking for.
+//! A point well inside a polygon: its centroid, or its pole of inaccessibility.
 //!
-//! The centroid of a rectangle, a triangle or any such cell is as good, and is taken when its clearance is at least
-//! area / perimeter (half the largest clearance any convex polygon of that area and perimeter can have). Else the
-//! square with the most promising clearance is split again and again (V. Agafonkin, *polylabel*, 2016), to 5 %.
-//! Cost: O(corners x probes), at most 500 probes.
+//! The centroid is taken when its clearance (distance to the nearest side) is at least area / perimeter, which is half the
+//! largest clearance that a convex polygon of that area and perimeter can have. Else the pole of inaccessibility, the
+//! point of greatest clearance, is approximated to 5 %: squares that may hold it are split, the most promising first
+//! (V. Agafonkin, *polylabel*, 2016). Cost: O(corners x probes), at most 500 probes.
 
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
@@ -11,10 +11,12 @@ use std::f64::consts::SQRT_2;
 
 use crate::geometry::{Bounds, Point, Vector, polygon, segment};
 
-/// How much better than the best a square must promise to be, to be split.
-const WORTHWHILE: f64 = 1.05;
-/// Most squares looked at: shapes that need more are slivers, where any inner point will do.
-const MOST_PROBES: usize = 500;
+/// A square is split when the greatest clearance possible in it is more than this times the best found: 5 % are invisible
+/// in a picture.
+const LEAST_GAIN: f64 = 1.05;
+/// Greatest number of points whose clearance is measured: shapes that need more are slivers, where any inner point will
+/// do.
+const MAX_PROBES: usize = 500;
 
 /// A point well inside a polygon: an outer ring and holes (first points not repeated). The origin without corners.
 pub(crate) fn pole(rings: &[Vec<Point>]) -> Point {
@@ -29,7 +31,7 @@ pub(crate) fn pole(rings: &[Vec<Point>]) -> Point {
     }
 }
 
-/// A square of the search, ordered by the clearance that its best point may have.
+/// A square of the search, ordered by the greatest clearance possible in it.
 struct Square {
     center: Point,
     half: f64,
@@ -37,18 +39,19 @@ struct Square {
 }
 
 impl Square {
-    fn promise(&self) -> f64 {
+    /// The greatest clearance possible in it.
+    fn bound(&self) -> f64 {
         self.clearance + self.half * SQRT_2
     }
 }
 
 impl Ord for Square {
     fn cmp(&self, other: &Self) -> Ordering {
-        // Places decide between equals, so that the search takes the same way every time.
+        // Equal bounds are ordered by place, so that every search takes the same squares in the same order.
         let place = |square: &Self| (square.center.y, square.center.x);
         let (first, second) = (place(self), place(other));
-        let by_promise = self.promise().total_cmp(&other.promise());
-        by_promise.then(first.0.total_cmp(&second.0)).then(first.1.total_cmp(&second.1))
+        let by_bound = self.bound().total_cmp(&other.bound());
+        by_bound.then(first.0.total_cmp(&second.0)).then(first.1.total_cmp(&second.1))
     }
 }
 
@@ -77,7 +80,7 @@ fn clearance(rings: &[Vec<Point>], point: Point) -> f64 {
     if is_inside { nearest.sqrt() } else { -nearest.sqrt() }
 }
 
-/// The middle of the widest stretch inside, at a level between corners near half height.
+/// A point inside: the middle of the widest stretch of the polygon along a level that passes between its corners.
 fn some_inner_point(rings: &[Vec<Point>], Bounds { low, high }: Bounds) -> Point {
     let middle = f64::midpoint(low.y, high.y);
     let heights = || rings.iter().flatten().map(|corner| corner.y);
@@ -94,10 +97,11 @@ fn some_inner_point(rings: &[Vec<Point>], Bounds { low, high }: Bounds) -> Point
     Point::new(widest.map_or(middle, |[left, right]| f64::midpoint(*left, *right)), level)
 }
 
-/// Splits squares until none promises more than the best point found.
+/// Splits squares until none can hold a clearance worth the effort.
 fn search(rings: &[Vec<Point>], bounds: Bounds) -> Point {
     let Bounds { low, high } = bounds;
     let size = high - low;
+    // Squares as wide as the narrow side of the bounds, at most 32 along the long side.
     let grain = size.min().max(size.max() / 32.0);
     let square = |center: Point, half: f64| Square { center, half, clearance: clearance(rings, center) };
     let [columns, rows] = [size.x, size.y].map(|extent| (extent / grain).ceil() as usize);
@@ -106,9 +110,9 @@ fn search(rings: &[Vec<Point>], bounds: Bounds) -> Point {
         .map(|offset| square(low + offset, grain / 2.0))
         .collect();
     let mut best = square(some_inner_point(rings, bounds), 0.0);
-    for _ in 0..MOST_PROBES / 4 {
+    for _ in 0..MAX_PROBES / 4 {
         let Some(next) = queue.pop() else { break };
-        if next.promise() <= best.clearance * WORTHWHILE {
+        if next.bound() <= best.clearance * LEAST_GAIN {
             break;
         }
         let half = next.half / 2.0;

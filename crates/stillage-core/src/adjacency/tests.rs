@@ -7,7 +7,6 @@ use proptest::prelude::*;
 
 use super::*;
 use crate::arrangement::{EdgeSource, SourceSegment, arrange};
-use crate::watch::Watch;
 
 fn subdivide(ends: &[[f64; 4]]) -> Subdivision {
     let segment = |&[x0, y0, x1, y1]: &[f64; 4]| SourceSegment {
@@ -16,6 +15,10 @@ fn subdivide(ends: &[[f64; 4]]) -> Subdivision {
         source: EdgeSource::Boundary,
     };
     arrange(&ends.iter().map(segment).collect::<Vec<_>>(), &Watch::unwatched()).expect("nobody stops it")
+}
+
+fn dual(subdivision: &Subdivision) -> AdjacencyGraph {
+    AdjacencyGraph::dual(subdivision, &Watch::unwatched()).expect("nobody stops it")
 }
 
 /// A ring as closed segments.
@@ -29,7 +32,7 @@ fn ring(corners: &[[f64; 2]]) -> Vec<[f64; 4]> {
 fn links_join_the_faces_of_inner_edges_only() {
     let mut ends = ring(&[[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0]]);
     ends.extend([[0.0, 2.0, 4.0, 2.0], [2.0, 2.0, 2.0, 4.0]]);
-    let graph = AdjacencyGraph::dual(&subdivide(&ends));
+    let graph = dual(&subdivide(&ends));
     let links: Vec<String> = graph.neighbors.iter().map(|links| format!("{links:?}")).collect();
     expect![[r#"
         []
@@ -45,7 +48,7 @@ fn links_join_the_faces_of_inner_edges_only() {
 fn faces_that_share_several_edges_have_several_links() {
     let mut ends = ring(&[[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0]]);
     ends.extend([[2.0, 0.0, 2.0, 2.0], [2.0, 2.0, 4.0, 2.0]]);
-    let graph = AdjacencyGraph::dual(&subdivide(&ends));
+    let graph = dual(&subdivide(&ends));
     let behind: Vec<_> = graph.links(FaceId(1)).iter().map(|&(_, face)| face).collect();
     assert_eq!(behind, [FaceId(2), FaceId(2)]);
 }
@@ -61,7 +64,7 @@ fn nodes_lie_well_inside_bent_and_holed_faces() {
     let sliver = ring(&[[0.0, 0.0], [100.0, 100.0], [100.0, 100.001], [0.0, 0.001]]);
     for (shape, least) in [(bent, 1.0), (holed, 1.5), (sliver, 3e-4)] {
         let subdivision = subdivide(&shape);
-        let node = AdjacencyGraph::dual(&subdivision).position(FaceId(1));
+        let node = dual(&subdivision).position(FaceId(1));
         let distance = subdivision
             .boundary(FaceId(1))
             .map(|half| {
@@ -77,7 +80,7 @@ fn nodes_lie_well_inside_bent_and_holed_faces() {
 
 #[test]
 fn the_unbounded_face_alone_has_no_links() {
-    let graph = AdjacencyGraph::dual(&subdivide(&[]));
+    let graph = dual(&subdivide(&[]));
     assert_eq!((graph.positions.len(), graph.links(FaceId::OUTER).len()), (1, 0));
 }
 
@@ -95,7 +98,7 @@ proptest! {
     #[test]
     fn the_dual_of_the_dual_is_the_subdivision(ends in crossing_lines()) {
         let subdivision = subdivide(&ends);
-        let graph = AdjacencyGraph::dual(&subdivision);
+        let graph = dual(&subdivision);
         let mut faces_by_link: BTreeMap<EdgeId, Vec<FaceId>> = BTreeMap::new();
         for face in subdivision.faces() {
             prop_assert!(graph.links(face).is_sorted());
@@ -118,7 +121,7 @@ proptest! {
     #[test]
     fn every_node_lies_in_its_own_face(ends in crossing_lines()) {
         let subdivision = subdivide(&ends);
-        let graph = AdjacencyGraph::dual(&subdivision);
+        let graph = dual(&subdivision);
         for face in subdivision.faces() {
             let node = graph.position(face);
             for other in subdivision.faces() {

@@ -1,11 +1,12 @@
-//! What the cells say about edges: is something there, could one pass, is anything known.
+//! Measurements of edges: how much of an edge is occupied, how much is open, and how much is known.
 //!
-//! An edge is sampled every half cell, and across it every cell out to the support width, so that of the cells that its
-//! strip covers at most a corner is missed. (The author prunes edges by the occupied share within 5 px and by the
-//! distance image; see the paper's successor, map alignment 2017. Here nothing is pruned, the shares are reported.) An
-//! edge is observed where signs of it stand along it: two posts of 0.09 m on the side of a place of 1.2 m, or more. A
-//! face is observed where most of its border is; both are interpolated else: what goods or floor it holds is another
-//! matter. Cost: O(length / cell x width / cell), in parallel by edges.
+//! Samples lie every half cell along an edge, and at each sample every cell across it out to the support width, so that
+//! at most a corner of a covered cell is missed. (The author's later code prunes edges by the occupied share within 5
+//! pixels; here nothing is pruned, the shares are reported.)
+//!
+//! An edge is observed where occupied cells stand along at least the share of it that two posts of 0.09 m take of the
+//! side of a place of 1.2 m; a face is observed where most of its border is. All others are interpolated. What a face
+//! holds does not matter for this. Cost: O(length / cell x width / cell) per edge, in parallel.
 
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -17,12 +18,12 @@ use crate::grid::{Occupancy, OccupancyGrid};
 use crate::spec::AnnotationOptions;
 use crate::watch::{Stopped, Watch};
 
-/// Share of the length of an edge along which signs of it stand at least.
-const SIGNS_SHARE: f64 = 0.15;
-/// Share of the border of a face that is observed at least.
-const MAJORITY: f64 = 0.5;
+/// Least share of the length of an observed edge along which occupied cells stand: two posts of 0.09 m on 1.2 m.
+const OBSERVED_SHARE: f64 = 0.15;
+/// Least share of the border of an observed face that is observed: the majority.
+const OBSERVED_BORDER_SHARE: f64 = 0.5;
 
-/// What the cells say about an edge.
+/// What is known of an edge from the cells along it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct EdgeAnnotation {
     /// Share of its length along which an occupied cell lies within the support width.
@@ -51,6 +52,7 @@ pub(super) fn annotate_edges(
     (0..subdivision.edge_count() as u32).into_par_iter().map(annotate).collect()
 }
 
+/// Annotates one edge; `support_width` in metres.
 pub(super) fn annotate_edge(
     grid: &OccupancyGrid,
     subdivision: &Subdivision,
@@ -88,12 +90,12 @@ pub(super) fn annotate_edge(
     EdgeAnnotation {
         support,
         open: share(open, samples),
-        evidence: if support >= SIGNS_SHARE { Evidence::Observed } else { Evidence::Interpolated },
+        evidence: if support >= OBSERVED_SHARE { Evidence::Observed } else { Evidence::Interpolated },
         confidence: share(known, samples * (strip.len() + 2)),
     }
 }
 
-/// What the border of every face rests on; interpolated for the unbounded one.
+/// Whether every face was observed, by face id; the unbounded one was not.
 pub(super) fn evidence_of_faces(subdivision: &Subdivision, edges: &[EdgeAnnotation]) -> Vec<Evidence> {
     let mut lengths = vec![[0.0; 2]; subdivision.face_count()];
     for edge in subdivision.edges() {
@@ -105,7 +107,7 @@ pub(super) fn evidence_of_faces(subdivision: &Subdivision, edges: &[EdgeAnnotati
         }
     }
     let evidence = |(face, [all, observed]): (usize, [f64; 2])| {
-        let is_observed = face != FaceId::OUTER.index() && observed >= MAJORITY * all;
+        let is_observed = face != FaceId::OUTER.index() && observed >= OBSERVED_BORDER_SHARE * all;
         if is_observed { Evidence::Observed } else { Evidence::Interpolated }
     };
     lengths.into_iter().enumerate().map(evidence).collect()

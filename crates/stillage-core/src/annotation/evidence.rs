@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// What the geometry of a face or edge rests on.
+/// Whether a face or an edge was seen.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Evidence {
     /// Goods, posts or walls along the border show it.

@@ -1,9 +1,9 @@
-//! What the cells say about faces: L(f) = Mode { L(p) | p in M(f) } (paper, II-B), and statistics.
+//! Measurements of faces: shares of their cells, shape, and the vote L(f) = Mode { L(p) | p in M(f) } (paper, II-B).
 //!
 //! The vote is over the categorized cells, which are free; ties go to the lower id. (The author's published code takes
-//! the median of the labels, which is no mode for more than two.) A face without a vote is occupied or unknown.
-//! Counts are whole numbers, added up in any order: the result does not hang on the number of threads.
-//! Cost: O(cells + corners).
+//! the median of the labels, which is not the mode for more than two.) A face without a vote is occupied or unknown.
+//! Counts are whole numbers, so the result does not depend on the order in which threads add them. Cost: O(cells +
+//! corners log corners).
 
 use std::sync::atomic::{AtomicU32, Ordering};
 
@@ -21,12 +21,13 @@ use crate::plot::PlotKind;
 use crate::segmentation::RegionMap;
 use crate::watch::{Stopped, Watch};
 
-/// What stands nearer than this to the border of a face may be a post of its rack or overhang of a neighbour, metres.
+/// Occupied cells nearer than this to the border of a face do not count as inside, metres: they may be a post of its own
+/// rack or goods of a neighbour that overhang.
 const RIM_M: f64 = 0.1;
 /// Counts of cells: free, occupied, unknown, and occupied away from the border.
 const OCCUPANCY_SLOTS: usize = 4;
 
-/// What the cells say about a face.
+/// What is known of a face from its cells and its shape.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct FaceAnnotation {
     /// Category in force: a cluster, or `occupied`, `unknown` or `outside` of [`FaceCategories`].
@@ -90,7 +91,7 @@ pub(super) fn annotate_faces(
         let rings = if face == FaceId::OUTER { Vec::new() } else { subdivision.rings(face) };
         let mut counts = table.of(face);
         if counts.total() == 0 && face != FaceId::OUTER {
-            // Too small for a cell centre: it lies where a point inside it lies.
+            // No cell centre lies in it: its region is that of a point inside.
             counts.regions[region_slot(regions, region_at(grid, regions, pole(&rings)))] += 1;
         }
         Ok(face_annotation(&counts, &rings, categories))
@@ -103,7 +104,7 @@ pub(super) fn region_at(grid: &OccupancyGrid, regions: &RegionMap, point: Point)
     region.unwrap_or(RegionMap::NONE)
 }
 
-/// Where the cells of a region are counted: in its own slot, or in the last one outside all regions.
+/// The slot in which the cells of a region are counted; the last one is for cells outside all regions.
 fn region_slot(regions: &RegionMap, region: u8) -> usize {
     usize::from(region).min(regions.regions.len())
 }
@@ -129,7 +130,7 @@ impl FaceCounts {
     }
 }
 
-/// The counts of all faces, in one table that all tasks add to.
+/// The counts of all faces, in one table that all threads add to.
 struct FaceCountTable {
     counts: Vec<AtomicU32>,
     categories: usize,
@@ -185,7 +186,8 @@ impl FaceCountTable {
         }
     }
 
-    /// Adds the cells of a face in one row. `votes_by_category` is scratch, all zero up to the number of categories.
+    /// Adds the cells of a face in one row. `votes_by_category` is working memory, all 0
+    /// before and after.
     fn add_run(&self, face: FaceId, votes: &[u8], cells: &[Occupancy], votes_by_category: &mut [u32; 256]) {
         for &vote in votes {
             votes_by_category[usize::from(vote)] += 1;
@@ -227,7 +229,7 @@ impl FaceCountTable {
     }
 }
 
-/// Index of the greatest count, the first of equals; `None` when all are 0.
+/// Index of the greatest count, the first of equals; `None` if all are 0.
 fn mode(counts: &[u32]) -> Option<usize> {
     let most = counts.iter().copied().max().filter(|&most| most > 0)?;
     counts.iter().position(|&count| count == most)

@@ -1,7 +1,7 @@
 //! Distributions of faces over the categories, and their relaxation over the adjacency graph (`crate::relaxation`).
 //!
-//! Memberships of cells are whole numbers (parts of 65,535), added up in any order: the mean of a face does not hang on
-//! the number of threads. Cost: O(measured cells x k), and O(links x k^2) per iteration of the relaxation.
+//! Memberships of cells are whole numbers (parts of 65,535), so the mean of a face does not depend on the order in which
+//! threads add them. Cost: O(measured cells x k), and O(links x k^2) per iteration of the relaxation.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -51,7 +51,7 @@ pub(super) fn average(
         let total: u64 = sums.iter().sum();
         let is_measured = total > 0 && FaceId(index as u32) != FaceId::OUTER;
         let shares = || sums.iter().map(|&sum| (sum as f64 / total as f64) as f32).collect();
-        // Where no cell was measured, categories were spread to the cells, and their shares are all there is.
+        // In a face without a measured cell, the cells got their categories from others; the shares of these are used.
         face.membership = Some(if is_measured { shares() } else { voted(face).to_vec() });
     }
     Ok(())
@@ -63,7 +63,7 @@ fn voted(face: &FaceAnnotation) -> &[f32] {
     if usize::from(face.category) < face.category_shares.len() && has_shares { &face.category_shares } else { &[] }
 }
 
-/// Relaxes the faces that have categorized cells: each gets its distribution, category and confidence anew.
+/// Relaxes the faces that have categorized cells: each gets a new distribution, category and confidence.
 pub(super) fn relax(
     faces: &mut [FaceAnnotation],
     subdivision: &Subdivision,

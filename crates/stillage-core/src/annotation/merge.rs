@@ -1,12 +1,13 @@
-//! Faces for humans: what no sign divides is one face.
+//! Joins faces that nothing divides.
 //!
-//! The decomposition cuts from side to side, so open floor comes in pieces. Faces that were cut out for the same (never
-//! places: those are the cells asked for) are joined where nothing stands along their border and both sides look alike.
-//! A room is one face. What is too small for a face then joins the neighbour that it shares most of its border with
-//! (over-segmentation is undone, as in the author's later work: edges without support are pruned).
+//! Lines of a decomposition run on through open floor and cut it into pieces. Two faces that were cut out for the same kind
+//! of ground are joined when no obstacles stand along the edge between them and its two sides are both open or both
+//! unknown; places are never joined. All faces of a room become one. A face that is too small or too narrow then joins
+//! the neighbour with which it shares most of its border. (The author's later work undoes over-segmentation likewise: it
+//! prunes edges without support.)
 //!
-//! Joining changes the subdivision only ([`Subdivision::dissolve`]); all that is known of faces is measured afterwards.
-//! Cost: O(cells along edges + faces + edges). Limits: faces of two regions stay two.
+//! Joining changes the subdivision only ([`Subdivision::dissolve`]); faces are measured afterwards. Cost: O(cells along
+//! edges + faces + edges), and the points inside the faces. Limits: faces of two regions are never joined.
 
 use std::collections::BTreeMap;
 
@@ -24,14 +25,14 @@ use crate::segmentation::RegionMap;
 use crate::spec::AnnotationOptions;
 use crate::watch::{Stopped, Watch};
 
-/// An edge divides where something stands along more than this share of its length, and does not where both of its
-/// sides are open, or unseen, along as much.
+/// Share of the length of an edge that decides what it is: supported, open or unknown. The majority.
 const MAJORITY: f64 = 0.5;
-/// Two bands go the same way within this angle: less than that between any two directions of a site.
-const SAME_WAY: f64 = std::f64::consts::FRAC_PI_8;
-/// No face is smaller than this, square metres: half the smallest place (0.8 by 0.6 m).
+/// Aisles are parallel when their directions differ by less than this, radians: half the angle between the directions of
+/// a site that are 45 degrees apart.
+const PARALLEL: f64 = std::f64::consts::FRAC_PI_8;
+/// Least area of a face, square metres: half the smallest place (0.8 by 0.6 m).
 const LEAST_AREA_M2: f64 = 0.24;
-/// No face is narrower than this in the mean, metres.
+/// Least mean width of a face, metres: three cells of 0.05.
 const LEAST_WIDTH_M: f64 = 0.15;
 
 /// What the ground of a subdivision was planned to be.
@@ -58,21 +59,23 @@ pub fn merge_alike(
     if planned.plots.is_empty() && planned.rooms.is_empty() {
         return Ok(subdivision);
     }
-    let faces = purposes(grid, regions, &subdivision, planned);
-    watch.check()?;
+    let faces = purposes(grid, regions, &subdivision, planned, watch)?;
     let inner: Vec<EdgeId> = subdivision.edges().filter(|&edge| is_alike(&faces, subdivision.sides(edge))).collect();
     let divides_nothing = |edge: &EdgeId| {
         let found = annotate_edge(grid, &subdivision, *edge, options.support_width_m);
         found.support < MAJORITY && (found.open > MAJORITY || found.confidence < MAJORITY)
     };
-    let open: Vec<EdgeId> = inner.into_par_iter().filter(divides_nothing).collect();
-    watch.check()?;
+    let open = inner.into_par_iter().map(|edge| {
+        watch.check()?;
+        Ok(divides_nothing(&edge).then_some(edge))
+    });
+    let open: Vec<Option<EdgeId>> = open.collect::<Result<_, Stopped>>()?;
     let mut sets = DisjointSets::new(subdivision.face_count());
     let is_in_room = |&edge: &EdgeId| {
         let [left, right] = subdivision.sides(edge).map(|face| faces[face.index()].room);
         left.is_some() && left == right
     };
-    for edge in subdivision.edges().filter(is_in_room).chain(open) {
+    for edge in subdivision.edges().filter(is_in_room).chain(open.into_iter().flatten()) {
         let [left, right] = subdivision.sides(edge).map(FaceId::index);
         sets.join(left, right);
     }
@@ -85,7 +88,7 @@ pub fn merge_alike(
     subdivision.dissolve(is_inside, watch)
 }
 
-/// What a face was cut out for, and where.
+/// What a face was cut out for, and where it lies.
 #[derive(Debug, Clone, Copy)]
 struct Purpose {
     room: Option<u32>,
@@ -98,9 +101,10 @@ fn purposes(
     regions: &RegionMap,
     subdivision: &Subdivision,
     planned: PlannedGround<'_>,
-) -> Vec<Purpose> {
+    watch: &Watch<'_>,
+) -> Result<Vec<Purpose>, Stopped> {
     let index = PlotIndex::new(planned.plots);
-    let graph = AdjacencyGraph::dual(subdivision);
+    let graph = AdjacencyGraph::dual(subdivision, watch)?;
     let purpose = |face: FaceId| {
         if face == FaceId::OUTER {
             return Purpose { room: None, region: RegionMap::NONE, plot: None };
@@ -110,7 +114,7 @@ fn purposes(
         let room = planned.rooms.get(face.index()).copied().flatten();
         Purpose { room, region, plot: index.at(inside, region) }
     };
-    (0..subdivision.face_count() as u32).map(|face| purpose(FaceId(face))).collect()
+    Ok((0..subdivision.face_count() as u32).map(|face| purpose(FaceId(face))).collect())
 }
 
 /// Whether the faces on both sides of an edge were cut out for the same, and may be one.
@@ -124,7 +128,7 @@ fn is_alike(faces: &[Purpose], [left, right]: [FaceId; 2]) -> bool {
         (Some(one), Some(other)) => match one.kind {
             PlotKind::Place => false,
             PlotKind::Aisle => {
-                other.kind == one.kind && line_angle_between(one.bounds.angle, other.bounds.angle) < SAME_WAY
+                other.kind == one.kind && line_angle_between(one.bounds.angle, other.bounds.angle) < PARALLEL
             }
             PlotKind::OpenFloor | PlotKind::Passage | PlotKind::Room | PlotKind::Other => other.kind == one.kind,
         },
@@ -134,7 +138,7 @@ fn is_alike(faces: &[Purpose], [left, right]: [FaceId; 2]) -> bool {
     is_hall && left.region == right.region && same_purpose
 }
 
-/// Joins what is too small or too narrow for a face with the neighbour it shares most of its border with.
+/// Joins faces that are too small or too narrow with the neighbour they share most of their border with.
 fn join_slivers(subdivision: &Subdivision, sets: &mut DisjointSets) {
     let roots: Vec<usize> = (0..subdivision.face_count()).map(|face| sets.find(face)).collect();
     let mut areas = vec![0.0; roots.len()];

@@ -1,9 +1,9 @@
-//! The ground outside the site: unexplored faces that a chain of such faces joins with the unbounded one, or with a
-//! hole in the regions (a courtyard that nobody saw).
+//! The ground outside the site: unexplored faces that are connected with the unbounded face over such faces, or with a
+//! hole in the regions (a courtyard that the robot did not see).
 //!
-//! The decomposition covers whole tiles, and beams end at walls and goods: both leave faces without a free cell. Those
-//! among known places hold something, those around the site hold nothing anyone knows of, so the two are told apart
-//! here and not left to one label. Cost: O(faces + edges).
+//! Faces without a free cell lie both inside and around the site: beams end at walls and goods, and regions consist of
+//! whole tiles, which reach beyond the walls. A face inside may hold goods; a face around the site is of no use. So each
+//! kind has a category of its own. Cost: O(faces + edges).
 
 use super::face_categories::FaceCategories;
 use super::faces::FaceAnnotation;
@@ -11,13 +11,13 @@ use crate::arrangement::{FaceId, Subdivision};
 use crate::plot::PlotKind;
 use crate::segmentation::RegionMap;
 
-/// A face is unexplored when most of its cells are unknown.
+/// Least share of unknown cells in an unexplored face: the majority.
 const UNEXPLORED: f64 = 0.5;
 
-/// Gives the faces outside their category.
+/// Gives the faces outside the site their category.
 pub(super) fn mark_outside(faces: &mut [FaceAnnotation], subdivision: &Subdivision, categories: FaceCategories) {
     let is_candidate = |face: &FaceAnnotation| {
-        // A face too thin for a cell says nothing of the ground.
+        // A face without a cell says nothing about the ground.
         let is_unexplored = face.cells > 0 && face.unknown_fraction > UNEXPLORED;
         let is_place = face.kind == Some(PlotKind::Place);
         usize::from(face.category) >= categories.clusters && is_unexplored && !is_place

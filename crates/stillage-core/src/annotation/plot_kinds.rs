@@ -1,4 +1,4 @@
-//! What each face was cut out for: the plot of the decomposition that its inner point lies in. Cost: O(faces + plots).
+//! What each face was cut out for: the kind of the plot that a point inside the face lies in. Cost: O(faces + plots).
 
 use std::collections::BTreeMap;
 
@@ -8,12 +8,13 @@ use crate::arrangement::FaceId;
 use crate::geometry::Point;
 use crate::plot::{Plot, PlotKind};
 
-/// Share of open floor that is free at least: the rest is what the frame of a region has beyond its walls.
+/// Least share of free cells in a face that keeps a drivable kind, the majority: plots reach beyond the walls of a region,
+/// where nothing is drivable.
 const OPEN_SHARE: f64 = 0.5;
 /// Side of a bucket of plots, metres: about a place.
 const BUCKET_M: f64 = 2.0;
 
-/// What every face was cut out for, by face id; `None` where no plot lies, and where nobody saw what should be open.
+/// The kind of every face, by face id; `None` where no plot lies, and where a drivable plot was not seen to be free.
 pub(super) fn of_faces(
     graph: &AdjacencyGraph,
     faces: &[FaceAnnotation],
@@ -21,7 +22,7 @@ pub(super) fn of_faces(
     rooms: &[Option<u32>],
 ) -> Vec<Option<PlotKind>> {
     let index = PlotIndex::new(plots);
-    // On a site of rooms alone, some rooms are corridors.
+    // On a site of rooms alone, rooms get no kind: some of them are corridors.
     let has_rows = plots.iter().any(|plot| plot.kind != PlotKind::Place);
     let kind = |face: u32| {
         if has_rows && rooms.get(face as usize).copied().flatten().is_some() {

@@ -56,17 +56,18 @@ fn annotated(picture: &str, subdivision: &Subdivision) -> (Vec<FaceAnnotation>, 
 fn annotated_with(picture: &str, subdivision: &Subdivision, options: &AnnotationOptions) -> Annotations {
     let (grid, categories) = read(picture);
     let cells = CellFaces::rasterize(subdivision, grid.width(), grid.height(), grid.resolution());
+    let watch = Watch::unwatched();
     let subject = Subject {
         grid: &grid,
         categorization: &Categorization { map: categories, memberships: None },
         regions: &one_region(&grid),
         subdivision,
-        graph: &AdjacencyGraph::dual(subdivision),
+        graph: &AdjacencyGraph::dual(subdivision, &watch).expect("nobody stops it"),
         cells: &cells,
         plots: &[],
         rooms: &[],
     };
-    annotate(&subject, options, 1, &Watch::unwatched()).expect("nobody stops it")
+    annotate(&subject, options, 1, &watch).expect("nobody stops it")
 }
 
 #[test]

@@ -1,18 +1,18 @@
-//! A uniform grid of buckets over the lattice: which items can be near a segment.
+//! A uniform grid of buckets over the lattice, to find the items near a segment.
 //!
-//! Cost: O(items) to build; a query visits the buckets along the segment only. Meant for items that are spread evenly,
-//! as the crossings of a decomposition are; bad spreads cost time, never correctness.
+//! Cost: O(items) to build; a query visits the buckets along the segment. Fast where items are spread evenly, as the
+//! crossings of a decomposition are; elsewhere slower, with the same result.
 
 use super::lattice::{LatticePoint, LatticeSegment};
 
-/// Lattice units by which a segment's way through the buckets is widened: half a pixel, and the rounding of `f64`.
+/// Lattice steps by which a segment is widened on its way through the buckets: half a pixel, and the rounding of `f64`.
 const MARGIN: i64 = 2;
 
 /// The layout of the buckets: square, about as many as there are items.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct BucketGrid {
     origin: LatticePoint,
-    /// Side of a bucket, lattice units.
+    /// Side of a bucket, lattice steps.
     side: i64,
     columns: usize,
     rows: usize,
@@ -22,7 +22,7 @@ impl BucketGrid {
     /// A grid over the box from `low` to `high` with about `items` buckets.
     pub fn over(low: LatticePoint, high: LatticePoint, items: usize) -> Self {
         let (width, height) = low.to(high);
-        // Buckets of this side cover the box `items` times, but a box without area needs no more than `items` either.
+        // As many buckets as items by area; in a box without area as many by length.
         let by_area = (width as f64 * height as f64 / items.max(1) as f64).sqrt();
         let by_length = width.max(height) as f64 / items.max(1) as f64;
         let side = by_area.max(by_length).ceil().max(1.0) as i64;
@@ -100,7 +100,7 @@ impl Buckets {
         &self.items[self.starts[bucket] as usize..self.starts[bucket + 1] as usize]
     }
 
-    /// The items of a bucket, to be put in order.
+    /// The items of a bucket, to be sorted.
     pub fn of_mut(&mut self, bucket: usize) -> &mut [u32] {
         &mut self.items[self.starts[bucket] as usize..self.starts[bucket + 1] as usize]
     }

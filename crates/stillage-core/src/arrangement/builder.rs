@@ -1,18 +1,18 @@
 //! From noded pieces to the doubly connected edge list.
 //!
-//! Method: sort the half-edges around every vertex, link each to the next one around its face, walk the cycles (M. de
-//! Berg et al., *Computational Geometry*, 3rd ed., 2.2-2.3). A piece with the same cycle on both sides bounds nothing:
-//! it dangles, or is the only bridge between two parts. Such pieces are dropped, so that every edge separates two faces
-//! and every link of the dual joins two nodes. The paper's author drops loose ends too, but once and no bridges.
+//! Method: sort the half-edges around every vertex, link each to the next one around its face, follow the cycles (M. de
+//! Berg et al., *Computational Geometry*, 3rd ed., 2.2-2.3). A piece with the same cycle on both sides bounds nothing: it
+//! has a loose end, or is the only connection between two parts. Such pieces are dropped, so that every edge separates
+//! two faces and every link of the dual joins two nodes. The author's code drops loose ends once, and no connections.
 //!
-//! Each connected component has one clockwise cycle, its outline; the first edge to the left of the component's lowest
-//! vertex tells which face it lies in. Cost: O(E log E) and, for C components, O(E + C sqrt E) on usual maps; exact.
-
-use std::cmp::Ordering;
+//! Each connected component has one clockwise cycle, its outline, which is a hole of the face around the component; the
+//! first edge to the left of the component's lowest vertex bounds that face. All decisions are exact. Cost: O(E log E)
+//! for E edges.
 
 use super::buckets::Buckets;
-use super::ids::{EdgeId, FaceId, HalfEdgeId, VertexId};
-use super::lattice::{LatticePoint, LatticeSegment, cross};
+use super::edges_to_the_left;
+use super::ids::{FaceId, HalfEdgeId, VertexId};
+use super::lattice::{LatticePoint, cross};
 use super::noding::Piece;
 use super::subdivision::{HalfEdge, Subdivision};
 use crate::watch::{Stopped, Watch};
@@ -22,28 +22,28 @@ pub(super) fn build(mut pieces: Vec<Piece>, step: f64, watch: &Watch<'_>) -> Res
     drop_pieces_that_bound_nothing(&mut pieces);
     watch.check()?;
     let links = Links::between(&pieces);
-    let walk = Walk::along(&links);
+    let cycles = Cycles::along(&links);
     watch.check()?;
-    let faces = Faces::of(&pieces, &links, &walk);
+    let faces = Faces::of(&pieces, &links, &cycles, watch)?;
     let half_edge = |half: usize| HalfEdge {
         origin: links.origins[half],
         next: links.next[half],
         previous: links.previous[half],
-        face: faces.by_cycle[walk.cycle_of[half] as usize],
+        face: faces.by_cycle[cycles.cycle_of[half] as usize],
     };
     Ok(Subdivision {
         step,
         positions: links.vertices.iter().map(|vertex| vertex.position(step)).collect(),
         half_edges: (0..links.origins.len()).map(half_edge).collect(),
         sources: pieces.iter().map(|piece| piece.source).collect(),
-        cycles: faces.cycles,
+        cycles: faces.of_face,
     })
 }
 
-/// Drops dangling chains, trees and bridges. One pass is enough: what is left lies on closed ways without them.
+/// Drops pieces with the same cycle on both sides. One pass is enough: all others lie on closed ways without them.
 fn drop_pieces_that_bound_nothing(pieces: &mut Vec<Piece>) {
-    let walk = Walk::along(&Links::between(pieces));
-    let mut sides = walk.cycle_of.chunks_exact(2);
+    let cycles = Cycles::along(&Links::between(pieces));
+    let mut sides = cycles.cycle_of.chunks_exact(2);
     pieces.retain(|_| sides.next().is_some_and(|cycles| cycles[0] != cycles[1]));
 }
 
@@ -77,7 +77,7 @@ impl Links {
                 let by_half_plane = (first & 1).cmp(&(second & 1));
                 by_half_plane.then_with(|| 0.cmp(&cross(direction(first), direction(second))))
             });
-            // Coming in along the twin of a spoke, the next edge of the face on the left is the clockwise neighbour.
+            // Coming in along the twin of a half-edge, the next edge of the face on the left is the clockwise neighbour.
             let mut clockwise = around.last().copied().unwrap_or_default();
             for &spoke in &*around {
                 let twin = HalfEdgeId(spoke).twin();
@@ -91,12 +91,12 @@ impl Links {
 }
 
 /// The cycles that the half-edges form, numbered by their least half-edge.
-struct Walk {
+struct Cycles {
     cycle_of: Vec<u32>,
     starts: Vec<HalfEdgeId>,
 }
 
-impl Walk {
+impl Cycles {
     fn along(links: &Links) -> Self {
         const UNSEEN: u32 = u32::MAX;
         let mut cycle_of = vec![UNSEEN; links.next.len()];
@@ -118,34 +118,34 @@ impl Walk {
 /// Which face each cycle bounds, and the cycles of each face.
 struct Faces {
     by_cycle: Vec<FaceId>,
-    cycles: Vec<Vec<HalfEdgeId>>,
+    of_face: Vec<Vec<HalfEdgeId>>,
 }
 
 impl Faces {
-    fn of(pieces: &[Piece], links: &Links, walk: &Walk) -> Self {
-        let mut by_cycle = vec![FaceId::OUTER; walk.starts.len()];
-        let mut cycles = vec![Vec::new()];
+    fn of(pieces: &[Piece], links: &Links, cycles: &Cycles, watch: &Watch<'_>) -> Result<Self, Stopped> {
+        let mut by_cycle = vec![FaceId::OUTER; cycles.starts.len()];
+        let mut of_face = vec![Vec::new()];
         let mut outlines = Vec::new();
-        for (cycle, &start) in walk.starts.iter().enumerate() {
+        for (cycle, &start) in cycles.starts.iter().enumerate() {
             if doubled_area(links, start) > 0 {
-                by_cycle[cycle] = FaceId(cycles.len() as u32);
-                cycles.push(vec![start]);
+                by_cycle[cycle] = FaceId(of_face.len() as u32);
+                of_face.push(vec![start]);
             } else {
                 outlines.push(cycle);
             }
         }
-        // Starts ascend, so outlines ascend by their lowest vertex, and what lies left of one is already placed.
+        // Starts ascend, so outlines ascend by their lowest vertex, and the face to the left of one is known already.
         let lowest: Vec<_> =
-            outlines.iter().map(|&cycle| pieces[walk.starts[cycle].edge().index()].segment.low).collect();
-        for (&cycle, edge) in outlines.iter().zip(first_edges_to_the_left(pieces, &lowest)) {
+            outlines.iter().map(|&cycle| pieces[cycles.starts[cycle].edge().index()].segment.low).collect();
+        for (&cycle, edge) in outlines.iter().zip(edges_to_the_left::find(pieces, &lowest, watch)?) {
             let face = edge.map_or(FaceId::OUTER, |edge| {
-                // Going down, the left hand points to the right of the picture.
-                by_cycle[walk.cycle_of[edge.forward().twin().index()] as usize]
+                // The face to the right of the edge is on the left of its downward half-edge.
+                by_cycle[cycles.cycle_of[edge.forward().twin().index()] as usize]
             });
             by_cycle[cycle] = face;
-            cycles[face.index()].push(walk.starts[cycle]);
+            of_face[face.index()].push(cycles.starts[cycle]);
         }
-        Self { by_cycle, cycles }
+        Ok(Self { by_cycle, of_face })
     }
 }
 
@@ -163,36 +163,4 @@ fn doubled_area(links: &Links, start: HalfEdgeId) -> i128 {
         }
         at = next;
     }
-}
-
-/// For each point, ascending by (y, x): the first piece that a ray to the left meets, just above the point's height.
-fn first_edges_to_the_left(pieces: &[Piece], points: &[LatticePoint]) -> Vec<Option<EdgeId>> {
-    let mut nearest: Vec<Option<usize>> = vec![None; points.len()];
-    for (number, piece) in pieces.iter().enumerate() {
-        let segment = piece.segment;
-        // Half-open in y: a piece counts at its low end, not at its high end, and level pieces never.
-        let from = points.partition_point(|point| point.y < segment.low.y);
-        let to = points.partition_point(|point| point.y < segment.high.y);
-        for (point, nearest) in points[from..to].iter().zip(&mut nearest[from..to]) {
-            let is_left = segment.side(*point) < 0;
-            let is_nearer = |best: usize| order_at(segment, pieces[best].segment, point.y) == Ordering::Greater;
-            if is_left && nearest.is_none_or(is_nearer) {
-                *nearest = Some(number);
-            }
-        }
-    }
-    nearest.into_iter().map(|found| found.map(|number| EdgeId(number as u32))).collect()
-}
-
-/// Order of two segments along the level line at `y`, or just above it where they meet there.
-fn order_at(first: LatticeSegment, second: LatticeSegment, y: i64) -> Ordering {
-    // x at the level is numerator / dy.
-    let numerator = |segment: LatticeSegment| {
-        let (dx, dy) = segment.direction();
-        segment.low.x * dy + (y - segment.low.y) * dx
-    };
-    let (first_dy, second_dy) = (first.direction().1, second.direction().1);
-    let first_x = i128::from(numerator(first)) * i128::from(second_dy);
-    let second_x = i128::from(numerator(second)) * i128::from(first_dy);
-    first_x.cmp(&second_x).then_with(|| cross(first.direction(), second.direction()).cmp(&0))
 }

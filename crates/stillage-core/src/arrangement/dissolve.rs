@@ -1,8 +1,8 @@
-//! Joining faces: a subdivision without some of its edges.
+//! Joins faces: builds a subdivision without some of its edges.
 //!
-//! What is left of the edges is noded already, so the half-edges are linked anew and all invariants hold by
-//! construction; an edge that then has one face on both sides goes as well. Vertices, edges and faces are numbered anew
-//! in the same canonical order. Cost: that of [`builder`].
+//! The other edges still meet only in their ends, so the half-edges are linked anew and all invariants hold by
+//! construction; an edge that then has one face on both sides is dropped as well. Vertices, edges and faces are numbered
+//! anew in the same canonical order. Cost: that of [`builder`].
 
 use super::builder;
 use super::ids::EdgeId;

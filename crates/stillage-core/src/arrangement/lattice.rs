@@ -1,7 +1,7 @@
-//! The integer lattice that the arrangement lives on, and its exact predicates.
+//! The integer lattice of the arrangement, and its exact predicates.
 //!
-//! Coordinates are snapped to the lattice once; from then on every decision (which side, do they cross, is this pixel
-//! hit) is integer arithmetic without rounding. Method: J. D. Hobby, *Practical segment intersection with finite
+//! Coordinates are rounded to the lattice once; from then on every decision (on which side a point lies, whether two
+//! segments cross, whether a segment meets a pixel) is integer arithmetic without rounding. Method: J. D. Hobby, *Practical segment intersection with finite
 //! precision output* (1999, doi 10.1016/S0925-7721(99)00021-8), whose half-open pixels are used here.
 //!
 //! Limits: coordinates stay within 2^28 steps, so that a doubled cross product fits an `i64`.

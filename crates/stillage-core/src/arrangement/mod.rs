@@ -1,14 +1,14 @@
 //! The subdivision of the plane by a set of segments (paper, II-B: S = (Vertices, Edges, Faces)).
 //!
 //! ```text
-//! tiles and lines ── sources ── SourceSegment ── lattice ── noding ── builder ── Subdivision
-//!                               metres           integers   pieces    half-edges
+//! tiles and lines ── sources ── SourceSegment ── lattice ── noding ── builder ── Subdivision ── cell_faces
+//!                               metres           integers   pieces    half-edges                face of every cell
 //! ```
 //!
-//! Input is snapped to an integer lattice once, noded by iterated snap rounding and linked into a doubly connected edge
-//! list; all decisions are exact integer arithmetic, so no input makes it fail and the order of the input is of no
-//! consequence. The author's code intersects all pairs symbolically instead and compares tangent angles as floats;
-//! where that breaks (near parallels, coincident lines), [`noding`] says what happens here.
+//! Input is rounded to an integer lattice once, noded by iterated snap rounding and linked into a doubly connected edge
+//! list. All decisions are exact integer arithmetic, so no input makes it fail and the order of the input does not
+//! matter. The author's code intersects all pairs symbolically instead and compares tangent angles as floating-point
+//! numbers, which fails for near parallels and coincident lines; [`noding`] says what happens to them here.
 //!
 //! Cost: O(n + k log k) for n segments with k crossings spread over the map.
 
@@ -16,6 +16,7 @@ mod buckets;
 mod builder;
 mod cell_faces;
 mod dissolve;
+mod edges_to_the_left;
 mod ids;
 mod invariants;
 mod lattice;
@@ -41,8 +42,8 @@ use noding::Piece;
 
 /// Subdivides the plane by segments.
 ///
-/// The edges of the result meet only in their ends and each separates two faces: what dangles or bounds nothing is
-/// dropped. Where segments coincide, the edge stands for the least source. Segments shorter than the lattice step (61
+/// The edges of the result meet only in their ends and each separates two faces: a segment, or a part of one, that has a
+/// loose end or bounds nothing is dropped. Where segments coincide, the edge gets the least of their sources. Segments shorter than the lattice step (61
 /// micrometres, more for maps above 16 km) and those without finite ends are dropped too.
 ///
 /// # Errors
@@ -53,7 +54,7 @@ pub fn arrange(segments: &[SourceSegment], watch: &Watch<'_>) -> Result<Subdivis
     builder::build(pieces, step, watch)
 }
 
-/// Snaps segments to the lattice; also answers its step in metres.
+/// Rounds segments to the lattice; also answers its step in metres.
 fn snap(segments: &[SourceSegment]) -> (Vec<Piece>, f64) {
     let coordinates = |segment: &SourceSegment| [segment.start.x, segment.start.y, segment.end.x, segment.end.y];
     let is_finite = |segment: &&SourceSegment| coordinates(segment).iter().all(|coordinate| coordinate.is_finite());

@@ -6,21 +6,21 @@
 //! at the end pieces meet only in their ends and every vertex keeps half a step away from every other piece.
 //!
 //! Departure: the pairs that cross are found through buckets instead of a sweep, which is simpler and, for lines spread
-//! over a map, as fast. Cost: O(n + pairs sharing a bucket + pieces). A piece is looked at again only if it was bent.
+//! over a map, as fast. Cost: O(n + pairs sharing a bucket + pieces). Only pieces that were bent are examined again.
 
 use super::EdgeSource;
 use super::buckets::{BucketGrid, Buckets};
 use super::lattice::{LatticePoint, LatticeSegment};
 use crate::watch::{Stopped, Watch};
 
-/// A segment of the lattice and what it stands for. Ordered by place, then source.
+/// A segment of the lattice and its source. Ordered by place, then source.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Piece {
     pub segment: LatticeSegment,
     pub source: EdgeSource,
 }
 
-/// How many segments are treated between two looks at the stop flag: well below 50 ms of work.
+/// Segments that are examined between two looks at the stop flag: well below 50 ms of work.
 const CHECK_EVERY: usize = 1_024;
 
 /// Cuts pieces at every point where they meet. The result is sorted, each place once with its least source.
@@ -38,7 +38,7 @@ pub(super) fn node(mut pieces: Vec<Piece>, watch: &Watch<'_>) -> Result<Vec<Piec
                 watch.check()?;
             }
             let chain = index.met_by(piece.segment);
-            // Pieces on their own straight line meet nothing new; bent ones may.
+            // A piece of a straight segment meets no other hot pixel; a bent one may.
             let straight = chain.iter().all(|&pixel| piece.segment.side(pixel) == 0);
             let target = if straight { &mut done } else { &mut again };
             target.extend(chain.windows(2).filter_map(|ends| {

@@ -1,10 +1,12 @@
-//! What goes into the arrangement: the boundaries of the regions and the stretches of the lines.
+//! The segments that go into the arrangement: the boundaries of the regions and the stretches of the lines.
 //!
 //! Boundaries run along tile borders: between two regions, and between a region and the part of the map without one.
 //! Lines are cut at the boundaries of their region, since decomposition runs per region (paper, II-D), and then made
-//! longer by a hair, so that no rounding keeps them from reaching what they end at; what sticks out is loose and dropped
-//! by [`super::arrange`]. Rooms are older than regions: no boundary runs through one, and their own borders, lines of no
-//! region, are neither cut nor made longer. Cost: O(tiles + cells of boundaries + lines x (tile columns + tile rows)).
+//! longer by two steps of the lattice, so that no rounding keeps them from meeting the boundary; the part beyond it has
+//! a loose end, and [`super::arrange`] drops it. Rooms take precedence over regions: no boundary runs through a room,
+//! and the borders of rooms, which are lines of no region, are neither cut nor made longer.
+//!
+//! Cost: O(tiles + cells of boundaries + stretches x (tile columns + tile rows)).
 
 use super::EdgeSource;
 use super::lattice;
@@ -15,14 +17,14 @@ use crate::runs::runs_where;
 use crate::segmentation::RegionMap;
 use crate::watch::{Stopped, Watch};
 
-/// A segment that goes into the arrangement, with what it stands for.
+/// A segment that goes into the arrangement, and its source.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SourceSegment {
     /// One end, metres.
     pub start: Point,
     /// The other end, metres.
     pub end: Point,
-    /// What it stands for.
+    /// What it comes from.
     pub source: EdgeSource,
 }
 
@@ -129,7 +131,8 @@ impl<'a> RegionTiles<'a> {
         is_in_room: impl Fn(usize) -> bool,
         mut found: impl FnMut(f64, f64),
     ) {
-        // The border of a room is straightened: the boundary goes on into the room until it meets it.
+        // Borders of rooms are straightened, so they may lie a few cells inside the room: the boundary is made longer to
+        // meet them.
         const OVERSHOOT_CELLS: f64 = 3.0;
         let cell = self.grid.resolution();
         let [first, last] = [start, end].map(|side| (side / cell).round() as usize);
@@ -143,15 +146,15 @@ impl<'a> RegionTiles<'a> {
 
     /// The stretches of a line that lie in its region; the whole of a line that has none.
     fn stretches(&self, line: &Line, cell: f64, mut push: impl FnMut(Point, Point)) {
-        // Ends may have been found by cells: half a cell more reaches the boundary they stand at.
+        // Ends may be centres of cells: half a cell more reaches the boundary.
         const OVERSHOOT_CELLS: f64 = 0.5;
         const NANOMETRE: f64 = 1e-9;
         let along = direction(line.orientation);
         let foot = Point::from(normal(line.orientation) * line.offset);
-        let hair = 2.0 * lattice::step_for(self.reach());
+        let overshoot = 2.0 * lattice::step_for(self.reach());
         if line.region == RegionMap::NONE {
-            // Borders of rooms share their corners: what they differ by is rounding, and a hair more would make blunt
-            // corners miss each other.
+            // Borders of rooms share their corners up to rounding, which is removed here. Were they made longer, segments
+            // that meet at a blunt angle would cross beyond the corner.
             let exact = |at: f64| (foot + along * at).map(|side| (side / NANOMETRE).round() * NANOMETRE);
             line.extents.iter().for_each(|&[start, end]| push(exact(start), exact(end)));
             return;
@@ -166,7 +169,7 @@ impl<'a> RegionTiles<'a> {
             for run in runs_where(cuts.len().saturating_sub(1), is_inside) {
                 let [from, to] = [run.start, run.end].map(|cut| cuts[cut]);
                 if to - from >= cell {
-                    push(foot + along * (from - hair), foot + along * (to + hair));
+                    push(foot + along * (from - overshoot), foot + along * (to + overshoot));
                 }
             }
         }

@@ -1,13 +1,14 @@
 //! Numbers of aisles and bays.
 //!
-//! Method: the fronts (best access edges) of all locations are grouped by direction, within a direction by the
-//! drivable place before them. Across the direction of such a group, fronts alternate between the right and the left
-//! side of an aisle; after a left side, or behind a second right one, the next aisle begins. So a place that joins
-//! many corridors still falls into its aisles.
+//! Method: the fronts (best access edges) of all locations are grouped by direction, and within a direction by the
+//! drivable place before them. Sorted across that direction, the fronts of one aisle are first those on its right side,
+//! then those on its left; the next aisle begins after a left side that is followed by a right one, or where two fronts
+//! of the same side are too far apart. So one drivable place that joins many corridors is still cut into its aisles.
+//!
 //! Aisles are numbered by direction, then from the bottom (or the left) of the map; bays by their position along the
-//! aisle's direction, which points to the right (or up).
-//! Source: warehouse practice (odd left, even right); the grouping is ours.
-//! Cost: O(n log n) for n locations. Limits: directions closer than [`SAME_DIRECTION`] are one; a curved aisle is cut.
+//! aisle's direction, which points to the right (or up). Source: warehouse practice (odd left, even right); the grouping
+//! is our own. Cost: O(n log n) for n locations. Limits: directions closer than [`SAME_DIRECTION`] are one; a curved
+//! aisle is cut into several.
 
 use std::collections::BTreeMap;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
@@ -21,12 +22,11 @@ use crate::semantics::SemanticMap;
 /// Largest step between neighbouring directions of one group, radians: half the smallest angle between two dominant
 /// orientations (6 degrees by default).
 const SAME_DIRECTION: f64 = PI / 60.0;
-/// Distance between two fronts of the same side that must belong to two aisles, metres: a pallet place (at least
-/// 0.8 m deep) and the narrowest aisle (1.2 m) lie between them.
-const NEXT_AISLE: f64 = 2.0;
-
-/// Largest offset between aisles in one line, metres: less than half the narrowest aisle (1.2 m).
-const SAME_LINE: f64 = 0.5;
+/// Greatest distance across an aisle between two fronts on the same side of it, metres: between those of two aisles lie a
+/// place (at least 0.8 m deep) and the narrowest aisle (1.2 m).
+const NEXT_AISLE_M: f64 = 2.0;
+/// Greatest offset between aisles in one line, metres: less than half the narrowest aisle (1.2 m).
+const SAME_LINE_M: f64 = 0.5;
 
 /// The number of one location.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -100,7 +100,7 @@ fn right_or_up(angle: f64) -> f64 {
 
 /// Groups fronts by the direction they run along, ascending from right to up.
 fn by_direction(mut fronts: Vec<Front>) -> Vec<(f64, Vec<Front>)> {
-    // Angles are measured from the middle of the widest gap between them, so that no group lies across the seam.
+    // Angles are measured from the middle of the widest gap between them, so that no group is cut in two.
     let mut angles: Vec<f64> = fronts.iter().map(Front::line_angle).collect();
     angles.sort_by(f64::total_cmp);
     let gaps = (0..angles.len()).map(|index| match angles.get(index + 1) {
@@ -135,7 +135,7 @@ fn aisles_along((angle, fronts): (f64, Vec<Front>)) -> Vec<Aisle> {
     let across = right_or_up(angle + FRAC_PI_2);
     sort_along(&mut aisles, across);
     let across = direction(across);
-    for line in aisles.chunk_by_mut(|first, second| across.dot(&(second.center() - first.center())) <= SAME_LINE) {
+    for line in aisles.chunk_by_mut(|first, second| across.dot(&(second.center() - first.center())) <= SAME_LINE_M) {
         sort_along(line, angle);
     }
     aisles
@@ -151,20 +151,20 @@ fn sort_along(aisles: &mut [Aisle], angle: f64) {
 /// Cuts the fronts of one place where, going across, the next aisle begins.
 fn aisles_of_place(angle: f64, fronts: Vec<Front>) -> Vec<Aisle> {
     let mut place = Aisle { angle, fronts };
-    // The place's own direction: over 100 m, one degree off would mix neighbouring aisles.
+    // The mean direction of the place: over 100 m, an error of one degree would mix neighbouring aisles.
     place.angle += place.mean(|front| fold_half_turn(front.line_angle() - angle));
     let Aisle { angle, mut fronts } = place;
     let offset = |front: &Front| normal(angle).dot(&front.middle.coords);
     fronts.sort_by(|first, second| offset(first).total_cmp(&offset(second)).then(first.face.cmp(&second.face)));
 
     let mut aisles: Vec<Aisle> = Vec::new();
-    // Offsets of the last right and the last left front of the aisle at hand.
+    // Offsets of the last right and the last left front of the current aisle.
     let mut last: [Option<f64>; 2] = [None; 2];
     for front in fronts {
         let (is_left, at) = (front.side(angle) == Side::Left, offset(&front));
         let same_side = usize::from(is_left);
         let follows_the_left = !is_left && last[1].is_some();
-        let is_far = last[same_side].is_some_and(|last| at - last > NEXT_AISLE);
+        let is_far = last[same_side].is_some_and(|last| at - last > NEXT_AISLE_M);
         if aisles.is_empty() || follows_the_left || is_far {
             aisles.push(Aisle { angle, fronts: Vec::new() });
             last = [None; 2];

@@ -2,8 +2,8 @@
 //!
 //! Source: Hart, Nilsson and Raphael 1968 (doi 10.1109/TSSC.1968.300136) with the octile distance; the open list is a
 //! ring of buckets (Dial 1969, doi 10.1145/363269.363610), as costs are small whole numbers and a consistent estimate
-//! lets the total grow by less than two steps at once. The newest of equals comes first, so open ground is crossed
-//! once and not flooded.
+//! lets the total grow by less than two steps at once. Of cells with the same total the newest is expanded first, so the
+//! search crosses open ground directly instead of expanding all of it.
 //! Cost: O(cells visited). Memory: 5 bytes per cell of the window. Limits: paths of 43 million steps.
 
 use super::step_rule::StepRule;
@@ -17,7 +17,7 @@ const BUCKETS: usize = 256;
 
 /// Columns and rows of the neighbours: right, up, left, down, then each diagonal after its two sides.
 const NEIGHBORS: [(isize, isize); 8] = [(1, 0), (0, 1), (-1, 0), (0, -1), (1, 1), (-1, 1), (-1, -1), (1, -1)];
-/// How the start was reached: by none of the neighbours.
+/// The step that led to the start: none.
 const HERE: u8 = 8;
 
 /// The cells of a shortest path from one cell to another within a window, both ends included.
@@ -87,7 +87,7 @@ struct Search {
     steps: Vec<u8>,
     /// Indices in the window, by total (cost + estimate).
     buckets: Vec<Vec<u32>>,
-    /// Total of the bucket at hand.
+    /// Total of the current bucket.
     total: u32,
     waiting: usize,
 }
@@ -143,7 +143,7 @@ impl Search {
         None
     }
 
-    /// Reaches the neighbours of a spot. Most were reached before, so the costs are asked first, then the cells.
+    /// Reaches the neighbours of a spot. Most were reached before, so costs are compared before cells are read.
     fn expand(&mut self, rule: &StepRule<'_>, spot: Spot, cost: u32) {
         let here = self.window.cell(spot);
         for step in 0..NEIGHBORS.len() {

@@ -2,16 +2,17 @@
 //!
 //! Source: the traversal of Amanatides and Woo (*A Fast Voxel Traversal Algorithm for Ray Tracing*, 1987), with the
 //! share of the way computed anew at every border, so that errors do not add up; a way through a corner needs both
-//! cells beside it. String pulling is greedy: the farthest point in sight, found by doubling and halving, there and
-//! back until it no longer shortens the path.
-//! Cost: O(n log n) for a path of n cells. Limits: sight along the path is taken to end once it is lost, so a bay
-//! behind a pillar may keep a bend that a longer look would straighten.
+//! cells beside it. String pulling is greedy: from each kept point to the farthest point in sight, which is found by
+//! doubling and halving; forwards and backwards in turn until the path gets no shorter.
+//!
+//! Cost: O(n log n) sights for a path of n cells. Limits: the search takes all points beyond a hidden one to be hidden, so
+//! a bend may stay that a straight line to a later point would remove.
 
 use super::step_rule::StepRule;
 use crate::arrangement::{EdgeId, FaceId};
 use crate::geometry::Point;
 
-/// Most rounds of pulling: each end of the string twice; later ones move a path by less than a cell.
+/// Greatest number of rounds of pulling, two from each end; later ones move a path by less than a cell.
 const ROUNDS: usize = 4;
 /// A round that gains less than this share of the length is the last.
 const LEAST_GAIN: f64 = 1e-6;
@@ -135,7 +136,7 @@ fn pull(rule: &StepRule<'_>, points: &[Point]) -> Vec<Point> {
     kept
 }
 
-/// The last point in sight of one, on the premise that the next one is.
+/// The last point in sight of another; the next one is in sight.
 fn farthest_in_sight(rule: &StepRule<'_>, points: &[Point], from: usize) -> usize {
     let last = points.len() - 1;
     let (mut seen, mut stride) = (from + 1, 1);
@@ -187,7 +188,7 @@ pub(super) fn faces_along(rule: &StepRule<'_>, path: &[Point]) -> (Vec<FaceId>, 
                     cross(cell, to);
                     cell = to;
                 }
-                // Not around the corner where one edge parts the two cells.
+                // One edge separates the two cells, so the cells beside the corner are not crossed.
                 Step::Corner { to, .. } if rule.allows(cell, to) => {
                     cross(cell, to);
                     cell = to;

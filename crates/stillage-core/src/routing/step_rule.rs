@@ -1,6 +1,6 @@
-//! Where a path may go: free cells of drivable faces, and from face to face over drivable links only.
+//! The rule of a path's steps: over free cells of drivable faces, and from face to face over drivable links only.
 //!
-//! Source: the connectivity of links C(l) in the paper's section II-C, carried to the cells.
+//! Source: the connectivity of links C(l) in the paper's section II-C, applied to cells.
 //! Cost: O(edges log edges) to set up; a step costs two array reads within a face, a binary search between faces,
 //! O(boundary) where a face thinner than a cell lies between them.
 //! Limits: two faces that share a drivable edge somewhere are taken to share it wherever their cells touch.
@@ -59,7 +59,7 @@ impl<'a> StepRule<'a> {
         if self.map.grid.cells()[to] != Occupancy::Free {
             return false;
         }
-        // A path is only ever on drivable faces, so staying on one needs no look at its label.
+        // A path begins on a drivable face, so within a face no label is read.
         let (before, behind) = (self.face(from), self.face(to));
         before == behind
             || self.drivable[behind.index()] && (self.joins(before, behind) || self.crossings(from, to).is_some())
@@ -107,15 +107,15 @@ impl<'a> StepRule<'a> {
 
     /// Walks straight from a point of one face to a point of another.
     fn walk(&self, before: FaceId, behind: FaceId, start: Point, end: Point) -> Option<Vec<(EdgeId, FaceId)>> {
-        // Shares of the way: steps this small go round a vertex, not through a face.
-        const NEXT_TO_NOTHING: f64 = 1e-9;
+        // In shares of the way: two crossings this near to each other pass through the same vertex.
+        const SAME_CROSSING: f64 = 1e-9;
         let subdivision = &self.map.analysis.subdivision;
         let way = end - start;
         let (mut face, mut gone, mut crossed) = (before, 0.0, Vec::new());
         while face != behind {
             let exits = subdivision.boundary(face).filter_map(|half| {
                 let [share, on_edge] = segment::crossing(start, way, subdivision.segment(half.edge()));
-                let hit = share > gone + NEXT_TO_NOTHING && share <= 1.0 && (0.0..=1.0).contains(&on_edge);
+                let hit = share > gone + SAME_CROSSING && share <= 1.0 && (0.0..=1.0).contains(&on_edge);
                 hit.then_some((share, half))
             });
             let (share, half) = exits.min_by(|first, second| first.0.total_cmp(&second.0))?;

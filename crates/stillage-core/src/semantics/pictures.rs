@@ -58,7 +58,7 @@ impl DrawnMap {
         let line = |&[start, end]: &[Point; 2]| SourceSegment { start, end, source: EdgeSource::Boundary };
         segments.extend(lines.iter().map(line));
         let subdivision = arrangement::arrange(&segments, &Watch::unwatched()).unwrap();
-        let graph = AdjacencyGraph::dual(&subdivision);
+        let graph = AdjacencyGraph::dual(&subdivision, &Watch::unwatched()).unwrap();
         let cells = CellFaces::rasterize(&subdivision, grid.width(), grid.height(), RESOLUTION);
         let regions = one_region(&grid);
         let categorization = Categorization { map: categories(&grid, &letters), memberships: None };
