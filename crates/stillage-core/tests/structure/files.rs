@@ -83,10 +83,16 @@ impl Files {
                 module.pop();
             } else if name == "self" {
             } else if self.by_module.contains_key(&child) {
+                // A function may have the name of its module, and the end of a path means the function.
+                let is_end = index + 1 == written.len();
+                if let (true, Some(item @ Target::Item(_))) =
+                    (is_end, self.imported(&module, name, (from, written), depth))
+                {
+                    return Some(item);
+                }
                 module = child;
-            } else if let Some(imported) = self.by_module[&module].1.names.get(name).filter(|&path| path != written) {
-                let imported = imported.clone();
-                match self.resolve(&module, &imported, depth + 1)? {
+            } else if self.by_module[&module].1.names.contains_key(name) {
+                match self.imported(&module, name, (from, written), depth)? {
                     Target::Module(found) => module = found,
                     item @ Target::Item(_) => return Some(item),
                 }
@@ -95,6 +101,19 @@ impl Files {
             }
         }
         Some(Target::Module(module))
+    }
+
+    /// What a name leads to that a `use` of a module brings in, unless that `use` is the path itself.
+    fn imported(
+        &self,
+        module: &[String],
+        name: &str,
+        (from, written): (&[String], &[String]),
+        depth: usize,
+    ) -> Option<Target> {
+        let is_other = |path: &&Written| module != from || path.as_slice() != written;
+        let path = self.by_module[module].1.names.get(name).filter(is_other)?;
+        self.resolve(module, path, depth + 1)
     }
 }
 

@@ -172,6 +172,20 @@ fn a_circle_may_lead_through_re_exports_and_long_paths() {
 }
 
 #[test]
+fn a_function_may_have_the_name_of_its_module() {
+    let files = tree(&[
+        ("lib.rs", "pub mod plan; mod halls;"),
+        ("plan/mod.rs", "mod plan; pub use plan::plan;"),
+        ("plan/plan.rs", "pub fn plan() { crate::halls::find() }"),
+        ("halls.rs", "use crate::plan; pub fn find() { plan::plan() }"),
+    ]);
+    assert_eq!(
+        complaints("", &files, &[]),
+        ["halls.rs -> plan/plan.rs -> halls.rs", "plan/plan.rs -> halls.rs -> plan/plan.rs"]
+    );
+}
+
+#[test]
 fn re_exports_comments_texts_and_tests_make_no_circle() {
     let files = tree(&[
         ("lib.rs", "pub mod rooms;"),
