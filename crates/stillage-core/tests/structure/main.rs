@@ -70,7 +70,7 @@ const STANDING: &[&str] = &[
 ];
 
 /// Types that still share a name; this list only shrinks.
-const SHARED_NAMES: &[&str] = &["Arguments", "Geometry", "MapView", "Progress", "Running", "Walk"];
+const SHARED_NAMES: &[&str] = &["Arguments", "Geometry", "MapView", "Progress", "Running"];
 
 /// The sources below a folder of this package.
 fn sources(folder: &str) -> Sources {
