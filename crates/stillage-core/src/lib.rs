@@ -17,8 +17,8 @@
 //!                                                                                       layout, routing
 //! ```
 //!
-//! Everything up to the [`Analysis`] is the geometric level, without human input: [`analyze`]. The rest is the human level:
-//! [`semantics::apply`].
+//! Everything up to the [`Analysis`] is the geometric level, without human input: [`analyze`]. The rest is the human
+//! level: [`semantics::apply`].
 //!
 //! Where the truth of a site is known, [`evaluation`] says how well both levels fit it.
 //!

@@ -1,10 +1,11 @@
 //! The adjacency graph A = (nodes, links), dual of the subdivision (paper, II-B).
 //!
-//! The dual D is the identity on ids: node i is the dual of face i, link i of edge i, so D(D(x)) = x by construction. Two
-//! faces that share several edges are joined by as many links (the author's code joins them by one), and no link joins
-//! a node to itself, since every edge of a subdivision separates two faces.
+//! The dual D is the identity on ids: node i is the dual of face i, link i of edge i, so D(D(x)) = x by construction.
+//! Two faces that share several edges are joined by as many links (the author's code joins them by one), and no link
+//! joins a node to itself, since every edge of a subdivision separates two faces.
 //!
-//! The position of a node is a point well inside its face: see [`pole()`]. Cost: O(edges), and the search for the points.
+//! The position of a node is a point well inside its face: see [`pole()`]. Cost: O(edges), and the search for the
+//! points.
 
 mod pole;
 

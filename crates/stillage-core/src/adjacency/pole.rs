@@ -1,9 +1,9 @@
 //! A point well inside a polygon: its centroid, or its pole of inaccessibility.
 //!
-//! The centroid is taken when its clearance (distance to the nearest side) is at least area / perimeter, which is half the
-//! largest clearance that a convex polygon of that area and perimeter can have. Else the pole of inaccessibility, the
-//! point of greatest clearance, is approximated to 5 %: squares that may hold it are split, the most promising first
-//! (V. Agafonkin, *polylabel*, 2016). Cost: O(corners x probes), at most 500 probes.
+//! The centroid is taken when its clearance (distance to the nearest side) is at least area / perimeter, which is half
+//! the largest clearance that a convex polygon of that area and perimeter can have. Else the pole of inaccessibility,
+//! the point of greatest clearance, is approximated to 5 %: squares that may hold it are split, the most promising
+//! first (V. Agafonkin, *polylabel*, 2016). Cost: O(corners x probes), at most 500 probes.
 
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
@@ -11,8 +11,8 @@ use std::f64::consts::SQRT_2;
 
 use crate::geometry::{Bounds, Point, Vector, polygon, segment};
 
-/// A square is split when the greatest clearance possible in it is more than this times the best found: 5 % are invisible
-/// in a picture.
+/// A square is split when the greatest clearance possible in it is more than this times the best found. No measurement
+/// is recorded for this value.
 const LEAST_GAIN: f64 = 1.05;
 /// Greatest number of points whose clearance is measured: shapes that need more are slivers, where any inner point will
 /// do.

@@ -14,7 +14,7 @@ use crate::segmentation::RegionMap;
 use crate::spec::{AnnotationMethod, AnnotationOptions};
 use crate::watch::{Stopped, Watch};
 
-/// What the cells say about all faces and edges.
+/// What is known of all faces and edges.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Annotations {
     /// By face; entry 0, the unbounded face, is empty.

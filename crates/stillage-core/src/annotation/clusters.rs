@@ -1,8 +1,8 @@
 //! Categories of faces by clustering the faces.
 //!
 //! A face is described by the occupancy of its cells, by its shape and by the kind of plot it was cut out for; k-means
-//! finds the categories, and its model ([`PlaceModel`]) gives the membership of a face in each. The features of cells are
-//! not used: beams pass through open racks, so cells of racks and of floor look alike. Accuracy study:
+//! finds the categories, and its model ([`PlaceModel`]) gives the membership of a face in each. The features of cells
+//! are not used: beams pass through open racks, so cells of racks and of floor look alike. Accuracy study:
 //!
 //! | faces get their categories by | corridors found, by area |
 //! | --- | --- |

@@ -21,8 +21,8 @@ use crate::plot::PlotKind;
 use crate::segmentation::RegionMap;
 use crate::watch::{Stopped, Watch};
 
-/// Occupied cells nearer than this to the border of a face do not count as inside, metres: they may be a post of its own
-/// rack or goods of a neighbour that overhang.
+/// Occupied cells nearer than this to the border of a face do not count as inside, metres: they may be a post of its
+/// own rack or goods of a neighbour that overhang.
 const RIM_M: f64 = 0.1;
 /// Counts of cells: free, occupied, unknown, and occupied away from the border.
 const OCCUPANCY_SLOTS: usize = 4;

@@ -1,7 +1,7 @@
 //! Distributions of faces over the categories, and their relaxation over the adjacency graph (`crate::relaxation`).
 //!
-//! Memberships of cells are whole numbers (parts of 65,535), so the mean of a face does not depend on the order in which
-//! threads add them. Cost: O(measured cells x k), and O(links x k^2) per iteration of the relaxation.
+//! Memberships of cells are whole numbers (parts of 65,535), so the mean of a face does not depend on the order in
+//! which threads add them. Cost: O(measured cells x k), and O(links x k^2) per iteration of the relaxation.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 

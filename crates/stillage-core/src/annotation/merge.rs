@@ -1,10 +1,10 @@
 //! Joins faces that nothing divides.
 //!
-//! Lines of a decomposition run on through open floor and cut it into pieces. Two faces that were cut out for the same kind
-//! of ground are joined when no obstacles stand along the edge between them and its two sides are both open or both
-//! unknown; places are never joined. All faces of a room become one. A face that is too small or too narrow then joins
-//! the neighbour with which it shares most of its border. (The author's later work undoes over-segmentation likewise: it
-//! prunes edges without support.)
+//! Lines of a decomposition run on through open floor and cut it into pieces. Two faces that were cut out for the same
+//! kind of ground are joined when no obstacles stand along the edge between them and its two sides are both open or
+//! both unknown; places are never joined. All faces of a room become one. A face that is too small or too narrow then
+//! joins the neighbour with which it shares most of its border. (The author's later work undoes over-segmentation
+//! likewise: it prunes edges without support.)
 //!
 //! Joining changes the subdivision only ([`Subdivision::dissolve`]); faces are measured afterwards. Cost: O(cells along
 //! edges + faces + edges), and the points inside the faces. Limits: faces of two regions are never joined.
@@ -27,12 +27,12 @@ use crate::watch::{Stopped, Watch};
 
 /// Share of the length of an edge that decides what it is: supported, open or unknown. The majority.
 const MAJORITY: f64 = 0.5;
-/// Aisles are parallel when their directions differ by less than this, radians: half the angle between the directions of
-/// a site that are 45 degrees apart.
+/// Aisles are parallel when their directions differ by less than this, radians: half the angle between the directions
+/// of a site that are 45 degrees apart.
 const PARALLEL: f64 = std::f64::consts::FRAC_PI_8;
 /// Least area of a face, square metres: half the smallest place (0.8 by 0.6 m).
 const LEAST_AREA_M2: f64 = 0.24;
-/// Least mean width of a face, metres: three cells of 0.05.
+/// Least mean width of a face, metres. No measurement is recorded for this value.
 const LEAST_WIDTH_M: f64 = 0.15;
 
 /// What the ground of a subdivision was planned to be.

@@ -1,9 +1,9 @@
-//! Annotation: what the cells say about faces and edges (paper, II-B).
+//! Annotation: categories and measurements of faces and edges, from the cells in and along them (paper, II-B).
 //!
 //! | module | what comes out |
 //! | --- | --- |
 //! | [`mod@annotate`] | the annotations of all faces and edges |
-//! | [`faces`], [`edges`] | counts of cells, shape and evidence of every face and edge |
+//! | [`faces`], [`edges`] | measurements of every face and edge |
 //! | [`evidence`] | whether a face or edge was seen |
 //! | [`plot_kinds`] | what each face was cut out for |
 //! | [`outside`] | which faces are unexplored ground around the site |

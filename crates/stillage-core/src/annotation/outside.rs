@@ -2,8 +2,8 @@
 //! hole in the regions (a courtyard that the robot did not see).
 //!
 //! Faces without a free cell lie both inside and around the site: beams end at walls and goods, and regions consist of
-//! whole tiles, which reach beyond the walls. A face inside may hold goods; a face around the site is of no use. So each
-//! kind has a category of its own. Cost: O(faces + edges).
+//! whole tiles, which reach beyond the walls. A face inside may hold goods, a face around the site is no place at
+//! all, so the latter have a category of their own. Cost: O(faces + edges).
 
 use super::face_categories::FaceCategories;
 use super::faces::FaceAnnotation;

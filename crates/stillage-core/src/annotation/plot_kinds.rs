@@ -8,8 +8,8 @@ use crate::arrangement::FaceId;
 use crate::geometry::Point;
 use crate::plot::{Plot, PlotKind};
 
-/// Least share of free cells in a face that keeps a drivable kind, the majority: plots reach beyond the walls of a region,
-/// where nothing is drivable.
+/// Least share of free cells in a face that keeps a drivable kind, the majority: plots reach beyond the walls of a
+/// region, where nothing is drivable.
 const OPEN_SHARE: f64 = 0.5;
 /// Side of a bucket of plots, metres: about a place.
 const BUCKET_M: f64 = 2.0;

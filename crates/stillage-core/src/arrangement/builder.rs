@@ -1,9 +1,10 @@
 //! From noded pieces to the doubly connected edge list.
 //!
 //! Method: sort the half-edges around every vertex, link each to the next one around its face, follow the cycles (M. de
-//! Berg et al., *Computational Geometry*, 3rd ed., 2.2-2.3). A piece with the same cycle on both sides bounds nothing: it
-//! has a loose end, or is the only connection between two parts. Such pieces are dropped, so that every edge separates
-//! two faces and every link of the dual joins two nodes. The author's code drops loose ends once, and no connections.
+//! Berg et al., *Computational Geometry*, 3rd ed., 2.2-2.3). A piece with the same cycle on both sides bounds nothing:
+//! it has a loose end, or is the only connection between two parts. Such pieces are dropped, so that every edge
+//! separates two faces and every link of the dual joins two nodes. The author's code drops loose ends once, and no
+//! connections.
 //!
 //! Each connected component has one clockwise cycle, its outline, which is a hole of the face around the component; the
 //! first edge to the left of the component's lowest vertex bounds that face. All decisions are exact. Cost: O(E log E)
@@ -77,7 +78,8 @@ impl Links {
                 let by_half_plane = (first & 1).cmp(&(second & 1));
                 by_half_plane.then_with(|| 0.cmp(&cross(direction(first), direction(second))))
             });
-            // Coming in along the twin of a half-edge, the next edge of the face on the left is the clockwise neighbour.
+            // Coming in along the twin of a half-edge, the next edge of the face on the left is the clockwise
+            // neighbour.
             let mut clockwise = around.last().copied().unwrap_or_default();
             for &spoke in &*around {
                 let twin = HalfEdgeId(spoke).twin();

@@ -1,8 +1,8 @@
 //! Joins faces: builds a subdivision without some of its edges.
 //!
 //! The other edges still meet only in their ends, so the half-edges are linked anew and all invariants hold by
-//! construction; an edge that then has one face on both sides is dropped as well. Vertices, edges and faces are numbered
-//! anew in the same canonical order. Cost: that of [`builder`].
+//! construction; an edge that then has one face on both sides is dropped as well. Vertices, edges and faces are
+//! numbered anew in the same canonical order. Cost: that of [`builder`].
 
 use super::builder;
 use super::ids::EdgeId;

@@ -1,8 +1,9 @@
 //! For each of some points the first edge to the left.
 //!
-//! Method: a sweep over the points by height that keeps the pieces at the current height in order from left to right (M.
-//! de Berg et al., *Computational Geometry*, 3rd ed., 2.1). Noded pieces do not cross, so their order never changes. All
-//! decisions are exact. Cost: O(E + (C + e) log e) for E pieces and C points, e pieces being at the height of a point.
+//! Method: a sweep over the points by height that keeps the pieces at the current height in order from left to right
+//! (M. de Berg et al., *Computational Geometry*, 3rd ed., 2.1). Noded pieces do not cross, so their order never
+//! changes. All decisions are exact. Cost: O(E + (C + e) log e) for E pieces and C points, e pieces being at the height
+//! of a point.
 
 use std::cmp::Ordering;
 use std::collections::BTreeSet;

@@ -1,7 +1,7 @@
 //! The paper author's line and segment sets with his expected counts (GPL data, read in place, never copied).
 //!
-//! His counts are of the graph without its loose ends, which he drops once; what then hangs loose stays. Ours are of the
-//! finished subdivision, where every edge separates two faces. The tests state both.
+//! His counts are of the graph without its loose ends, which he drops once; what then hangs loose stays. Ours are of
+//! the finished subdivision, where every edge separates two faces. The tests state both.
 
 use std::path::PathBuf;
 

@@ -1,8 +1,9 @@
 //! The integer lattice of the arrangement, and its exact predicates.
 //!
 //! Coordinates are rounded to the lattice once; from then on every decision (on which side a point lies, whether two
-//! segments cross, whether a segment meets a pixel) is integer arithmetic without rounding. Method: J. D. Hobby, *Practical segment intersection with finite
-//! precision output* (1999, doi 10.1016/S0925-7721(99)00021-8), whose half-open pixels are used here.
+//! segments cross, whether a segment meets a pixel) is integer arithmetic without rounding. Method: J. D. Hobby,
+//! *Practical segment intersection with finite precision output* (1999, doi 10.1016/S0925-7721(99)00021-8), whose
+//! half-open pixels are used here.
 //!
 //! Limits: coordinates stay within 2^28 steps, so that a doubled cross product fits an `i64`.
 

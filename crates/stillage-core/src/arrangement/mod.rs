@@ -42,9 +42,10 @@ use noding::Piece;
 
 /// Subdivides the plane by segments.
 ///
-/// The edges of the result meet only in their ends and each separates two faces: a segment, or a part of one, that has a
-/// loose end or bounds nothing is dropped. Where segments coincide, the edge gets the least of their sources. Segments shorter than the lattice step (61
-/// micrometres, more for maps above 16 km) and those without finite ends are dropped too.
+/// The edges of the result meet only in their ends and each separates two faces: a segment, or a part of one, that has
+/// a loose end or bounds nothing is dropped. Where segments coincide, the edge gets the least of their sources.
+/// Segments shorter than the lattice step (61 micrometres, more for maps above 16 km) and those without finite ends are
+/// dropped too.
 ///
 /// # Errors
 /// [`Stopped`] when the watch says so.

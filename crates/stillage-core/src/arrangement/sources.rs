@@ -131,8 +131,8 @@ impl<'a> RegionTiles<'a> {
         is_in_room: impl Fn(usize) -> bool,
         mut found: impl FnMut(f64, f64),
     ) {
-        // Borders of rooms are straightened, so they may lie a few cells inside the room: the boundary is made longer to
-        // meet them.
+        // Borders of rooms are straightened, so they may lie a few cells inside the room: the boundary is made longer
+        // to meet them.
         const OVERSHOOT_CELLS: f64 = 3.0;
         let cell = self.grid.resolution();
         let [first, last] = [start, end].map(|side| (side / cell).round() as usize);
@@ -153,8 +153,8 @@ impl<'a> RegionTiles<'a> {
         let foot = Point::from(normal(line.orientation) * line.offset);
         let overshoot = 2.0 * lattice::step_for(self.reach());
         if line.region == RegionMap::NONE {
-            // Borders of rooms share their corners up to rounding, which is removed here. Were they made longer, segments
-            // that meet at a blunt angle would cross beyond the corner.
+            // Borders of rooms share their corners up to rounding, which is removed here. Were they made longer,
+            // segments that meet at a blunt angle would cross beyond the corner.
             let exact = |at: f64| (foot + along * at).map(|side| (side / NANOMETRE).round() * NANOMETRE);
             line.extents.iter().for_each(|&[start, end]| push(exact(start), exact(end)));
             return;

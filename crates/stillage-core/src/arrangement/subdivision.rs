@@ -29,9 +29,9 @@ pub struct HalfEdge {
 
 /// The subdivision S = (vertices, edges, faces) of the paper (II-B), with N(e) and M(f).
 ///
-/// Ids are canonical: vertices ascend by (y, x), edges by their vertices (the lower first), faces by the first half-edge
-/// of their outer cycle, and with it by their first vertex; face 0 is the unbounded one. Every edge separates two
-/// different faces.
+/// Ids are canonical: vertices ascend by (y, x), edges by their vertices (the lower first), faces by the first
+/// half-edge of their outer cycle, and with it by their first vertex; face 0 is the unbounded one. Every edge separates
+/// two different faces.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Subdivision {
     /// Step of the lattice that the vertices lie on, metres; a power of two.

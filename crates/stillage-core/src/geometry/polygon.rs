@@ -26,8 +26,8 @@ pub fn sides(rings: &[Vec<Point>]) -> impl Iterator<Item = [Point; 2]> + '_ {
     rings.iter().flat_map(|ring| ring.iter().zip(ring.iter().cycle().skip(1)).map(|(&start, &end)| [start, end]))
 }
 
-/// Whether a point lies in a polygon: a ray to the right crosses its sides an odd number of times. Rings may turn either
-/// way. O(corners).
+/// Whether a point lies in a polygon: a ray to the right crosses its sides an odd number of times. Rings may turn
+/// either way. O(corners).
 #[must_use]
 pub fn contains(rings: &[Vec<Point>], point: Point) -> bool {
     sides(rings).filter(|&side| x_at_level(side, point.y).is_some_and(|x| point.x < x)).count() % 2 == 1

@@ -17,8 +17,8 @@ pub fn distance(point: Point, segment: [Point; 2]) -> f64 {
     squared_distance(point, segment).sqrt()
 }
 
-/// Where a line meets the line through a segment: the multiple of `way` from `start`, and the share of the segment, which
-/// is in `[0, 1]` when the line meets the segment itself. Parallel lines give infinite numbers or none (NaN).
+/// Where a line meets the line through a segment: the multiple of `way` from `start`, and the share of the segment,
+/// which is in `[0, 1]` when the line meets the segment itself. Parallel lines give infinite numbers or none (NaN).
 #[must_use]
 pub fn crossing(start: Point, way: Vector, [first, second]: [Point; 2]) -> [f64; 2] {
     let (along, offset) = (second - first, first - start);

@@ -118,7 +118,8 @@ impl AccessFrame {
 
 /// How far a face reaches from a point of its boundary, metres.
 fn room_ahead(from: Point, ahead: Vector, face: FaceId, analysis: &Analysis) -> f64 {
-    // Edges nearer than this, in metres, are the one that the point lies on: lines of an analysis are 10 mm apart at least.
+    // Edges nearer than this, in metres, are the one that the point lies on: lines of an analysis are 10 mm apart at
+    // least.
     const SAME_EDGE_M: f64 = 1e-6;
     let subdivision = &analysis.subdivision;
     let hits = subdivision.boundary(face).filter_map(|half| {

@@ -6,9 +6,9 @@
 //! of the same side are too far apart. So one drivable place that joins many corridors is still cut into its aisles.
 //!
 //! Aisles are numbered by direction, then from the bottom (or the left) of the map; bays by their position along the
-//! aisle's direction, which points to the right (or up). Source: warehouse practice (odd left, even right); the grouping
-//! is our own. Cost: O(n log n) for n locations. Limits: directions closer than [`SAME_DIRECTION`] are one; a curved
-//! aisle is cut into several.
+//! aisle's direction, which points to the right (or up). Source: warehouse practice (odd left, even right); the
+//! grouping is our own. Cost: O(n log n) for n locations. Limits: directions closer than [`SAME_DIRECTION`] are one; a
+//! curved aisle is cut into several.
 
 use std::collections::BTreeMap;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
@@ -22,8 +22,8 @@ use crate::semantics::SemanticMap;
 /// Largest step between neighbouring directions of one group, radians: half the smallest angle between two dominant
 /// orientations (6 degrees by default).
 const SAME_DIRECTION: f64 = PI / 60.0;
-/// Greatest distance across an aisle between two fronts on the same side of it, metres: between those of two aisles lie a
-/// place (at least 0.8 m deep) and the narrowest aisle (1.2 m).
+/// Greatest distance across an aisle between two fronts on the same side of it, metres: between those of two aisles lie
+/// a place (at least 0.8 m deep) and the narrowest aisle (1.2 m).
 const NEXT_AISLE_M: f64 = 2.0;
 /// Greatest offset between aisles in one line, metres: less than half the narrowest aisle (1.2 m).
 const SAME_LINE_M: f64 = 0.5;

@@ -1,9 +1,9 @@
 //! The borders of the rooms as straight segments.
 //!
-//! The sides of cells between two rooms, or between a room and none, form chains that end where three of them meet. Each
-//! chain is simplified once for both rooms beside it, so that rooms neither overlap nor leave a gap. Method: D. Douglas
-//! and T. Peucker 1973. Cost: O(cells + b log b) for b sides of cells on the border; the simplification of a chain that
-//! winds all along is quadratic in its length. Limits: rooms narrower than the tolerance may vanish.
+//! The sides of cells between two rooms, or between a room and none, form chains that end where three of them meet.
+//! Each chain is simplified once for both rooms beside it, so that rooms neither overlap nor leave a gap. Method: D.
+//! Douglas and T. Peucker 1973. Cost: O(cells + b log b) for b sides of cells on the border; the simplification of a
+//! chain that winds all along is quadratic in its length. Limits: rooms narrower than the tolerance may vanish.
 
 use std::collections::BTreeMap;
 

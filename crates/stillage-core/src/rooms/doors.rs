@@ -1,8 +1,8 @@
 //! Doors: the edges of the subdivision that run through the doorways between rooms.
 //!
-//! The borders of rooms are walked in steps, and the doorways near each step are looked up in buckets. Cost: O(length of
-//! the borders + doorways near them), and a logarithm. Limits: a doorway that no edge runs through, since both its sides
-//! are one face, is no door.
+//! The borders of rooms are walked in steps, and the doorways near each step are looked up in buckets. Cost: O(length
+//! of the borders + doorways near them), and a logarithm. Limits: a doorway that no edge runs through, since both its
+//! sides are one face, is no door.
 
 use std::collections::BTreeMap;
 
@@ -13,8 +13,8 @@ use crate::geometry::{Point, segment};
 
 /// An edge runs through a doorway when it is nearer than this to its middle, metres: half of what a wall is thick.
 const REACH_M: f64 = 0.3;
-/// Side of a bucket, and step along a border, metres: more than twice the reach, so that what is within reach of a border
-/// lies in a bucket beside one of its steps.
+/// Side of a bucket, and step along a border, metres: more than twice the reach, so that what is within reach of a
+/// border lies in a bucket beside one of its steps.
 const BUCKET_M: f64 = 1.0;
 
 /// A narrow way between two rooms, or between a room and other ground.

@@ -5,10 +5,11 @@
 //! 2016). Each widest place begins a basin; where two basins meet, the ground has a neck, and they are joined unless the
 //! neck is a doorway.
 //!
-//! Departure: a neck is a doorway when it is narrow beside both basins, and how narrow it must be depends on what stands
-//! at its ends ([`Doorway::wall_ends`]). A door is a gap in a wall that goes on behind the jamb, thin and straight; a
-//! cupboard or a bin does not go on. So furniture parts rooms only where it nearly closes the way, and wide openings do
-//! where walls stand at both ends. No direction is needed: slanted and curved walls are found like any others.
+//! Departure: a neck is a doorway when it is narrow beside both basins, and how narrow it must be depends on what
+//! stands at its ends ([`Doorway::wall_ends`]). A door is a gap in a wall that goes on behind the jamb, thin and
+//! straight; a cupboard or a bin does not go on. So furniture parts rooms only where it nearly closes the way, and wide
+//! openings do where walls stand at both ends. No direction is needed: slanted and curved walls are found like any
+//! others.
 //!
 //! Cost: O(cells + necks x width^2), the width of a neck in cells, at most that of [`WIDEST_M`]. Limits: an opening as
 //! wide as the room behind it is no doorway; ground wider than [`WIDEST_M`] is never parted.
@@ -18,9 +19,9 @@ use super::ground::RoomGround;
 use crate::geometry::DisjointSets;
 use crate::watch::{Stopped, Watch};
 
-/// Greatest width of a doorway as a share of the width of the narrower basin at its widest, by the number of ends of the
-/// doorway that walls continue. Measured on ten office floors, plain and furnished: 0.05 to 0.1 more or less costs up to
-/// two points of panoptic quality.
+/// Greatest width of a doorway as a share of the width of the narrower basin at its widest, by the number of ends of
+/// the doorway that walls continue. Measured on ten office floors, plain and furnished: 0.05 to 0.1 more or less costs
+/// up to two points of panoptic quality.
 const GREATEST_WIDTH_SHARES: [f64; 3] = [0.5, 0.8, 0.9];
 /// Greatest width of a doorway, metres: double doors and gates are narrower.
 pub(super) const WIDEST_M: f64 = 4.0;
@@ -28,15 +29,16 @@ pub(super) const WIDEST_M: f64 = 4.0;
 const NARROWEST_ROOM_M: f64 = 0.6;
 /// How far a wall is followed behind a jamb, metres: further than a cupboard is deep.
 const WALL_REACH_M: f64 = 0.8;
-/// Least share of that reach that is wall; the rest allows for scanned walls.
+/// Least share of that reach that is wall. No measurement is recorded for this value.
 const WALL_SHARE: f64 = 0.7;
 /// Ground lies on both sides of a wall within this distance, metres: more than inner walls are thick.
 const WALL_SIDE_M: f64 = 0.5;
-/// How far a wall may lie beside the line across the doorway, metres: two cells of 0.05.
+/// How far a wall may lie beside the line across the doorway, metres. No measurement is recorded for this value.
 const WALL_DRIFT_M: f64 = 0.1;
-/// Longest gap in a wall that is overlooked, metres: four cells of 0.05 that the scanner missed.
+/// Longest gap in a wall that is overlooked, metres. No measurement is recorded for this value.
 const WALL_GAP_M: f64 = 0.2;
-/// How far from the middle of a neck its far end may be, in half widths: a neck is measured at a cell, beside its middle.
+/// Greatest distance of the far end of a neck from its middle, in half widths. No measurement is recorded for this
+/// value.
 const FAR_END_FACTOR: f64 = 1.6;
 
 /// The shortest line across a neck that parts two rooms.
@@ -181,8 +183,8 @@ impl Watershed<'_> {
         })
     }
 
-    /// The shortest line across a neck through a cell, `half` cells from the nearest obstacle; `None` between two stacks,
-    /// for goods part no rooms.
+    /// The shortest line across a neck through a cell, `half` cells from the nearest obstacle; `None` between two
+    /// stacks, for goods part no rooms.
     fn line_across(&self, cell: usize, half: f64) -> Option<Doorway> {
         let place = |cell: usize| [(cell % self.ground.width) as i64, (cell / self.ground.width) as i64];
         let middle = place(cell);

@@ -46,8 +46,8 @@ impl FloorPlan {
         is_inside.then(|| self.partition.nearest_room(row * self.ground.width + column))
     }
 
-    /// The rooms that are no part of a hall, and the doorways that lead into them; `is_hall` is indexed by room, entry 0
-    /// is not read. Only a gate to a hall parts rooms: a bay whose gate leads to another room is part of it.
+    /// The rooms that are no part of a hall, and the doorways that lead into them; `is_hall` is indexed by room, entry
+    /// 0 is not read. Only a gate to a hall parts rooms: a bay whose gate leads to another room is part of it.
     pub(crate) fn rooms_beside(&self, is_hall: &[bool]) -> RoomCells {
         let Self { ground, partition, doorways, gates } = self;
         let mut joined = DisjointSets::new(is_hall.len());

@@ -1,9 +1,9 @@
 //! Gates: the doorways of bays, which jut out of a building, such as a trailer at its dock.
 //!
-//! A bay is as wide as its gate, so there is no neck before it and [`super::doorways`] finds none. But it juts out. Method:
-//! the site as a whole, with all that stands in it, is opened by a disc wider than a gate (G. Matheron 1975); what the
-//! disc does not cover, has walls at its sides and is empty is a bay. Its gate is the last line across on the way
-//! from its middle to the hall before the walls at its sides end.
+//! A bay is as wide as its gate, so there is no neck before it and [`super::doorways`] finds none.  But it juts out.
+//! Method: the site as a whole, with all that stands in it, is opened by a disc wider than a gate (G. Matheron 1975). A
+//! part that the disc does not cover is a bay when it has walls at its sides and is empty. Its gate is the last line
+//! across on the way from its middle to the hall before the walls at its sides end.
 //!
 //! Cost: O(cells), nearly all of it in coarse cells of a quarter of a metre. Limits: a wing of the building that is as
 //! narrow and holds nothing is a bay; of two gates of one bay, the one towards its middle is found.
@@ -24,9 +24,10 @@ const DISC_M: f64 = WIDEST_M + 0.5;
 const LEAST_BAY_M2: f64 = 4.0;
 /// Least share of the sides of a bay that is wall and not unknown: unknown sides are where the scanner saw no further.
 const WALL_SHARE: f64 = 0.7;
-/// Least share of the width of a bay that is empty across its middle: a trailer is empty or full.
+/// Least share of the width of a bay that is empty across its middle. No measurement is recorded for this value.
 const EMPTY_SHARE: f64 = 0.75;
-/// Greatest width of a line across a bay in widths of its middle; a wider one lies outside, before the gate.
+/// Greatest width of a line across a bay in widths of its middle; a wider one lies outside, before the gate. No
+/// measurement is recorded for this value.
 const WIDENING: f64 = 1.25;
 
 /// Finds the gates of all bays.

@@ -1,10 +1,10 @@
 //! The ground that rooms are made of: free cells, and small obstacles that stand on them alone.
 //!
-//! Table legs, chairs, bins and lone columns stand in a room and do not divide it, so small obstacles that touch nothing
-//! else count as ground here. (The map keeps them.) All other cells that are not free bound the ground, whether occupied
-//! or unknown: drawings show walls in any grey, and scanners see one side of them. An obstacle that stands alone, is
-//! larger than furniture and as thick as goods is a *stack*: a shelf or a pile of goods. It is no ground, and no wall
-//! either. Cost: O(cells), and O(n log n) for the n cells of each large obstacle.
+//! Table legs, chairs, bins and lone columns stand in a room and do not divide it, so small obstacles that touch
+//! nothing else count as ground here. (The map keeps them.) All other cells that are not free bound the ground, whether
+//! occupied or unknown: drawings show walls in any grey, and scanners see one side of them. An obstacle that stands
+//! alone, is larger than furniture and as thick as goods is a *stack*: a shelf or a pile of goods. It is no ground, and
+//! no wall either. Cost: O(cells), and O(n log n) for the n cells of each large obstacle.
 
 use super::stacks;
 use crate::components::{Components, Neighbours};

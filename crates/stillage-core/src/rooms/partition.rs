@@ -1,4 +1,5 @@
-//! The room of every cell: what is left of the ground when every doorway is closed, with a share of the walls around it.
+//! The room of every cell: what is left of the ground when every doorway is closed, with a share of the walls around
+//! it.
 //!
 //! Components of the ground between the closed doorways are rooms where they are large enough; smaller ones belong to
 //! the room that they are open to. Then walls are shared among the rooms beside them, so that two rooms meet in the

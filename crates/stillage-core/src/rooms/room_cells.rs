@@ -11,8 +11,8 @@ use crate::runs::runs_of_equal;
 pub struct RoomCells {
     /// Number of rooms.
     pub count: usize,
-    /// Room of each cell, row-major: 1 to `count`, larger numbers for the stacks that stand in them, 0 for neither. Empty
-    /// without rooms.
+    /// Room of each cell, row-major: 1 to `count`, larger numbers for the stacks that stand in them, 0 for neither.
+    /// Empty without rooms.
     pub cells: Vec<u32>,
     /// Lines from jamb to jamb of the doorways between two rooms, or a room and a hall; metres of the grid frame.
     pub doorways: Vec<[Point; 2]>,

@@ -1,14 +1,14 @@
 //! Stacks: shelves and piles of goods that stand in a room, free or against its wall.
 //!
-//! Closed ground is a wall, the building around the room, or goods. Goods have the room on two sides: a straight line in
-//! one of the two directions of the site leads from the room through them and out into the same room. Lines into a wall
-//! lead to another room or to none, and lines along a wall pass through no more than its thickness. So the closed cells
-//! between two open cells of one room, opened by a disc that is wider than walls are thick, are stacks. It does not
-//! matter whether something touches them, or whether their inside was seen. Free ground that is too tight for a person
-//! counts as closed: it is the inside of a shelf, or the slot behind it.
+//! Closed ground is a wall, the building around the room, or goods. Goods have the room on two sides: a straight line
+//! in one of the two directions of the site leads from the room through them and out into the same room. Lines into a
+//! wall lead to another room or to none, and lines along a wall pass through no more than its thickness. So the closed
+//! cells between two open cells of one room, opened by a disc that is wider than walls are thick, are stacks. It does
+//! not matter whether something touches them, or whether their inside was seen. Free ground that is too tight for a
+//! person counts as closed: it is the inside of a shelf, or the slot behind it.
 //!
-//! Cost: O(cells of the rectangles around the rooms). Limits: what stands against a wall at a slant loses its edges; goods
-//! that fill a corner of the room look like the corner of the building, and are not found.
+//! Cost: O(cells of the rectangles around the rooms). Limits: what stands against a wall at a slant loses its edges;
+//! goods that fill a corner of the room look like the corner of the building, and are not found.
 
 use std::collections::BTreeMap;
 use std::f64::consts::FRAC_PI_2;
@@ -22,8 +22,8 @@ use crate::watch::{Stopped, Watch};
 
 /// Least thickness of a stack, metres: walls are thinner, shelves of a shop have 0.5.
 const STACK_M: f64 = 0.4;
-/// Diameter of the disc that stacks are opened by, metres: below the depth of the smallest place, 0.6; walls and columns
-/// jut out less.
+/// Diameter of the disc that stacks are opened by, metres: below the depth of the smallest place, 0.6; walls and
+/// columns jut out less.
 const DEPTH_M: f64 = 0.55;
 /// Least share of the smallest box around a stack that it fills; walls around a corner fill less.
 const STACK_FILL: f64 = 0.6;
@@ -135,8 +135,8 @@ pub(super) fn footprint(thing: Component<'_>, closed: usize, cell: f64) -> Optio
     is_stack.then_some(smallest)
 }
 
-/// The morphological opening of some cells by a disc (G. Matheron 1975): those that discs of `diameter` cells cover that
-/// lie inside. Cells beyond the map count as inside.
+/// The morphological opening of some cells by a disc (G. Matheron 1975): those that discs of `diameter` cells cover
+/// that lie inside. Cells beyond the map count as inside.
 fn opened(is_in: Vec<bool>, width: usize, diameter: f64, watch: &Watch<'_>) -> Result<Vec<bool>, Stopped> {
     // Distances are measured to the centre of an obstacle, which begins half a cell before.
     let reach = f64::midpoint(diameter, 1.0);

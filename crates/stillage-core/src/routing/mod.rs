@@ -14,9 +14,9 @@
 //! exact line of sight (Amanatides and Woo 1987). The paper adds where a path may go at all: over links that are
 //! connected, between drivable faces, so never through storage; a storage-access edge ends a route.
 //!
-//! Cost: O(faces + edges + cells of the reachable faces). Memory: 5 bytes per cell of their bounding box. Limits: the path
-//! is that of a point, it may touch obstacles. It is the shortest over the eight neighbours of cells, then straightened;
-//! the way around another side of an obstacle may be shorter by up to 8 %.
+//! Cost: O(faces + edges + cells of the reachable faces). Memory: 5 bytes per cell of their bounding box. Limits: the
+//! path is that of a point, it may touch obstacles. It is the shortest over the eight neighbours of cells, then
+//! straightened; the way around another side of an obstacle may be shorter by up to 8 %.
 
 mod ends;
 mod no_route;

@@ -2,9 +2,9 @@
 //!
 //! Source: Hart, Nilsson and Raphael 1968 (doi 10.1109/TSSC.1968.300136) with the octile distance; the open list is a
 //! ring of buckets (Dial 1969, doi 10.1145/363269.363610), as costs are small whole numbers and a consistent estimate
-//! lets the total grow by less than two steps at once. Of cells with the same total the newest is expanded first, so the
-//! search crosses open ground directly instead of expanding all of it.
-//! Cost: O(cells visited). Memory: 5 bytes per cell of the window. Limits: paths of 43 million steps.
+//! lets the total grow by less than two steps at once. Of cells with the same total the newest is expanded first, so
+//! the search crosses open ground directly instead of expanding all of it. Cost: O(cells visited). Memory: 5 bytes per
+//! cell of the window. Limits: paths of 43 million steps.
 
 use super::step_rule::StepRule;
 use crate::grid::CellBounds;

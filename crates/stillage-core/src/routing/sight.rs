@@ -5,8 +5,8 @@
 //! cells beside it. String pulling is greedy: from each kept point to the farthest point in sight, which is found by
 //! doubling and halving; forwards and backwards in turn until the path gets no shorter.
 //!
-//! Cost: O(n log n) sights for a path of n cells. Limits: the search takes all points beyond a hidden one to be hidden, so
-//! a bend may stay that a straight line to a later point would remove.
+//! Cost: O(n log n) sights for a path of n cells. Limits: the search takes all points beyond a hidden one to be hidden,
+//! so a bend may stay that a straight line to a later point would remove.
 
 use super::step_rule::StepRule;
 use crate::arrangement::{EdgeId, FaceId};
