@@ -10,7 +10,7 @@ use stillage_core::analysis::Diagnostic;
 use stillage_core::semantics::{Assignment, RuleSetDraft};
 use uuid::Uuid;
 
-use crate::geojson::Georeference;
+use crate::coordinates::Georeference;
 use crate::ingest::MapSource;
 
 /// Whose a map, job or rule set is. What belongs to one tenant does not exist for another.

@@ -15,8 +15,9 @@ use uuid::Uuid;
 use super::features::FeatureCache;
 use super::rule_sets::DEFAULT_RULE_SET;
 use super::{AnalysisRecord, App, AppError, Caller, MapRecord, SemanticsOrigin, SemanticsRecord};
+use crate::blocking::off_the_runtime;
 use crate::ingest::{self, Limits, MapSource};
-use crate::store::{Blob, MapState, Snapshot, off_the_runtime};
+use crate::store::{Blob, MapState, Snapshot};
 
 /// An analysed map in memory, ready to answer. Shared, immutable; replaced when the semantics change.
 #[derive(Debug)]

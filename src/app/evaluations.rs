@@ -5,7 +5,7 @@ use stillage_core::evaluation::{self, Evaluation, EvaluationError, GroundTruth};
 use uuid::Uuid;
 
 use super::{App, AppError, Caller, SemanticsOrigin};
-use crate::store::off_the_runtime;
+use crate::blocking::off_the_runtime;
 
 impl App {
     /// Compares the analysis in force with the truth: under the suggested labels, under one decision per category, and

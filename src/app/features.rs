@@ -3,27 +3,22 @@
 use std::sync::OnceLock;
 
 use super::MapContext;
-use crate::geojson::{self, Collection, Feature, MapView};
+use crate::features::{self, Collection, Feature, MapView};
 
 /// The features of the collections that were asked for.
 #[derive(Debug, Default)]
 pub struct FeatureCache([OnceLock<Vec<Feature>>; Collection::ALL.len()]);
 
 impl MapContext {
-    /// The map as [`crate::geojson`] reads it.
+    /// The map as [`crate::features`] reads it.
     #[must_use]
     pub fn view(&self) -> MapView<'_> {
-        MapView {
-            analysis: &self.analysis,
-            semantic: &self.semantic,
-            locations: &self.locations,
-            georeference: self.record.georeference,
-        }
+        MapView { analysis: &self.analysis, semantic: &self.semantic, locations: &self.locations }
     }
 
     /// The features of a collection, by id. The first call makes them: keep it off the runtime.
     #[must_use]
     pub fn features(&self, collection: Collection) -> &[Feature] {
-        self.features.0[collection as usize].get_or_init(|| geojson::features(&self.view(), collection))
+        self.features.0[collection as usize].get_or_init(|| features::features(&self.view(), collection))
     }
 }

@@ -5,8 +5,9 @@ use stillage_core::spec::GridOptions;
 use uuid::Uuid;
 
 use super::{App, AppError, Caller};
+use crate::blocking::off_the_runtime;
 use crate::ingest::{self, MapSource};
-use crate::store::{BlobId, Snapshot, off_the_runtime};
+use crate::store::{BlobId, Snapshot};
 
 /// Where the cells of a map are and how they are read. Equal sources are equal cells.
 #[derive(Debug, Clone)]

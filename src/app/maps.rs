@@ -3,10 +3,11 @@
 use uuid::Uuid;
 
 use super::{App, AppError, Caller, JobRecord, MapPatch, MapRecord, NewMap, RETRY_AFTER_S};
-use crate::geojson::Georeference;
+use crate::blocking::off_the_runtime;
+use crate::coordinates::Georeference;
 use crate::ingest::{self, DecodedMap, MapSource};
 use crate::jobs::processes::AnalysisProcess;
-use crate::store::{Blob, IdempotencyKey, NewMapRow, Upload, now, off_the_runtime};
+use crate::store::{Blob, IdempotencyKey, NewMapRow, Upload, now};
 use stillage_core::AnalysisOptions;
 use stillage_core::memory::analysis_bytes;
 

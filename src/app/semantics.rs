@@ -12,7 +12,8 @@ use uuid::Uuid;
 
 use super::context::read_rule_set;
 use super::{App, AppError, Caller, MapContext, NewSemantics, SemanticsRecord};
-use crate::store::{NewSemanticsRow, now, off_the_runtime};
+use crate::blocking::off_the_runtime;
+use crate::store::{NewSemanticsRow, now};
 
 impl App {
     /// The semantics in force: the newest assigned version, or the suggestion (version 0).

@@ -5,7 +5,7 @@ use stillage_core::analysis::Diagnostic;
 use utoipa::ToSchema;
 
 use crate::app::StageReport;
-use crate::geojson::Georeference;
+use crate::coordinates::Georeference;
 use crate::http::problem::Problem;
 
 /// A remark on something that is valid but may surprise.

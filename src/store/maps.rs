@@ -6,7 +6,7 @@ use stillage_core::analysis::Diagnostic;
 use uuid::Uuid;
 
 use super::{Blob, BlobId, NewJob, StoreError};
-use crate::geojson::Georeference;
+use crate::coordinates::Georeference;
 use crate::records::{JobRecord, MapPatch, MapRecord, Tenant};
 
 /// A map to be stored.

@@ -101,9 +101,3 @@ pub fn now() -> Timestamp {
     let now = Timestamp::now();
     Timestamp::from_microsecond(now.as_microsecond()).unwrap_or(now)
 }
-
-/// Runs something long on a thread that may block.
-pub async fn off_the_runtime<T: Send + 'static>(run: impl FnOnce() -> T + Send + 'static) -> T {
-    // A task that has begun to block cannot be cancelled, so the error is a panic, and the caller's.
-    tokio::task::spawn_blocking(run).await.unwrap_or_else(|error| std::panic::resume_unwind(error.into_panic()))
-}

@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use stillage::app::{AnalysisTicket, App, AppError, Caller, JobFilter, JobRecord, JobState, MapPatch, SemanticsOrigin};
 use stillage::config::Config;
-use stillage::geojson::Georeference;
+use stillage::coordinates::Georeference;
 use stillage::records::Tenant;
 use stillage::store::{self, IdempotencyKey, Upload};
 use stillage_core::AnalysisOptions;

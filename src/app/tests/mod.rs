@@ -12,7 +12,7 @@ use tempfile::TempDir;
 use uuid::Uuid;
 
 use super::*;
-use crate::geojson::Georeference;
+use crate::coordinates::Georeference;
 use crate::ingest::MapSource;
 
 /// A service in its own folder, without job slots: jobs run when a test says so.

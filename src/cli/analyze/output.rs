@@ -12,7 +12,9 @@ use stillage_core::Occupancy;
 use super::{ALGORITHM_VERSION, Findings};
 use crate::app::StageReport;
 use crate::cli::Failure;
-use crate::geojson::{Collection, MapView, Transform, feature_collection, features, locations_csv};
+use crate::coordinates::Transform;
+use crate::features::{Collection, MapView, features};
+use crate::formats::{csv, geojson};
 use crate::render;
 use crate::stage_clock::peak_rss_mib;
 
@@ -68,9 +70,10 @@ fn parent(folder: &Path) -> &Path {
 /// Name and content of each file.
 fn files(findings: &Findings, stages: &[StageReport]) -> Vec<(PathBuf, Vec<u8>)> {
     let Findings { grid, analysis, semantic, .. } = findings;
-    let view = MapView { analysis, semantic, locations: &findings.locations, georeference: None };
+    let view = MapView { analysis, semantic, locations: &findings.locations };
     let layer = |collection: Collection| {
-        let bytes = feature_collection(&features(&view, collection), &Transform::map_frame());
+        let members: geojson::Members<'_> = &[("crs", &geojson::EPSG_3857)];
+        let bytes = geojson::feature_collection(&features(&view, collection), &Transform::map_frame(), members);
         (PathBuf::from(format!("{}.geojson", collection.id())), bytes)
     };
     let mut files: Vec<(PathBuf, Vec<u8>)> = Collection::ALL.into_iter().map(layer).collect();
@@ -80,7 +83,7 @@ fn files(findings: &Findings, stages: &[StageReport]) -> Vec<(PathBuf, Vec<u8>)>
     let locations = &findings.locations;
     files.push(("semantic.png".into(), render::semantic_png(grid, analysis, semantic, locations)));
     files.push(("semantic.svg".into(), render::semantic_svg(grid, analysis, semantic, locations)));
-    files.push(("locations.csv".into(), locations_csv(&view)));
+    files.push(("locations.csv".into(), csv::locations(&features(&view, Collection::Locations))));
     files.push(("report.json".into(), format!("{:#}\n", report(findings, stages)).into_bytes()));
     files
 }

@@ -11,6 +11,8 @@ use axum::http::{HeaderMap, HeaderName, HeaderValue, StatusCode, header};
 use axum::middleware::Next;
 use axum::response::{IntoResponse, Response};
 
+use crate::app::MapContext;
+use crate::blocking::off_the_runtime;
 use crate::http::problem::{Problem, ProblemType};
 
 /// The codings of the compression layer.
@@ -43,17 +45,47 @@ impl EntityTag {
         HeaderValue::try_from(format!("\"{}\"", self.0)).expect("tags are hexadecimal")
     }
 
+    /// The tag of what an analysed map answers.
+    #[must_use]
+    pub fn of_map(kind: &str, context: &MapContext) -> Self {
+        let versions = [context.record.version, context.semantics.version].map(|version| version.to_string());
+        Self::of_content(&[kind, &context.analysis_id.to_string(), &versions[0], &versions[1]])
+    }
+
     /// An answer with this tag, or 304 without a body where the client has it already.
     pub fn answer(&self, if_none_match: &IfNoneMatch, body: impl FnOnce() -> Response) -> Response {
-        let known = if_none_match.matched(self);
-        let mut response = match &known {
-            Some(_) => StatusCode::NOT_MODIFIED.into_response(),
-            None => body(),
-        };
-        response.headers_mut().insert(header::ETAG, known.unwrap_or_else(|| self.header()));
-        response.headers_mut().insert(header::CACHE_CONTROL, HeaderValue::from_static("no-cache"));
-        response
+        self.not_modified(if_none_match).unwrap_or_else(|| self.on(body()))
     }
+
+    /// [`Self::answer`] with a body that takes longer than a moment: it is made off the runtime.
+    ///
+    /// # Errors
+    /// Those of the body.
+    pub async fn answer_computed(
+        &self,
+        if_none_match: &IfNoneMatch,
+        body: impl FnOnce() -> Result<Response, Problem> + Send + 'static,
+    ) -> Result<Response, Problem> {
+        match self.not_modified(if_none_match) {
+            Some(answer) => Ok(answer),
+            None => Ok(self.on(off_the_runtime(body).await?)),
+        }
+    }
+
+    fn not_modified(&self, if_none_match: &IfNoneMatch) -> Option<Response> {
+        let known = if_none_match.matched(self)?;
+        Some(tagged(known, StatusCode::NOT_MODIFIED.into_response()))
+    }
+
+    fn on(&self, response: Response) -> Response {
+        tagged(self.header(), response)
+    }
+}
+
+fn tagged(tag: HeaderValue, mut response: Response) -> Response {
+    response.headers_mut().insert(header::ETAG, tag);
+    response.headers_mut().insert(header::CACHE_CONTROL, HeaderValue::from_static("no-cache"));
+    response
 }
 
 /// One tag of a request.

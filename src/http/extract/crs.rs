@@ -6,7 +6,7 @@ use utoipa::openapi::RefOr;
 use utoipa::openapi::schema::{ObjectBuilder, Schema, Type};
 use utoipa::{PartialSchema, ToSchema};
 
-use crate::geojson::Crs;
+use crate::coordinates::Crs;
 
 /// Longitude, latitude in degrees: the default.
 pub const CRS84: &str = "http://www.opengis.net/def/crs/OGC/1.3/CRS84";

@@ -1,5 +1,6 @@
 //! What handlers take from a request, typed; what cannot be taken is a problem.
 
+pub mod bbox;
 mod caller;
 pub mod conditional;
 pub mod crs;

@@ -6,19 +6,20 @@ use axum::extract::State;
 use axum::http::header;
 use axum::response::{IntoResponse, Response};
 use serde::{Deserialize, Serialize};
-use serde_json::json;
 use stillage_core::Point;
 use stillage_core::arrangement::FaceId;
 use stillage_core::routing::{self, RoutingMap, Waypoint};
 use utoipa::{IntoParams, ToSchema};
 
 use crate::app::{App, Caller, MapContext};
-use crate::geojson::{Geometry, Transform};
+use crate::blocking::off_the_runtime;
+use crate::coordinates::Transform;
+use crate::features::Geometry;
+use crate::formats::geojson;
 use crate::http::docs::refusals::{NotAnalysed, NotFound};
 use crate::http::extract::crs::CrsName;
 use crate::http::extract::{MapPath, Path, Query};
 use crate::http::links::GEO_JSON;
-use crate::http::ogc::collections::off_the_runtime;
 use crate::http::ogc::items::CONTENT_CRS;
 use crate::http::problem::Problem;
 
@@ -157,10 +158,9 @@ fn write(context: &MapContext, transform: &Transform, route: &routing::Route) ->
         faces: route.faces.iter().map(|face| face.0).collect(),
         edges: route.edges.iter().map(|edge| edge.0).collect(),
     };
-    let mut body = b"{\"type\":\"Feature\",\"geometry\":".to_vec();
-    Geometry::LineString(points).write(transform, &mut body);
-    body.extend_from_slice(format!(",\"properties\":{}}}\n", json!(properties)).as_bytes());
-    body
+    let document =
+        geojson::Document { id: None, geometry: &Geometry::LineString(points), properties: &properties, members: &[] };
+    geojson::document(&document, transform)
 }
 
 #[cfg(test)]

@@ -11,7 +11,6 @@ use crate::http::docs::refusals::{NotAnalysed, NotFound};
 use crate::http::extract::conditional::{EntityTag, IfNoneMatch};
 use crate::http::extract::{Id, MapPath, Path};
 use crate::http::links::{PNG, SVG};
-use crate::http::ogc::collections::{off_the_runtime, tag};
 use crate::http::problem::Problem;
 use crate::render;
 
@@ -35,9 +34,9 @@ async fn picture(
     draw: fn(&MapContext) -> Vec<u8>,
 ) -> Result<Response, Problem> {
     let context = app.context(&caller, map.0).await?;
-    off_the_runtime(move || {
-        let answer = || ([(header::CONTENT_TYPE, media_type)], draw(&context)).into_response();
-        Ok(tag(name, &context).answer(&if_none_match, answer))
+    let tag = EntityTag::of_map(name, &context);
+    tag.answer_computed(&if_none_match, move || {
+        Ok(([(header::CONTENT_TYPE, media_type)], draw(&context)).into_response())
     })
     .await
 }

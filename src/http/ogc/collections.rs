@@ -12,7 +12,8 @@ use utoipa::openapi::schema::{ObjectBuilder, Schema, Type};
 use utoipa::{IntoParams, PartialSchema, ToSchema};
 
 use crate::app::{App, Caller, MapContext};
-use crate::geojson::{Collection, Crs, Transform};
+use crate::coordinates::{Crs, Transform};
+use crate::features::{Collection, CollectionSchema};
 use crate::http::docs::refusals::{NotAnalysed, NotFound};
 use crate::http::extract::conditional::{EntityTag, IfNoneMatch};
 use crate::http::extract::crs::{CRS84, EPSG_3857};
@@ -98,7 +99,7 @@ pub struct CollectionList {
 
 impl CollectionView {
     fn new(base: &Base, context: &MapContext, collection: Collection) -> Self {
-        let (title, description) = describe(collection);
+        let CollectionSchema { title, description, .. } = *CollectionSchema::of(collection);
         let path = format!("/v1/maps/{}/collections/{}", context.record.id, collection.id());
         // No query string: clients append to the address of the items.
         let mut links =
@@ -120,24 +121,6 @@ impl CollectionView {
     }
 }
 
-/// Title and description of a collection.
-const fn describe(collection: Collection) -> (&'static str, &'static str) {
-    match collection {
-        Collection::Faces => ("Faces", "The cells of the decomposition, with category, label and occupancy"),
-        Collection::Edges => ("Edges", "The borders between faces, with their cogency and physical support"),
-        Collection::Vertices => ("Vertices", "Where edges meet"),
-        Collection::Nodes => ("Nodes", "The nodes of the adjacency graph: one in each face"),
-        Collection::Links => ("Links", "The links of the adjacency graph, with their connectivity"),
-        Collection::Lines => ("Lines", "The straight alignments of obstacles behind the decomposition"),
-        Collection::Regions => ("Regions", "Blocks of the map with a pattern of their own"),
-        Collection::Places => {
-            ("Places", "Rooms, and mutually open faces of one label, merged: corridors, junctions, blocks")
-        }
-        Collection::Doors => ("Doors", "Narrow passages between two places, from jamb to jamb"),
-        Collection::Locations => ("Locations", "Storage locations with code, aisle, bay, occupancy and approach"),
-    }
-}
-
 /// The box around a collection in degrees; around the whole grid where the collection is empty.
 fn extent(context: &MapContext, collection: Collection) -> [f64; 4] {
     let transform = Transform::new(Crs::Crs84, context.record.georeference);
@@ -146,35 +129,13 @@ fn extent(context: &MapContext, collection: Collection) -> [f64; 4] {
         (context.analysis.width as f64 * frame.resolution, context.analysis.height as f64 * frame.resolution);
     let grid =
         [[0.0, 0.0], [width, 0.0], [width, height], [0.0, height]].map(|corner| frame.to_map(Point::from(corner)));
-    let boxes = context.features(collection).iter().map(|feature| feature.bbox);
-    let of_features = boxes.flat_map(|[west, south, east, north]| {
-        [[west, south], [east, south], [east, north], [west, north]].map(Point::from)
-    });
-    let mut corners = of_features.peekable();
+    let boxes = context.features(collection).iter().map(|feature| feature.bounds.corners());
+    let mut corners = boxes.flatten().peekable();
     let corners: Vec<Point> = if corners.peek().is_some() { corners.collect() } else { grid.to_vec() };
     let empty = [f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY];
     corners.into_iter().map(|corner| transform.forward(corner)).fold(empty, |[west, south, east, north], [lon, lat]| {
         [west.min(lon), south.min(lat), east.max(lon), north.max(lat)]
     })
-}
-
-/// The tag of what an analysed map answers.
-pub fn tag(kind: &str, context: &MapContext) -> EntityTag {
-    let parts = [context.record.version, context.semantics.version].map(|version| version.to_string());
-    EntityTag::of_content(&[kind, &context.analysis_id.to_string(), &parts[0], &parts[1]])
-}
-
-/// Runs what takes longer than a moment beside the runtime's threads.
-///
-/// # Errors
-/// Those of the work.
-pub async fn off_the_runtime<T: Send + 'static>(
-    work: impl FnOnce() -> Result<T, Problem> + Send + 'static,
-) -> Result<T, Problem> {
-    match tokio::task::spawn_blocking(work).await {
-        Ok(result) => result,
-        Err(failed) => std::panic::resume_unwind(failed.into_panic()),
-    }
 }
 
 /// List collections
@@ -193,15 +154,14 @@ pub async fn list(
     if_none_match: IfNoneMatch,
 ) -> Result<Response, Problem> {
     let context = app.context(&caller, path.map_id.0).await?;
-    off_the_runtime(move || {
-        Ok(tag("collections", &context).answer(&if_none_match, || {
-            let collections = Collection::ALL.map(|collection| CollectionView::new(&base, &context, collection));
-            let links = vec![
-                base.link("self", &format!("/v1/maps/{}/collections", path.map_id), JSON),
-                base.link("up", &format!("/v1/maps/{}", path.map_id), JSON),
-            ];
-            Json(CollectionList { collections: collections.into(), links }).into_response()
-        }))
+    let tag = EntityTag::of_map("collections", &context);
+    tag.answer_computed(&if_none_match, move || {
+        let collections = Collection::ALL.map(|collection| CollectionView::new(&base, &context, collection));
+        let links = vec![
+            base.link("self", &format!("/v1/maps/{}/collections", path.map_id), JSON),
+            base.link("up", &format!("/v1/maps/{}", path.map_id), JSON),
+        ];
+        Ok(Json(CollectionList { collections: collections.into(), links }).into_response())
     })
     .await
 }
@@ -220,9 +180,9 @@ pub async fn get(
     if_none_match: IfNoneMatch,
 ) -> Result<Response, Problem> {
     let context = app.context(&caller, path.map_id.0).await?;
-    off_the_runtime(move || {
-        let answer = || Json(CollectionView::new(&base, &context, path.collection_id.0)).into_response();
-        Ok(tag("collection", &context).answer(&if_none_match, answer))
+    let tag = EntityTag::of_map("collection", &context);
+    tag.answer_computed(&if_none_match, move || {
+        Ok(Json(CollectionView::new(&base, &context, path.collection_id.0)).into_response())
     })
     .await
 }

@@ -1,6 +1,7 @@
 //! The resources of the OGC API standards: collections and their features, jobs.
 
-pub mod bbox;
 pub mod collections;
+mod feature_documents;
 pub mod items;
+mod items_query;
 pub mod jobs;

@@ -8,7 +8,8 @@ use object_store::local::LocalFileSystem;
 use object_store::{ObjectStore, ObjectStoreExt, PutMode, PutOptions, PutPayload};
 
 use super::{Blob, BlobId, Blobs};
-use crate::store::{StoreError, off_the_runtime};
+use crate::blocking::off_the_runtime;
+use crate::store::StoreError;
 
 /// The folder of the blobs.
 #[derive(Debug)]

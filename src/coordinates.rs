@@ -5,9 +5,31 @@
 //! A georeferenced map lies on the plane that touches the ellipsoid (WGS 84) at its origin: metres become degrees by
 //! the radii of curvature there. Over a kilometre that plane is some centimetres off, at 60 degrees of latitude.
 
+use serde::{Deserialize, Serialize};
 use stillage_core::Point;
 
-use super::{Crs, Georeference};
+/// Where the map frame lies on Earth.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub struct Georeference {
+    /// Longitude of the map frame's origin, degrees.
+    pub lon: f64,
+    /// Latitude of the map frame's origin, degrees.
+    pub lat: f64,
+    /// Compass heading of the map frame's y axis, degrees clockwise from north.
+    #[serde(default)]
+    pub heading: f64,
+}
+
+/// Coordinates of an answer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Crs {
+    /// Longitude, latitude.
+    #[default]
+    Crs84,
+    /// EPSG:3857; for a map without georeference these are the metres of the map frame.
+    WebMercator,
+}
 
 /// Radius of the sphere of EPSG:3857, which is the equatorial radius of WGS 84, metres.
 const RADIUS: f64 = 6_378_137.0;
@@ -50,11 +72,15 @@ impl Anchor {
         }
     }
 
-    fn to_degrees(self, point: Point) -> [f64; 2] {
+    /// Metres eastwards and northwards of the origin.
+    fn eastwards_northwards(self, point: Point) -> Point {
         let (sine, cosine) = self.heading;
-        let east = point.x * cosine + point.y * sine;
-        let north = point.y * cosine - point.x * sine;
-        [self.origin[0] + east / self.metres_per_degree[0], self.origin[1] + north / self.metres_per_degree[1]]
+        Point::new(point.x * cosine + point.y * sine, point.y * cosine - point.x * sine)
+    }
+
+    fn to_degrees(self, point: Point) -> [f64; 2] {
+        let turned = self.eastwards_northwards(point);
+        [self.origin[0] + turned.x / self.metres_per_degree[0], self.origin[1] + turned.y / self.metres_per_degree[1]]
     }
 
     fn to_metres(self, [lon, lat]: [f64; 2]) -> Point {
@@ -106,21 +132,11 @@ impl Transform {
         }
     }
 
-    /// Decimals worth writing: nine of a degree and four of a metre are a tenth of a millimetre.
+    /// Map-frame metres -> metres eastwards and northwards of the map frame's origin. A box of coordinates is a rectangle
+    /// along the axes there, whatever the system.
     #[must_use]
-    pub const fn decimals(&self) -> u32 {
-        match self.crs {
-            Crs::Crs84 => 9,
-            Crs::WebMercator => 4,
-        }
-    }
-
-    /// The name for the `crs` member of GeoJSON; `None` for what GeoJSON takes for granted.
-    pub(super) const fn crs_name(&self) -> Option<&'static str> {
-        match self.crs {
-            Crs::Crs84 => None,
-            Crs::WebMercator => Some("urn:ogc:def:crs:EPSG::3857"),
-        }
+    pub fn eastwards_northwards(&self, point: Point) -> Point {
+        self.anchor.map_or(point, |anchor| anchor.eastwards_northwards(point))
     }
 }
 

@@ -1,37 +1,14 @@
-//! Boundary walks -> valid polygons.
+//! Rings -> valid polygons, and the outlines of raster cells.
 //!
-//! A walk around an area may come through one point several times: an area pinched at a corner, a hole that touches
-//! the outer boundary, an edge that dangles into a face. [`simple_rings`] cuts such walks into rings that visit each
-//! point once, [`polygons`] gives each hole to the ring around it (OGC 06-103r4, 6.1.11). O(n) and O(rings * holes * n).
+//! [`polygons`] gives each hole to the ring around it (OGC 06-103r4, 6.1.11). O(holes * corners of the outer rings).
 
-use std::collections::{BTreeMap, HashMap};
-use std::hash::Hash;
+use std::collections::BTreeMap;
 
 use stillage_core::Point;
+use stillage_core::geometry::polygon::{contains, simple_rings};
 use stillage_core::geometry::ring_area;
 
-use super::feature::Ring;
-
-/// Cuts a closed walk wherever it comes back to a point. What has fewer than three points bounds nothing and is dropped.
-pub(super) fn simple_rings<K: Copy + Eq + Hash>(walk: impl IntoIterator<Item = K>) -> Vec<Vec<K>> {
-    let mut rings = Vec::new();
-    let mut path: Vec<K> = Vec::new();
-    let mut places: HashMap<K, usize> = HashMap::new();
-    for point in walk {
-        if let Some(&place) = places.get(&point) {
-            let ring = path.split_off(place);
-            for passed in &ring {
-                places.remove(passed);
-            }
-            rings.push(ring);
-        }
-        places.insert(point, path.len());
-        path.push(point);
-    }
-    rings.push(path);
-    rings.retain(|ring| ring.len() >= 3);
-    rings
-}
+use super::geometry::Ring;
 
 /// Groups rings into polygons: counter-clockwise ones are outer rings, clockwise ones holes of the smallest around them.
 pub(super) fn polygons(rings: Vec<Ring>) -> Vec<Vec<Ring>> {
@@ -42,28 +19,13 @@ pub(super) fn polygons(rings: Vec<Ring>) -> Vec<Vec<Ring>> {
         let inside = Point::from((hole[0].coords + hole[1].coords) / 2.0);
         let around = polygons
             .iter_mut()
-            .filter(|polygon| contains(&polygon[0], inside))
+            .filter(|polygon| contains(&polygon[..1], inside))
             .min_by(|first, second| ring_area(&first[0]).total_cmp(&ring_area(&second[0])));
         if let Some(polygon) = around {
             polygon.push(hole);
         }
     }
     polygons
-}
-
-/// Whether a point lies inside a ring (even-odd rule).
-fn contains(ring: &[Point], point: Point) -> bool {
-    let Some(&last) = ring.last() else { return false };
-    let mut inside = false;
-    let mut previous = last;
-    for &current in ring {
-        if (current.y > point.y) != (previous.y > point.y) {
-            let along = (point.y - current.y) / (previous.y - current.y);
-            inside ^= point.x < current.x + along * (previous.x - current.x);
-        }
-        previous = current;
-    }
-    inside
 }
 
 /// A corner of a raster: column and row.
@@ -163,11 +125,6 @@ mod tests {
         let polygons = polygons(rings.into_iter().map(points).collect());
         assert_eq!(polygons.len(), 1);
         assert_eq!(polygons[0].iter().map(|ring| ring_area(ring)).collect::<Vec<_>>(), [11.0, -1.0]);
-    }
-
-    #[test]
-    fn a_walk_along_a_dangling_edge_is_cut_to_the_ring() {
-        assert_eq!(simple_rings([1, 2, 3, 9, 3, 4]), [[1, 2, 3, 4]]);
     }
 
     proptest! {

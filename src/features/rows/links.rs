@@ -1,0 +1,69 @@
+//! Links of the adjacency graph.
+
+use stillage_core::arrangement::EdgeId;
+
+use super::words;
+use crate::features::geometry::{Geometry, GeometryType};
+use crate::features::property::{Kind, Property};
+use crate::features::table::{Column, Table};
+use crate::features::view::MapView;
+
+/// A link.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Link {
+    /// Its edge has the same number.
+    id: u32,
+    /// The nodes at its ends.
+    ends: [u32; 2],
+    connectivity: Option<&'static str>,
+    is_drivable: bool,
+}
+
+/// The collection.
+pub const TABLE: Table<Link> = Table {
+    title: "Links",
+    description: "The links of the adjacency graph, with their connectivity",
+    geometry: &[GeometryType::LineString],
+    columns: &[
+        Column::new(Property::new("id", Kind::Integer, "Id", "Number of the link"), |link| link.id.into()),
+        Column::new(Property::new("from", Kind::Integer, "From", "Id of the node where it begins"), |link| {
+            link.ends[0].into()
+        }),
+        Column::new(Property::new("to", Kind::Integer, "To", "Id of the node where it ends"), |link| {
+            link.ends[1].into()
+        }),
+        Column::new(
+            Property::new(
+                "connectivity",
+                Kind::Word(words::CONNECTIVITY),
+                "Connectivity",
+                "What lies between its ends: an obstruction, an access to storage, or nothing",
+            ),
+            |link| link.connectivity.into(),
+        ),
+        Column::new(
+            Property::new("drivable", Kind::Boolean, "Drivable", "Whether a robot may drive over it"),
+            |link| link.is_drivable.into(),
+        ),
+        Column::new(Property::new("edge", Kind::Integer, "Edge", "Id of the edge it crosses"), |link| link.id.into()),
+    ],
+};
+
+/// The links of a map, by id. Each runs from node to node through the middle of its edge.
+pub fn read(view: &MapView<'_>) -> Vec<(Geometry, Link)> {
+    let (subdivision, graph) = (&view.analysis.subdivision, &view.analysis.graph);
+    let row = |edge: EdgeId| {
+        let sides = subdivision.sides(edge);
+        let row = Link {
+            id: edge.0,
+            ends: sides.map(|face| face.0),
+            connectivity: view.semantic.connectivity[edge.index()].map(words::connectivity),
+            is_drivable: view.semantic.is_drivable_link(edge, sides),
+        };
+        let [start, end] = subdivision.segment(edge);
+        let [from, to] = sides.map(|face| graph.position(face));
+        let path = [from, nalgebra::center(&start, &end), to].map(|point| view.position(point));
+        (Geometry::LineString(path.to_vec()), row)
+    };
+    subdivision.edges().filter(|&edge| view.has_link(edge)).map(row).collect()
+}

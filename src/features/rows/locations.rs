@@ -1,0 +1,157 @@
+//! Storage locations.
+
+use std::sync::Arc;
+
+use stillage_core::layout::{ApproachPose, Location};
+
+use super::words;
+use crate::features::geometry::{Geometry, GeometryType};
+use crate::features::property::{Kind, Property};
+use crate::features::shape;
+use crate::features::table::{Column, Table};
+use crate::features::value::Pose;
+use crate::features::view::{LabelWords, MapView, rounded};
+
+/// A storage location. Positions and lengths in metres of the map frame.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LocationRow {
+    /// Its id: `aisle-bay`.
+    pub code: String,
+    /// Id of its face.
+    pub face: u32,
+    /// Its label.
+    pub label: Arc<LabelWords>,
+    /// Number of its aisle, 0 without one.
+    pub aisle: u32,
+    /// Number of its bay in the aisle.
+    pub bay: u32,
+    /// `left` or `right` of the aisle.
+    pub side: Option<&'static str>,
+    /// x and y of its centre.
+    pub centre: [f64; 2],
+    /// Extent along the access edge.
+    pub width: f64,
+    /// Extent away from the access edge.
+    pub depth: f64,
+    /// Direction from the access edge into it, degrees, `[-180, 180)`.
+    pub heading: f64,
+    /// `occupied`, `empty` or `unknown`.
+    pub occupancy: &'static str,
+    /// Ids of the edges through which it is reached, the best first.
+    pub access_edges: Vec<u32>,
+    /// Id of the drivable face before the best access edge.
+    pub access_from: Option<u32>,
+    /// Where a robot stands to reach it.
+    pub approach: Option<Pose>,
+}
+
+/// The collection.
+pub const TABLE: Table<LocationRow> = Table {
+    title: "Locations",
+    description: "Storage locations with code, aisle, bay, occupancy and approach",
+    geometry: GeometryType::AREAS,
+    columns: &[
+        Column::new(Property::new("code", Kind::Text, "Code", "Aisle and bay, unique in the map"), |location| {
+            location.code.as_str().into()
+        }),
+        Column::new(Property::new("face", Kind::Integer, "Face", "Id of its face"), |location| location.face.into()),
+        Column::new(Property::new("label", Kind::Text, "Label", "Id of its label"), |location| {
+            location.label.id.as_str().into()
+        }),
+        Column::new(Property::new("labelName", Kind::Text, "Label name", "Name of the label for people"), |location| {
+            location.label.name.as_str().into()
+        }),
+        Column::new(
+            Property::new("aisle", Kind::Integer, "Aisle", "Number of its aisle; 0 without access"),
+            |location| location.aisle.into(),
+        ),
+        Column::new(
+            Property::new("bay", Kind::Integer, "Bay", "Number in its aisle: odd on the left, even on the right"),
+            |location| location.bay.into(),
+        ),
+        Column::new(
+            Property::new("side", Kind::Word(words::SIDES), "Side", "Side of the aisle, along its direction")
+                .nullable(),
+            |location| location.side.into(),
+        ),
+        Column::new(Property::new("centre", Kind::Position, "Centre", "Its centre, map frame").unit("m"), |location| {
+            location.centre.into()
+        }),
+        Column::new(
+            Property::new("widthM", Kind::Number, "Width", "Extent along its access edge").unit("m"),
+            |location| location.width.into(),
+        ),
+        Column::new(
+            Property::new("depthM", Kind::Number, "Depth", "Extent away from its access edge").unit("m"),
+            |location| location.depth.into(),
+        ),
+        Column::new(
+            Property::new(
+                "headingDeg",
+                Kind::Number,
+                "Heading",
+                "Direction from the access edge into it, counter-clockwise from the map's x axis, from -180 to 180",
+            )
+            .unit("deg"),
+            |location| location.heading.into(),
+        ),
+        Column::new(
+            Property::new(
+                "occupancy",
+                Kind::Word(words::OCCUPANCY),
+                "Occupancy",
+                "Whether goods were seen in it, none were seen, or nobody looked",
+            ),
+            |location| location.occupancy.into(),
+        ),
+        Column::new(
+            Property::new(
+                "accessEdges",
+                Kind::Integers,
+                "Access edges",
+                "Ids of the edges through which it is reached, the best first",
+            ),
+            |location| location.access_edges.as_slice().into(),
+        ),
+        Column::new(
+            Property::new(
+                "accessFrom",
+                Kind::Integer,
+                "Access from",
+                "Id of the drivable face before the best access edge",
+            )
+            .nullable(),
+            |location| location.access_from.into(),
+        ),
+        Column::new(
+            Property::new("approach", Kind::Pose, "Approach", "Where a robot stands to reach it, map frame").nullable(),
+            |location| location.approach.into(),
+        ),
+    ],
+};
+
+/// The storage locations of a map, by code.
+pub fn read(view: &MapView<'_>) -> Vec<(Geometry, LocationRow)> {
+    let labels = view.labels();
+    let approach = |pose: ApproachPose| {
+        let [x, y] = view.rounded_position(pose.position);
+        Pose { x, y, heading_deg: view.heading_degrees(pose.heading) }
+    };
+    let row = |location: &Location| LocationRow {
+        code: location.code.clone(),
+        face: location.face.0,
+        label: labels.of(location.label),
+        aisle: location.aisle,
+        bay: location.bay,
+        side: location.side.map(words::side),
+        centre: view.rounded_position(location.center),
+        width: rounded(location.width),
+        depth: rounded(location.depth),
+        heading: view.heading_degrees(location.heading),
+        occupancy: words::occupancy(location.occupancy),
+        access_edges: location.access_edges.iter().map(|edge| edge.0).collect(),
+        access_from: location.access_from.map(|face| face.0),
+        approach: location.approach.map(approach),
+    };
+    view.locations.iter().map(|location| (shape::of_face(view, location.face), row(location))).collect()
+}

@@ -1,0 +1,73 @@
+//! Places.
+
+use std::sync::Arc;
+
+use stillage_core::semantics::Place;
+
+use crate::features::geometry::{Geometry, GeometryType};
+use crate::features::property::{Kind, Property};
+use crate::features::shape;
+use crate::features::table::{Column, Table};
+use crate::features::view::{FUNCTIONALITIES, LabelWords, MapView, rounded};
+
+/// A place.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PlaceRow {
+    id: u32,
+    label: Arc<LabelWords>,
+    area: f64,
+    room: Option<u32>,
+    faces: Vec<u32>,
+}
+
+/// The collection.
+pub const TABLE: Table<PlaceRow> = Table {
+    title: "Places",
+    description: "Rooms, and mutually open faces of one label, merged: corridors, junctions, blocks",
+    geometry: GeometryType::AREAS,
+    columns: &[
+        Column::new(Property::new("id", Kind::Integer, "Id", "Number of the place"), |place| place.id.into()),
+        Column::new(
+            Property::new("label", Kind::Text, "Label", "Id of the label; of a room that of most of its area"),
+            |place| place.label.id.as_str().into(),
+        ),
+        Column::new(Property::new("labelName", Kind::Text, "Label name", "Name of the label for people"), |place| {
+            place.label.name.as_str().into()
+        }),
+        Column::new(
+            Property::new(
+                "functionality",
+                Kind::Words(FUNCTIONALITIES),
+                "Functionality",
+                "What places of this label are for",
+            ),
+            |place| place.label.functionality.as_slice().into(),
+        ),
+        Column::new(Property::new("areaM2", Kind::Number, "Area", "Area").unit("m2"), |place| place.area.into()),
+        Column::new(
+            Property::new("room", Kind::Integer, "Room", "Number of the room it is, if walls bound it").nullable(),
+            |place| place.room.into(),
+        ),
+        Column::new(Property::new("faces", Kind::Integers, "Faces", "Ids of its faces, ascending"), |place| {
+            place.faces.as_slice().into()
+        }),
+    ],
+};
+
+/// The places of a map, by id.
+pub fn read(view: &MapView<'_>) -> Vec<(Geometry, PlaceRow)> {
+    let labels = view.labels();
+    let row = |(index, place): (usize, &Place)| {
+        let id = index as u32;
+        let geometry = shape::of_union(view, &place.faces, |face| view.semantic.face_places[face.index()] == Some(id));
+        let row = PlaceRow {
+            id,
+            label: labels.of(place.label),
+            area: rounded(place.area),
+            room: place.room,
+            faces: place.faces.iter().map(|face| face.0).collect(),
+        };
+        (geometry, row)
+    };
+    view.semantic.places.iter().enumerate().map(row).collect()
+}

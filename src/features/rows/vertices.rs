@@ -1,0 +1,43 @@
+//! Vertices of the subdivision.
+
+use crate::features::geometry::{Geometry, GeometryType};
+use crate::features::property::{Kind, Property};
+use crate::features::table::{Column, Table};
+use crate::features::view::MapView;
+
+/// A vertex.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Vertex {
+    id: u32,
+    edges: Vec<u32>,
+}
+
+/// The collection.
+pub const TABLE: Table<Vertex> = Table {
+    title: "Vertices",
+    description: "Where edges meet",
+    geometry: &[GeometryType::Point],
+    columns: &[
+        Column::new(Property::new("id", Kind::Integer, "Id", "Number of the vertex"), |vertex| vertex.id.into()),
+        Column::new(
+            Property::new("edges", Kind::Integers, "Edges", "Ids of the edges that end here, ascending"),
+            |vertex| vertex.edges.as_slice().into(),
+        ),
+    ],
+};
+
+/// The vertices of a map, by id.
+pub fn read(view: &MapView<'_>) -> Vec<(Geometry, Vertex)> {
+    let subdivision = &view.analysis.subdivision;
+    let mut edges = vec![Vec::new(); subdivision.vertex_count()];
+    for edge in subdivision.edges() {
+        for vertex in subdivision.ends(edge) {
+            edges[vertex.index()].push(edge.0);
+        }
+    }
+    let rows = subdivision.vertices().zip(edges).map(|(vertex, edges)| {
+        let position = view.position(subdivision.position(vertex));
+        (Geometry::Point(position), Vertex { id: vertex.0, edges })
+    });
+    rows.collect()
+}

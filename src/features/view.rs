@@ -1,0 +1,105 @@
+//! What features are made from, and how its numbers are written.
+
+use std::sync::Arc;
+
+use stillage_core::arrangement::EdgeId;
+use stillage_core::geometry::fold_half_turn;
+use stillage_core::layout::Location;
+use stillage_core::semantics::{Functionality, LabelId, SemanticMap};
+use stillage_core::{Analysis, Point};
+
+/// An analysed map with its labels and locations.
+#[derive(Debug, Clone, Copy)]
+pub struct MapView<'a> {
+    /// The geometric level.
+    pub analysis: &'a Analysis,
+    /// The human level.
+    pub semantic: &'a SemanticMap,
+    /// The storage locations, by code.
+    pub locations: &'a [Location],
+}
+
+/// What a label says of a face, place or location.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct LabelWords {
+    /// Its id in the rule set.
+    pub id: String,
+    /// Its name for people.
+    pub name: String,
+    /// What it is for, in the words of [`FUNCTIONALITIES`].
+    pub functionality: Vec<&'static str>,
+}
+
+/// The words for what a place is for.
+pub const FUNCTIONALITIES: &[&str] = &["drivable", "storage-access", "connection", "access", "storage", "work-place"];
+
+const fn functionality(functionality: Functionality) -> &'static str {
+    match functionality {
+        Functionality::Drivable => "drivable",
+        Functionality::StorageAccess => "storage-access",
+        Functionality::Connection => "connection",
+        Functionality::Access => "access",
+        Functionality::Storage => "storage",
+        Functionality::WorkPlace => "work-place",
+    }
+}
+
+impl MapView<'_> {
+    /// What each label of the rule set says, by [`LabelId`].
+    pub fn labels(&self) -> Labels {
+        let words = |label: &stillage_core::semantics::Label| {
+            Arc::new(LabelWords {
+                id: label.id.clone(),
+                name: label.name.clone(),
+                functionality: label.functionality.iter().copied().map(functionality).collect(),
+            })
+        };
+        Labels(self.semantic.rule_set.labels().iter().map(words).collect())
+    }
+
+    /// A point of the grid frame in the map frame.
+    pub fn position(&self, point: Point) -> Point {
+        self.analysis.frame.to_map(point)
+    }
+
+    /// A point of the grid frame as a property: x and y in the map frame.
+    pub fn rounded_position(&self, point: Point) -> [f64; 2] {
+        let point = self.position(point);
+        [rounded(point.x), rounded(point.y)]
+    }
+
+    /// An undirected line's angle in the grid frame -> degrees in the map frame, `[-90, 90)`.
+    pub fn orientation_degrees(&self, angle: f64) -> f64 {
+        let degrees = rounded(fold_half_turn(self.analysis.frame.angle_to_map(angle)).to_degrees());
+        if degrees >= 90.0 { degrees - 180.0 } else { degrees }
+    }
+
+    /// A direction in the grid frame -> degrees in the map frame, `[-180, 180)`.
+    pub fn heading_degrees(&self, angle: f64) -> f64 {
+        let turned = (self.analysis.frame.angle_to_map(angle).to_degrees() + 180.0).rem_euclid(360.0) - 180.0;
+        let degrees = rounded(turned);
+        if degrees >= 180.0 { degrees - 360.0 } else { degrees }
+    }
+
+    /// Whether an edge has a dual: edges on the outer boundary have none.
+    pub fn has_link(&self, edge: EdgeId) -> bool {
+        self.semantic.connectivity[edge.index()].is_some()
+    }
+}
+
+/// What the labels of a rule set say.
+#[derive(Debug)]
+pub struct Labels(Vec<Arc<LabelWords>>);
+
+impl Labels {
+    /// What a label says.
+    pub fn of(&self, label: LabelId) -> Arc<LabelWords> {
+        Arc::clone(&self.0[usize::from(label.0)])
+    }
+}
+
+/// Rounds to four decimals: a tenth of a millimetre.
+pub fn rounded(value: f64) -> f64 {
+    // Adding 0 turns -0 into 0.
+    (value * 1e4).round() / 1e4 + 0.0
+}

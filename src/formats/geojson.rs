@@ -1,0 +1,149 @@
+//! Features -> GeoJSON (RFC 7946).
+//!
+//! Coordinates are written with a fixed number of decimals and without trailing zeros, straight into the buffer: a
+//! layer of 7,000 faces is some 100,000 numbers.
+
+use serde::{Serialize, Serializer};
+use stillage_core::Point;
+
+use super::json::{self, Json};
+use crate::coordinates::{Crs, Transform};
+use crate::features::{Feature, FeatureId, Geometry};
+
+/// Members of an object beside those that GeoJSON has: name and value, in the order in which they are written.
+pub type Members<'a> = &'a [(&'a str, &'a dyn Json)];
+
+/// A GeoJSON feature.
+#[derive(Debug, Clone, Copy)]
+pub struct Document<'a> {
+    /// Its id, if it has one.
+    pub id: Option<&'a FeatureId>,
+    /// Its shape.
+    pub geometry: &'a Geometry,
+    /// A JSON object.
+    pub properties: &'a dyn Json,
+    /// What it has beside the members of GeoJSON.
+    pub members: Members<'a>,
+}
+
+/// A feature of a collection, with members beside those of GeoJSON.
+#[must_use]
+pub fn feature(feature: &Feature, transform: &Transform, members: Members<'_>) -> Vec<u8> {
+    let mut out = Vec::new();
+    write_feature(feature, transform, members, &mut out);
+    out.push(b'\n');
+    out
+}
+
+/// A feature that belongs to no collection.
+#[must_use]
+pub fn document(document: &Document<'_>, transform: &Transform) -> Vec<u8> {
+    let mut out = Vec::new();
+    write_document(document, transform, &mut out);
+    out.push(b'\n');
+    out
+}
+
+/// A `FeatureCollection` with members beside those of GeoJSON, which come before the features.
+#[must_use]
+pub fn feature_collection<'a>(
+    features: impl IntoIterator<Item = &'a Feature>,
+    transform: &Transform,
+    members: Members<'_>,
+) -> Vec<u8> {
+    let mut out = b"{\"type\":\"FeatureCollection\"".to_vec();
+    for (name, value) in members {
+        out.push(b',');
+        json::member(name, *value, &mut out);
+    }
+    out.extend_from_slice(b",\"features\":");
+    // A feature a line: readable, and small differences stay small.
+    json::list(features, &mut out, |feature, out| {
+        out.push(b'\n');
+        write_feature(feature, transform, &[], out);
+    });
+    out.extend_from_slice(b"}\n");
+    out
+}
+
+/// EPSG:3857 as the `crs` member of GeoJSON 2008, which RFC 7946 dropped and GIS tools still read: for files, which no
+/// header tells what their coordinates are.
+pub const EPSG_3857: NamedCrs = NamedCrs { r#type: "name", properties: CrsName { name: "urn:ogc:def:crs:EPSG::3857" } };
+
+/// A coordinate reference system by name (GeoJSON 2008, 3.1).
+#[derive(Debug, Serialize)]
+pub struct NamedCrs {
+    r#type: &'static str,
+    properties: CrsName,
+}
+
+#[derive(Debug, Serialize)]
+struct CrsName {
+    name: &'static str,
+}
+
+/// The properties of a feature as an object.
+#[derive(Debug)]
+struct Properties<'a>(&'a Feature);
+
+impl Serialize for Properties<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_map(self.0.properties())
+    }
+}
+
+fn write_feature(feature: &Feature, transform: &Transform, members: Members<'_>, out: &mut Vec<u8>) {
+    let properties = Properties(feature);
+    let document = Document { id: Some(&feature.id), geometry: &feature.geometry, properties: &properties, members };
+    write_document(&document, transform, out);
+}
+
+fn write_document(document: &Document<'_>, transform: &Transform, out: &mut Vec<u8>) {
+    out.extend_from_slice(b"{\"type\":\"Feature\",");
+    if let Some(id) = document.id {
+        json::member("id", id, out);
+        out.push(b',');
+    }
+    out.extend_from_slice(b"\"geometry\":");
+    write_geometry(document.geometry, transform, out);
+    out.push(b',');
+    json::member("properties", document.properties, out);
+    for (name, value) in document.members {
+        out.push(b',');
+        json::member(name, *value, out);
+    }
+    out.push(b'}');
+}
+
+fn write_geometry(geometry: &Geometry, transform: &Transform, out: &mut Vec<u8>) {
+    out.extend_from_slice(b"{\"type\":\"");
+    out.extend_from_slice(geometry.geometry_type().name().as_bytes());
+    out.extend_from_slice(b"\",\"coordinates\":");
+    let path = |path: &Vec<Point>, out: &mut Vec<u8>| write_positions(path, transform, out);
+    // A ring ends with the position with which it begins.
+    let ring = |ring: &Vec<Point>, out: &mut Vec<u8>| write_positions(ring.iter().chain(ring.first()), transform, out);
+    match geometry {
+        Geometry::Point(point) => write_position(*point, transform, out),
+        Geometry::LineString(points) => path(points, out),
+        Geometry::MultiLineString(paths) => json::list(paths, out, path),
+        Geometry::Polygon(rings) => json::list(rings, out, ring),
+        Geometry::MultiPolygon(polygons) => json::list(polygons, out, |rings, out| json::list(rings, out, ring)),
+    }
+    out.push(b'}');
+}
+
+fn write_positions<'a>(points: impl IntoIterator<Item = &'a Point>, transform: &Transform, out: &mut Vec<u8>) {
+    json::list(points, out, |point, out| write_position(*point, transform, out));
+}
+
+fn write_position(point: Point, transform: &Transform, out: &mut Vec<u8>) {
+    json::list(transform.forward(point), out, |number, out| json::decimal(number, decimals(transform.crs()), out));
+}
+
+/// Decimals worth writing: nine of a degree and four of a metre are a tenth of a millimetre.
+const fn decimals(crs: Crs) -> u32 {
+    match crs {
+        Crs::Crs84 => 9,
+        Crs::WebMercator => 4,
+    }
+}
