@@ -4,9 +4,10 @@ use std::sync::OnceLock;
 
 use expect_test::expect;
 use stillage_core::geometry::{Point, ring_area};
-use stillage_core::semantics::{self, Assignment, RuleSet};
+use stillage_core::layout::{self, Location};
+use stillage_core::semantics::{self, Assignment, RuleSet, SemanticMap};
 use stillage_core::watch::Watch;
-use stillage_core::{AnalysisOptions, GridFrame, Occupancy, OccupancyGrid, layout};
+use stillage_core::{Analysis, AnalysisOptions, GridFrame, Occupancy, OccupancyGrid};
 
 use super::*;
 
