@@ -66,24 +66,24 @@ impl App {
         let (analysis, blob) = analysis.ok_or(AppError::NotAnalysed { map, job })?;
         let _permit = self.decoders.acquire().await.map_err(|_| AppError::Unavailable)?;
         let geometry = if let Some(previous) = previous.filter(|previous| previous.analysis_id == analysis.id) {
-            Geometry::of(&previous)
+            GeometricLevel::of(&previous)
         } else {
             let (source, blob) = (self.store.blobs().get(&source).await?, self.store.blobs().get(&blob).await?);
             let (limits, record) = (self.config.limits, analysis.clone());
-            off_the_runtime(move || Geometry::read(&source, &blob, &record, &limits)).await?
+            off_the_runtime(move || GeometricLevel::read(&source, &blob, &record, &limits)).await?
         };
         off_the_runtime(move || geometry.read_under(record, &analysis, semantics).map(Arc::new)).await
     }
 }
 
 /// The part of a context that no human decision changes.
-struct Geometry {
+struct GeometricLevel {
     grid: Arc<OccupancyGrid>,
     analysis: Arc<Analysis>,
     cells: Arc<CellFaces>,
 }
 
-impl Geometry {
+impl GeometricLevel {
     fn of(context: &MapContext) -> Self {
         let MapContext { grid, analysis, cells, .. } = context;
         Self { grid: Arc::clone(grid), analysis: Arc::clone(analysis), cells: Arc::clone(cells) }

@@ -3,7 +3,7 @@
 use std::sync::OnceLock;
 
 use super::MapContext;
-use crate::features::{self, Collection, Feature, MapView};
+use crate::features::{self, Collection, Feature, AnalysedMap};
 
 /// The features of the collections that were asked for.
 #[derive(Debug, Default)]
@@ -12,8 +12,8 @@ pub struct FeatureCache([OnceLock<Vec<Feature>>; Collection::ALL.len()]);
 impl MapContext {
     /// The map as [`crate::features`] reads it.
     #[must_use]
-    pub fn view(&self) -> MapView<'_> {
-        MapView { analysis: &self.analysis, semantic: &self.semantic, locations: &self.locations }
+    pub fn view(&self) -> AnalysedMap<'_> {
+        AnalysedMap { analysis: &self.analysis, semantic: &self.semantic, locations: &self.locations }
     }
 
     /// The features of a collection, by id. The first call makes them: keep it off the runtime.

@@ -26,11 +26,11 @@ pub struct Feature {
 #[derive(Debug, Clone, PartialEq)]
 #[allow(missing_docs, reason = "each is the row of the collection of its name")]
 pub enum Row {
-    Face(faces::Face),
-    Edge(edges::Edge),
-    Vertex(vertices::Vertex),
-    Node(nodes::Node),
-    Link(links::Link),
+    Face(faces::FaceRow),
+    Edge(edges::EdgeRow),
+    Vertex(vertices::VertexRow),
+    Node(nodes::NodeRow),
+    Link(links::LinkRow),
     Line(lines::LineRow),
     Region(regions::RegionRow),
     Place(places::PlaceRow),

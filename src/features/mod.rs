@@ -40,11 +40,11 @@ pub use id::FeatureId;
 pub use property::{Kind, Property};
 pub use schema::CollectionSchema;
 pub use value::{BoxValue, Pose, Value};
-pub use view::{LabelWords, MapView};
+pub use view::{LabelWords, AnalysedMap};
 
 /// The features of a collection, by id.
 #[must_use]
-pub fn features(view: &MapView<'_>, collection: Collection) -> Vec<Feature> {
+pub fn features(view: &AnalysedMap<'_>, collection: Collection) -> Vec<Feature> {
     match collection {
         Collection::Faces => wrap(rows::faces::read(view), Row::Face),
         Collection::Edges => wrap(rows::edges::read(view), Row::Edge),

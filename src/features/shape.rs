@@ -7,17 +7,17 @@ use stillage_core::geometry::polygon::simple_rings;
 
 use super::geometry::Geometry;
 use super::rings::polygons;
-use super::view::MapView;
+use super::view::AnalysedMap;
 
 /// The shape of a face. A boundary that touches itself is cut there, so that the polygon is valid.
-pub fn of_face(view: &MapView<'_>, face: FaceId) -> Geometry {
+pub fn of_face(view: &AnalysedMap<'_>, face: FaceId) -> Geometry {
     let subdivision = &view.analysis.subdivision;
     let walk = |&start| subdivision.cycle(start).map(|half| subdivision.half_edge(half).origin).collect::<Vec<_>>();
     area(view, subdivision.cycles(face).iter().map(walk).flat_map(simple_rings))
 }
 
 /// The union of faces: walks along the edges that have one of them on the left only.
-pub fn of_union(view: &MapView<'_>, faces: &[FaceId], is_inside: impl Fn(FaceId) -> bool) -> Geometry {
+pub fn of_union(view: &AnalysedMap<'_>, faces: &[FaceId], is_inside: impl Fn(FaceId) -> bool) -> Geometry {
     let subdivision = &view.analysis.subdivision;
     let is_boundary = |half: HalfEdgeId| !is_inside(subdivision.half_edge(half.twin()).face);
     let mut passed: HashSet<HalfEdgeId> = HashSet::new();
@@ -38,7 +38,7 @@ pub fn of_union(view: &MapView<'_>, faces: &[FaceId], is_inside: impl Fn(FaceId)
     area(view, rings)
 }
 
-fn area(view: &MapView<'_>, rings: impl IntoIterator<Item = Vec<VertexId>>) -> Geometry {
+fn area(view: &AnalysedMap<'_>, rings: impl IntoIterator<Item = Vec<VertexId>>) -> Geometry {
     let subdivision = &view.analysis.subdivision;
     let points =
         |ring: Vec<VertexId>| ring.into_iter().map(|vertex| view.position(subdivision.position(vertex))).collect();

@@ -57,9 +57,9 @@ fn whole() -> &'static Whole {
 }
 
 /// The hall, analysed.
-pub(crate) fn hall_view() -> MapView<'static> {
+pub(crate) fn hall_view() -> AnalysedMap<'static> {
     let whole = whole();
-    MapView { analysis: &whole.analysis, semantic: &whole.semantic, locations: &whole.locations }
+    AnalysedMap { analysis: &whole.analysis, semantic: &whole.semantic, locations: &whole.locations }
 }
 
 /// Every collection of the hall.

@@ -10,7 +10,7 @@ use stillage_core::{Analysis, Point};
 
 /// An analysed map with its labels and locations.
 #[derive(Debug, Clone, Copy)]
-pub struct MapView<'a> {
+pub struct AnalysedMap<'a> {
     /// The geometric level.
     pub analysis: &'a Analysis,
     /// The human level.
@@ -44,7 +44,7 @@ const fn functionality(functionality: Functionality) -> &'static str {
     }
 }
 
-impl MapView<'_> {
+impl AnalysedMap<'_> {
     /// What each label of the rule set says, by [`LabelId`].
     pub fn labels(&self) -> Labels {
         let words = |label: &stillage_core::semantics::Label| {

@@ -15,7 +15,7 @@ pub type Members<'a> = &'a [(&'a str, &'a dyn Json)];
 
 /// A GeoJSON feature.
 #[derive(Debug, Clone, Copy)]
-pub struct Document<'a> {
+pub struct GeoJsonFeature<'a> {
     /// Its id, if it has one.
     pub id: Option<&'a FeatureId>,
     /// Its shape.
@@ -37,7 +37,7 @@ pub fn feature(feature: &Feature, transform: &Transform, members: Members<'_>) -
 
 /// A feature that belongs to no collection.
 #[must_use]
-pub fn document(document: &Document<'_>, transform: &Transform) -> Vec<u8> {
+pub fn document(document: &GeoJsonFeature<'_>, transform: &Transform) -> Vec<u8> {
     let mut out = Vec::new();
     write_document(document, transform, &mut out);
     out.push(b'\n');
@@ -68,17 +68,17 @@ pub fn feature_collection<'a>(
 
 /// EPSG:3857 as the `crs` member of GeoJSON 2008, which RFC 7946 dropped and GIS tools still read: for files, which no
 /// header tells what their coordinates are.
-pub const EPSG_3857: NamedCrs = NamedCrs { r#type: "name", properties: CrsName { name: "urn:ogc:def:crs:EPSG::3857" } };
+pub const EPSG_3857: NamedCrs = NamedCrs { r#type: "name", properties: CrsProperties { name: "urn:ogc:def:crs:EPSG::3857" } };
 
 /// A coordinate reference system by name (GeoJSON 2008, 3.1).
 #[derive(Debug, Serialize)]
 pub struct NamedCrs {
     r#type: &'static str,
-    properties: CrsName,
+    properties: CrsProperties,
 }
 
 #[derive(Debug, Serialize)]
-struct CrsName {
+struct CrsProperties {
     name: &'static str,
 }
 
@@ -94,11 +94,11 @@ impl Serialize for Properties<'_> {
 
 fn write_feature(feature: &Feature, transform: &Transform, members: Members<'_>, out: &mut Vec<u8>) {
     let properties = Properties(feature);
-    let document = Document { id: Some(&feature.id), geometry: &feature.geometry, properties: &properties, members };
+    let document = GeoJsonFeature { id: Some(&feature.id), geometry: &feature.geometry, properties: &properties, members };
     write_document(&document, transform, out);
 }
 
-fn write_document(document: &Document<'_>, transform: &Transform, out: &mut Vec<u8>) {
+fn write_document(document: &GeoJsonFeature<'_>, transform: &Transform, out: &mut Vec<u8>) {
     out.extend_from_slice(b"{\"type\":\"Feature\",");
     if let Some(id) = document.id {
         json::member("id", id, out);

@@ -13,7 +13,7 @@ use super::{ALGORITHM_VERSION, Findings};
 use crate::app::StageReport;
 use crate::cli::Failure;
 use crate::coordinates::Transform;
-use crate::features::{Collection, MapView, features};
+use crate::features::{Collection, AnalysedMap, features};
 use crate::formats::{csv, geojson};
 use crate::render;
 use crate::stage_clock::peak_rss_mib;
@@ -70,7 +70,7 @@ fn parent(folder: &Path) -> &Path {
 /// Name and content of each file.
 fn files(findings: &Findings, stages: &[StageReport]) -> Vec<(PathBuf, Vec<u8>)> {
     let Findings { grid, analysis, semantic, .. } = findings;
-    let view = MapView { analysis, semantic, locations: &findings.locations };
+    let view = AnalysedMap { analysis, semantic, locations: &findings.locations };
     let layer = |collection: Collection| {
         let members: geojson::Members<'_> = &[("crs", &geojson::EPSG_3857)];
         let bytes = geojson::feature_collection(&features(&view, collection), &Transform::map_frame(), members);

@@ -15,7 +15,7 @@ pub use sort::SortKey;
 
 /// A question about a collection. What is absent selects everything.
 #[derive(Debug, Default)]
-pub struct Query {
+pub struct FeatureQuery {
     /// Only these.
     pub ids: Option<BTreeSet<FeatureId>>,
     /// Only those that meet this box.
@@ -43,7 +43,7 @@ pub struct Page<'a> {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct VanishedFeature;
 
-impl Query {
+impl FeatureQuery {
     /// The page of `features`, which are a whole collection by id, that answers the question.
     ///
     /// Pages go on after an id, so that nothing is skipped or repeated when features come and go between them. O(n), and

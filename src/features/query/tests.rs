@@ -16,12 +16,12 @@ fn sorted_by(keys: &[&str]) -> Vec<SortKey> {
 fn pages_follow_one_another_without_gap_or_repetition() {
     let faces = features(&hall_view(), Collection::Faces);
     for sort in [sorted_by(&[]), sorted_by(&["label", "-areaM2"]), sorted_by(&["-location"])] {
-        let whole = Query { sort: sort.clone(), limit: usize::MAX, ..Query::default() }.select(&faces).unwrap();
+        let whole = FeatureQuery { sort: sort.clone(), limit: usize::MAX, ..FeatureQuery::default() }.select(&faces).unwrap();
         assert_eq!(whole.features.len(), faces.len());
         let mut found = Vec::new();
         let mut after = None;
         loop {
-            let query = Query { sort: sort.clone(), after, limit: 7, ..Query::default() };
+            let query = FeatureQuery { sort: sort.clone(), after, limit: 7, ..FeatureQuery::default() };
             let page = query.select(&faces).unwrap();
             assert_eq!(page.matched, faces.len());
             found.extend(ids(&page));
@@ -37,7 +37,7 @@ fn pages_follow_one_another_without_gap_or_repetition() {
 #[test]
 fn features_are_sorted_by_one_property_and_then_the_next() {
     let faces = features(&hall_view(), Collection::Faces);
-    let query = Query { sort: sorted_by(&["label", "-areaM2"]), limit: usize::MAX, ..Query::default() };
+    let query = FeatureQuery { sort: sorted_by(&["label", "-areaM2"]), limit: usize::MAX, ..FeatureQuery::default() };
     let page = query.select(&faces).unwrap();
     for pair in page.features.windows(2) {
         let value = |name| [pair[0].property(name).unwrap(), pair[1].property(name).unwrap()];
@@ -50,7 +50,7 @@ fn features_are_sorted_by_one_property_and_then_the_next() {
 fn what_has_no_value_comes_last_both_ways() {
     let faces = features(&hall_view(), Collection::Faces);
     for key in ["location", "-location"] {
-        let query = Query { sort: sorted_by(&[key]), limit: usize::MAX, ..Query::default() };
+        let query = FeatureQuery { sort: sorted_by(&[key]), limit: usize::MAX, ..FeatureQuery::default() };
         let page = query.select(&faces).unwrap();
         assert_eq!(page.features.last().unwrap().property("location"), Some(Value::Null), "{key}");
         assert_ne!(page.features[0].property("location"), Some(Value::Null), "{key}");
@@ -61,7 +61,7 @@ fn what_has_no_value_comes_last_both_ways() {
 fn only_the_wanted_ids_are_selected() {
     let faces = features(&hall_view(), Collection::Faces);
     let wanted = [3, 1, 999_999].map(FeatureId::Number).into_iter().collect();
-    let page = Query { ids: Some(wanted), limit: 10, ..Query::default() }.select(&faces).unwrap();
+    let page = FeatureQuery { ids: Some(wanted), limit: 10, ..FeatureQuery::default() }.select(&faces).unwrap();
     assert_eq!((ids(&page), page.matched), (vec!["1".to_owned(), "3".to_owned()], 2));
 }
 
@@ -69,9 +69,9 @@ fn only_the_wanted_ids_are_selected() {
 fn a_sorted_list_does_not_go_on_after_what_has_vanished() {
     let faces = features(&hall_view(), Collection::Faces);
     let after = Some(FeatureId::Number(999_999));
-    let by_id = Query { after: after.clone(), limit: 1, ..Query::default() };
+    let by_id = FeatureQuery { after: after.clone(), limit: 1, ..FeatureQuery::default() };
     assert!(by_id.select(&faces).unwrap().features.is_empty());
-    let by_area = Query { after, sort: sorted_by(&["areaM2"]), limit: 1, ..Query::default() };
+    let by_area = FeatureQuery { after, sort: sorted_by(&["areaM2"]), limit: 1, ..FeatureQuery::default() };
     assert_eq!(by_area.select(&faces).unwrap_err(), VanishedFeature);
 }
 

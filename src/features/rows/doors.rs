@@ -5,7 +5,7 @@ use stillage_core::rooms::Door;
 use crate::features::geometry::{Geometry, GeometryType};
 use crate::features::property::{Kind, Property};
 use crate::features::table::{Column, Table};
-use crate::features::view::{MapView, rounded};
+use crate::features::view::{AnalysedMap, rounded};
 
 /// A door.
 #[derive(Debug, Clone, PartialEq)]
@@ -40,7 +40,7 @@ pub const TABLE: Table<DoorRow> = Table {
 };
 
 /// The doors of a map, by id.
-pub fn read(view: &MapView<'_>) -> Vec<(Geometry, DoorRow)> {
+pub fn read(view: &AnalysedMap<'_>) -> Vec<(Geometry, DoorRow)> {
     let row = |(index, door): (usize, &Door)| {
         let row = DoorRow {
             id: index as u32,

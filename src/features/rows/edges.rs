@@ -6,11 +6,11 @@ use super::words;
 use crate::features::geometry::{Geometry, GeometryType};
 use crate::features::property::{Kind, Property};
 use crate::features::table::{Column, Table};
-use crate::features::view::{MapView, rounded};
+use crate::features::view::{AnalysedMap, rounded};
 
 /// An edge.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Edge {
+pub struct EdgeRow {
     id: u32,
     /// The faces to its left and right; none for the unbounded face.
     sides: [Option<u32>; 2],
@@ -27,7 +27,7 @@ pub struct Edge {
 }
 
 /// The collection.
-pub const TABLE: Table<Edge> = Table {
+pub const TABLE: Table<EdgeRow> = Table {
     title: "Edges",
     description: "The borders between faces, with their cogency and physical support",
     geometry: &[GeometryType::LineString],
@@ -101,7 +101,7 @@ pub const TABLE: Table<Edge> = Table {
 };
 
 /// The edges of a map, by id.
-pub fn read(view: &MapView<'_>) -> Vec<(Geometry, Edge)> {
+pub fn read(view: &AnalysedMap<'_>) -> Vec<(Geometry, EdgeRow)> {
     let subdivision = &view.analysis.subdivision;
     let row = |edge: EdgeId| {
         let annotation = &view.analysis.edges[edge.index()];
@@ -111,7 +111,7 @@ pub fn read(view: &MapView<'_>) -> Vec<(Geometry, Edge)> {
             EdgeSource::Boundary => None,
             EdgeSource::Line(line) => Some(line),
         };
-        let row = Edge {
+        let row = EdgeRow {
             id: edge.0,
             sides: subdivision.sides(edge).map(|face| (face != FaceId::OUTER).then_some(face.0)),
             cogency: words::cogency(view.semantic.cogency[edge.index()]),

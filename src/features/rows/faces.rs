@@ -9,11 +9,11 @@ use crate::features::geometry::{Geometry, GeometryType};
 use crate::features::property::{Kind, Property};
 use crate::features::shape;
 use crate::features::table::{Column, Table};
-use crate::features::view::{FUNCTIONALITIES, LabelWords, MapView, rounded};
+use crate::features::view::{FUNCTIONALITIES, LabelWords, AnalysedMap, rounded};
 
 /// A face.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Face {
+pub struct FaceRow {
     id: u32,
     category: u8,
     category_shares: Vec<f64>,
@@ -36,7 +36,7 @@ pub struct Face {
 }
 
 /// The collection.
-pub const TABLE: Table<Face> = Table {
+pub const TABLE: Table<FaceRow> = Table {
     title: "Faces",
     description: "The cells of the decomposition, with category, label and occupancy",
     geometry: GeometryType::AREAS,
@@ -145,7 +145,7 @@ pub const TABLE: Table<Face> = Table {
 };
 
 /// The faces of a map, by id.
-pub fn read(view: &MapView<'_>) -> Vec<(Geometry, Face)> {
+pub fn read(view: &AnalysedMap<'_>) -> Vec<(Geometry, FaceRow)> {
     let subdivision = &view.analysis.subdivision;
     let mut codes = vec![None; subdivision.face_count()];
     for location in view.locations {
@@ -155,7 +155,7 @@ pub fn read(view: &MapView<'_>) -> Vec<(Geometry, Face)> {
     let row = |face: FaceId| {
         let annotation = &view.analysis.faces[face.index()];
         let numbers = |shares: &[f32]| shares.iter().map(|&share| rounded(f64::from(share))).collect::<Vec<f64>>();
-        Face {
+        FaceRow {
             id: face.0,
             category: annotation.category,
             category_shares: numbers(&annotation.category_shares),

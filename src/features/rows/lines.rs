@@ -8,7 +8,7 @@ use stillage_core::{Point, Vector};
 use crate::features::geometry::{Geometry, GeometryType};
 use crate::features::property::{Kind, Property};
 use crate::features::table::{Column, Table};
-use crate::features::view::{MapView, rounded};
+use crate::features::view::{AnalysedMap, rounded};
 
 /// A line.
 #[derive(Debug, Clone, PartialEq)]
@@ -58,7 +58,7 @@ pub const TABLE: Table<LineRow> = Table {
 };
 
 /// The lines of a map, by id.
-pub fn read(view: &MapView<'_>) -> Vec<(Geometry, LineRow)> {
+pub fn read(view: &AnalysedMap<'_>) -> Vec<(Geometry, LineRow)> {
     let row = |(index, line): (usize, &Line)| {
         let foot = Point::from(normal(line.orientation) * line.offset);
         // The map frame has another origin, and folding may turn the normal around: the offset goes with the
@@ -77,7 +77,7 @@ pub fn read(view: &MapView<'_>) -> Vec<(Geometry, LineRow)> {
 }
 
 /// The stretches of a line; a line without any runs through the whole grid.
-fn shape(view: &MapView<'_>, line: &Line, foot: Point) -> Geometry {
+fn shape(view: &AnalysedMap<'_>, line: &Line, foot: Point) -> Geometry {
     let along = direction(line.orientation);
     let path = |[start, end]: [f64; 2]| [start, end].map(|abscissa| view.position(foot + along * abscissa)).to_vec();
     match line.extents[..] {
@@ -88,7 +88,7 @@ fn shape(view: &MapView<'_>, line: &Line, foot: Point) -> Geometry {
 }
 
 /// Smallest and largest abscissa of the grid along a direction.
-fn grid_range(view: &MapView<'_>, along: Vector) -> [f64; 2] {
+fn grid_range(view: &AnalysedMap<'_>, along: Vector) -> [f64; 2] {
     let resolution = view.analysis.frame.resolution;
     let (width, height) = (view.analysis.width as f64 * resolution, view.analysis.height as f64 * resolution);
     let corners = [(0.0, 0.0), (width, 0.0), (0.0, height), (width, height)];

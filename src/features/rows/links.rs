@@ -6,11 +6,11 @@ use super::words;
 use crate::features::geometry::{Geometry, GeometryType};
 use crate::features::property::{Kind, Property};
 use crate::features::table::{Column, Table};
-use crate::features::view::MapView;
+use crate::features::view::AnalysedMap;
 
 /// A link.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Link {
+pub struct LinkRow {
     /// Its edge has the same number.
     id: u32,
     /// The nodes at its ends.
@@ -20,7 +20,7 @@ pub struct Link {
 }
 
 /// The collection.
-pub const TABLE: Table<Link> = Table {
+pub const TABLE: Table<LinkRow> = Table {
     title: "Links",
     description: "The links of the adjacency graph, with their connectivity",
     geometry: &[GeometryType::LineString],
@@ -50,11 +50,11 @@ pub const TABLE: Table<Link> = Table {
 };
 
 /// The links of a map, by id. Each runs from node to node through the middle of its edge.
-pub fn read(view: &MapView<'_>) -> Vec<(Geometry, Link)> {
+pub fn read(view: &AnalysedMap<'_>) -> Vec<(Geometry, LinkRow)> {
     let (subdivision, graph) = (&view.analysis.subdivision, &view.analysis.graph);
     let row = |edge: EdgeId| {
         let sides = subdivision.sides(edge);
-        let row = Link {
+        let row = LinkRow {
             id: edge.0,
             ends: sides.map(|face| face.0),
             connectivity: view.semantic.connectivity[edge.index()].map(words::connectivity),

@@ -10,7 +10,7 @@ use crate::features::property::{Kind, Property};
 use crate::features::shape;
 use crate::features::table::{Column, Table};
 use crate::features::value::Pose;
-use crate::features::view::{LabelWords, MapView, rounded};
+use crate::features::view::{LabelWords, AnalysedMap, rounded};
 
 /// A storage location. Positions and lengths in metres of the map frame.
 #[derive(Debug, Clone, PartialEq)]
@@ -131,7 +131,7 @@ pub const TABLE: Table<LocationRow> = Table {
 };
 
 /// The storage locations of a map, by code.
-pub fn read(view: &MapView<'_>) -> Vec<(Geometry, LocationRow)> {
+pub fn read(view: &AnalysedMap<'_>) -> Vec<(Geometry, LocationRow)> {
     let labels = view.labels();
     let approach = |pose: ApproachPose| {
         let [x, y] = view.rounded_position(pose.position);

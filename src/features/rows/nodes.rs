@@ -7,11 +7,11 @@ use stillage_core::arrangement::FaceId;
 use crate::features::geometry::{Geometry, GeometryType};
 use crate::features::property::{Kind, Property};
 use crate::features::table::{Column, Table};
-use crate::features::view::{LabelWords, MapView};
+use crate::features::view::{LabelWords, AnalysedMap};
 
 /// A node.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Node {
+pub struct NodeRow {
     /// Its face has the same number.
     id: u32,
     label: Arc<LabelWords>,
@@ -19,7 +19,7 @@ pub struct Node {
 }
 
 /// The collection.
-pub const TABLE: Table<Node> = Table {
+pub const TABLE: Table<NodeRow> = Table {
     title: "Nodes",
     description: "The nodes of the adjacency graph: one in each face",
     geometry: &[GeometryType::Point],
@@ -34,10 +34,10 @@ pub const TABLE: Table<Node> = Table {
 };
 
 /// The nodes of a map, by id.
-pub fn read(view: &MapView<'_>) -> Vec<(Geometry, Node)> {
+pub fn read(view: &AnalysedMap<'_>) -> Vec<(Geometry, NodeRow)> {
     let graph = &view.analysis.graph;
     let labels = view.labels();
-    let row = |face: FaceId| Node {
+    let row = |face: FaceId| NodeRow {
         id: face.0,
         label: labels.of(view.semantic.labels[face.index()]),
         degree: graph.links(face).len() as u32,

@@ -8,7 +8,7 @@ use crate::features::geometry::{Geometry, GeometryType};
 use crate::features::property::{Kind, Property};
 use crate::features::shape;
 use crate::features::table::{Column, Table};
-use crate::features::view::{FUNCTIONALITIES, LabelWords, MapView, rounded};
+use crate::features::view::{FUNCTIONALITIES, LabelWords, AnalysedMap, rounded};
 
 /// A place.
 #[derive(Debug, Clone, PartialEq)]
@@ -55,7 +55,7 @@ pub const TABLE: Table<PlaceRow> = Table {
 };
 
 /// The places of a map, by id.
-pub fn read(view: &MapView<'_>) -> Vec<(Geometry, PlaceRow)> {
+pub fn read(view: &AnalysedMap<'_>) -> Vec<(Geometry, PlaceRow)> {
     let labels = view.labels();
     let row = |(index, place): (usize, &Place)| {
         let id = index as u32;

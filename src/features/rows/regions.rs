@@ -8,7 +8,7 @@ use crate::features::property::{Kind, Property};
 use crate::features::rings::{polygons, raster_outlines};
 use crate::features::table::{Column, Table};
 use crate::features::value::BoxValue;
-use crate::features::view::{MapView, rounded};
+use crate::features::view::{AnalysedMap, rounded};
 
 /// A region.
 #[derive(Debug, Clone, PartialEq)]
@@ -48,7 +48,7 @@ pub const TABLE: Table<RegionRow> = Table {
 };
 
 /// The regions of a map, by id.
-pub fn read(view: &MapView<'_>) -> Vec<(Geometry, RegionRow)> {
+pub fn read(view: &AnalysedMap<'_>) -> Vec<(Geometry, RegionRow)> {
     let row = |(index, region): (usize, &Region)| {
         let mut orientations: Vec<f64> =
             region.orientations.iter().map(|&angle| view.orientation_degrees(angle)).collect();
@@ -71,7 +71,7 @@ pub fn read(view: &MapView<'_>) -> Vec<(Geometry, RegionRow)> {
 }
 
 /// The tiles of a region, merged.
-fn shape(view: &MapView<'_>, index: usize) -> Geometry {
+fn shape(view: &AnalysedMap<'_>, index: usize) -> Geometry {
     let map = &view.analysis.regions;
     let resolution = view.analysis.frame.resolution;
     // The last tiles may reach beyond the grid.

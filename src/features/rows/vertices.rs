@@ -3,17 +3,17 @@
 use crate::features::geometry::{Geometry, GeometryType};
 use crate::features::property::{Kind, Property};
 use crate::features::table::{Column, Table};
-use crate::features::view::MapView;
+use crate::features::view::AnalysedMap;
 
 /// A vertex.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Vertex {
+pub struct VertexRow {
     id: u32,
     edges: Vec<u32>,
 }
 
 /// The collection.
-pub const TABLE: Table<Vertex> = Table {
+pub const TABLE: Table<VertexRow> = Table {
     title: "Vertices",
     description: "Where edges meet",
     geometry: &[GeometryType::Point],
@@ -27,7 +27,7 @@ pub const TABLE: Table<Vertex> = Table {
 };
 
 /// The vertices of a map, by id.
-pub fn read(view: &MapView<'_>) -> Vec<(Geometry, Vertex)> {
+pub fn read(view: &AnalysedMap<'_>) -> Vec<(Geometry, VertexRow)> {
     let subdivision = &view.analysis.subdivision;
     let mut edges = vec![Vec::new(); subdivision.vertex_count()];
     for edge in subdivision.edges() {
@@ -37,7 +37,7 @@ pub fn read(view: &MapView<'_>) -> Vec<(Geometry, Vertex)> {
     }
     let rows = subdivision.vertices().zip(edges).map(|(vertex, edges)| {
         let position = view.position(subdivision.position(vertex));
-        (Geometry::Point(position), Vertex { id: vertex.0, edges })
+        (Geometry::Point(position), VertexRow { id: vertex.0, edges })
     });
     rows.collect()
 }

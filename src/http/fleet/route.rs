@@ -159,7 +159,7 @@ fn write(context: &MapContext, transform: &Transform, route: &routing::Route) ->
         edges: route.edges.iter().map(|edge| edge.0).collect(),
     };
     let document =
-        geojson::Document { id: None, geometry: &Geometry::LineString(points), properties: &properties, members: &[] };
+        geojson::GeoJsonFeature { id: None, geometry: &Geometry::LineString(points), properties: &properties, members: &[] };
     geojson::document(&document, transform)
 }
 

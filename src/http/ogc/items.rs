@@ -15,7 +15,7 @@ use super::items_query::{Format, ItemsQuery};
 use crate::app::{App, Caller, MapContext};
 use crate::blocking::off_the_runtime;
 use crate::coordinates::Transform;
-use crate::features::query::{self, Page, Query as FeatureQuery, VanishedFeature};
+use crate::features::query::{self, FeatureQuery, Page, VanishedFeature};
 use crate::features::{Collection, CollectionSchema};
 use crate::formats::{csv, geojson};
 use crate::http::docs::refusals::{NotAnalysed, NotFound};

@@ -6,7 +6,7 @@ use serde::Deserialize;
 use utoipa::{IntoParams, ToSchema};
 
 use crate::coordinates::{Crs, Georeference, Transform};
-use crate::features::query::{BoxSelection, Query, SortKey};
+use crate::features::query::{BoxSelection, FeatureQuery, SortKey};
 use crate::features::{Collection, CollectionSchema};
 use crate::http::extract::Limit;
 use crate::http::extract::bbox::Bbox;
@@ -84,7 +84,7 @@ impl ItemsQuery {
         collection: Collection,
         format: Format,
         georeference: Option<Georeference>,
-    ) -> Result<Query, Problem> {
+    ) -> Result<FeatureQuery, Problem> {
         let schema = CollectionSchema::of(collection);
         let ids = self
             .ids
@@ -102,7 +102,7 @@ impl ItemsQuery {
             (None, Format::Json) => DEFAULT_LIMIT as usize,
             (None, Format::Csv) => usize::MAX,
         };
-        Ok(Query {
+        Ok(FeatureQuery {
             ids: ids.transpose().map_err(|detail| Problem::parameter("ids", detail))?,
             within: within.transpose().map_err(|detail| Problem::parameter("bbox", detail))?,
             sort: sort.transpose().map_err(|detail| Problem::parameter("sortby", detail))?.unwrap_or_default(),
