@@ -1,48 +1,22 @@
 //! The analysed map in memory: built once, shared by all who ask, replaced when something about the map changes.
 //!
-//! A context is kept with the [`MapState`] it answers for: version of the record, analysis, version of the semantics. Each
+//! A context is kept with the [`MapState`](crate::store::MapState) it answers for: version of the record, analysis, version of the semantics. Each
 //! question reads the state from the store first, so that it sees every change, another process's too.
 
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::Arc;
 
 use stillage_core::arrangement::CellFaces;
-use stillage_core::layout::{self, Location};
-use stillage_core::semantics::{self, Assignment, RuleSet, RuleSetDraft, SemanticMap, Suggestion};
+use stillage_core::layout;
+use stillage_core::semantics::{self, Assignment, RuleSet, RuleSetDraft};
 use stillage_core::{Analysis, OccupancyGrid};
-use tokio::sync::OnceCell;
 use uuid::Uuid;
 
-use super::features::FeatureCache;
+use super::map_context::{FeatureCache, MapContext};
 use super::rule_sets::DEFAULT_RULE_SET;
 use super::{AnalysisRecord, App, AppError, Caller, MapRecord, SemanticsOrigin, SemanticsRecord};
 use crate::blocking::off_the_runtime;
 use crate::ingest::{self, Limits, MapSource};
-use crate::store::{Blob, MapState, Snapshot};
-
-/// An analysed map in memory, ready to answer. Shared, immutable; replaced when the semantics change.
-#[derive(Debug)]
-pub struct MapContext {
-    /// The map.
-    pub record: MapRecord,
-    /// Its cells.
-    pub grid: Arc<OccupancyGrid>,
-    /// The analysis in force.
-    pub analysis_id: Uuid,
-    /// The geometric level.
-    pub analysis: Arc<Analysis>,
-    /// The face of every cell.
-    pub cells: Arc<CellFaces>,
-    /// The decision in force, or the suggestion.
-    pub semantics: SemanticsRecord,
-    /// The human level.
-    pub semantic: SemanticMap,
-    /// What each category is proposed to be under the rule set in force.
-    pub suggestions: Vec<Suggestion>,
-    /// The storage locations, by code.
-    pub locations: Vec<Location>,
-    /// What was written of it so far.
-    pub(super) features: FeatureCache,
-}
+use crate::store::{Blob, Snapshot};
 
 impl App {
     /// The analysed map, from memory or the store. However many ask at once, it is built once.
@@ -134,70 +108,4 @@ impl GeometricLevel {
 /// The rule set behind a draft.
 pub(super) fn read_rule_set(draft: &RuleSetDraft) -> Result<RuleSet, AppError> {
     Ok(draft.clone().check()?)
-}
-
-/// The contexts in memory, those used last first.
-#[derive(Debug)]
-pub(super) struct ContextCache {
-    capacity: usize,
-    entries: Mutex<Vec<Arc<Entry>>>,
-}
-
-/// A context that is there or being built.
-#[derive(Debug)]
-pub(super) struct Entry {
-    map: Uuid,
-    state: MapState,
-    context: OnceCell<Arc<MapContext>>,
-    /// What was known before the last change: its geometry need not be read again.
-    previous: Option<Arc<MapContext>>,
-}
-
-impl ContextCache {
-    pub(super) const fn new(capacity: usize) -> Self {
-        Self { capacity, entries: Mutex::new(Vec::new()) }
-    }
-
-    /// Forgets a map.
-    pub(super) fn remove(&self, map: Uuid) {
-        self.entries().retain(|entry| entry.map != map);
-    }
-
-    /// The entry of a map in this state, moved to the front. One of an earlier state gives way to a new one, which keeps
-    /// what was built before: whoever is still building it answers those who asked before the change, and nobody else.
-    fn entry(&self, map: Uuid, state: MapState) -> Arc<Entry> {
-        let mut entries = self.entries();
-        let found = entries.iter().position(|entry| entry.map == map).map(|index| entries.remove(index));
-        let entry = match found {
-            Some(entry) if entry.state == state => entry,
-            earlier => {
-                let previous = earlier.and_then(|stale| stale.context.get().or(stale.previous.as_ref()).cloned());
-                Arc::new(Entry { map, state, context: OnceCell::new(), previous })
-            }
-        };
-        entries.insert(0, Arc::clone(&entry));
-        entry
-    }
-
-    /// Keeps an entry that holds something, and as many others as fit; drops one that came to nothing, so that questions
-    /// about maps that do not exist push nothing out.
-    fn settle(&self, settled: &Arc<Entry>, is_built: bool) {
-        let mut entries = self.entries();
-        if !is_built {
-            entries.retain(|entry| !Arc::ptr_eq(entry, settled));
-            return;
-        }
-        let mut kept = 0;
-        entries.retain(|entry| {
-            let is_kept = entry.context.initialized() || entry.previous.is_some();
-            kept += usize::from(is_kept);
-            // One that nobody builds any more was given up by whoever asked.
-            if is_kept { kept <= self.capacity.max(1) } else { Arc::strong_count(entry) > 1 }
-        });
-    }
-
-    fn entries(&self) -> std::sync::MutexGuard<'_, Vec<Arc<Entry>>> {
-        // Every statement above leaves the list whole.
-        self.entries.lock().unwrap_or_else(PoisonError::into_inner)
-    }
 }

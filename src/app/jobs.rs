@@ -6,7 +6,8 @@ use std::time::Duration;
 use stillage_core::AnalysisOptions;
 use uuid::Uuid;
 
-use super::{AnalysisRecord, AnalysisTicket, App, AppError, Caller, JobFilter, JobRecord, JobState, RETRY_AFTER_S};
+use super::service::RETRY_AFTER_S;
+use super::{AnalysisRecord, AnalysisTicket, App, AppError, Caller, JobFilter, JobRecord, JobState};
 use crate::jobs::processes::AnalysisProcess;
 use crate::store::{Request, now};
 

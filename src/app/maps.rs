@@ -2,7 +2,8 @@
 
 use uuid::Uuid;
 
-use super::{App, AppError, Caller, JobRecord, MapPatch, MapRecord, NewMap, RETRY_AFTER_S};
+use super::service::RETRY_AFTER_S;
+use super::{App, AppError, Caller, JobRecord, MapPatch, MapRecord, NewMap};
 use crate::blocking::off_the_runtime;
 use crate::coordinates::Georeference;
 use crate::ingest::{self, DecodedMap, MapSource};

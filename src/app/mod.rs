@@ -7,8 +7,7 @@
 //! | `rule_sets` | the vocabulary of labels |
 //! | `semantics` | the human decision on a map |
 //! | `grid` | the cells of a map, before any analysis |
-//! | `context` | the analysed map in memory, for every question about it |
-//! | `features` | its collections |
+//! | `context`, `map_context`, `context_cache` | the analysed map in memory with its collections, for every question about it |
 //! | `evaluations` | how well it fits the truth of its site |
 //!
 //! Every use case takes its [`Caller`] first. What concerns the service itself (readiness, metrics, the orderly stop)
@@ -16,140 +15,25 @@
 
 mod caller;
 mod context;
+mod context_cache;
 mod error;
 mod evaluations;
-mod features;
 mod grid;
 mod jobs;
+mod map_context;
 mod maps;
 mod rule_sets;
 mod semantics;
+mod service;
 #[cfg(test)]
 mod tests;
-
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::Duration;
-
-use tokio::sync::{Semaphore, watch};
-
-use crate::config::Config;
-use crate::jobs::processes::{AnalysisProcess, Processes};
-use crate::jobs::{Signals, Worker};
-use crate::store::{self, Outdated, Store, now};
 
 pub use crate::records::{
     AnalysisRecord, AnalysisTicket, JobFilter, JobRecord, JobState, MapPatch, MapRecord, NewMap, NewSemantics,
     RuleSetRecord, SemanticsOrigin, SemanticsRecord, StageReport,
 };
 pub use caller::Caller;
-pub use context::MapContext;
 pub use error::{AppError, FieldProblem};
 pub use grid::GridSource;
-
-use context::ContextCache;
-
-/// A blob whose row never came is removed at a start after this time.
-const ORPHAN_AGE: Duration = Duration::from_hours(24);
-
-/// When a client may try again after finding the queue full, seconds: about the time of a job on a large map.
-const RETRY_AFTER_S: u32 = 10;
-
-/// The service without its edges.
-#[derive(Debug)]
-pub struct App {
-    config: Config,
-    store: Arc<dyn Store>,
-    worker: Arc<Worker>,
-    signals: Arc<Signals>,
-    contexts: ContextCache,
-    /// Bounds how many uploads and contexts are decoded at the same time, and with that their memory.
-    decoders: Semaphore,
-    is_stopping: AtomicBool,
-}
-
-impl App {
-    /// Opens the store, migrates its database, takes up the jobs that an earlier process left, and starts the worker.
-    pub async fn open(config: Config) -> Result<Arc<Self>, AppError> {
-        let store = store::open(&config).await?;
-        take_up(&*store, config.max_attempts).await?;
-        let processes = Processes::standard(config.limits);
-        Ok(Self::start(config, store, processes))
-    }
-
-    /// Starts the worker of a service on an open store.
-    fn start(config: Config, store: Arc<dyn Store>, processes: Processes) -> Arc<Self> {
-        let signals = Arc::new(Signals::default());
-        let worker = Worker::start(&config, Arc::clone(&store), processes, Arc::clone(&signals));
-        let contexts = ContextCache::new(config.cached_maps);
-        let decoders = Semaphore::new(config.compute_threads.max(1));
-        Arc::new(Self { config, store, worker, signals, contexts, decoders, is_stopping: AtomicBool::new(false) })
-    }
-
-    /// The configuration it runs with.
-    #[must_use]
-    pub const fn config(&self) -> &Config {
-        &self.config
-    }
-
-    /// Says from now on that the service is not ready, so that nothing new is sent to it. Who follows a job is woken, so
-    /// that streams can end ([`Self::is_stopping`]).
-    pub fn announce_stop(&self) {
-        self.is_stopping.store(true, Ordering::Relaxed);
-        self.signals.changed();
-    }
-
-    /// Whether the service was asked to stop.
-    #[must_use]
-    pub fn is_stopping(&self) -> bool {
-        self.is_stopping.load(Ordering::Relaxed)
-    }
-
-    /// Stops claiming, and lets running jobs end within the grace period or puts them back.
-    pub async fn stop_jobs(&self) {
-        self.announce_stop();
-        self.worker.stop(self.config.shutdown_grace).await;
-    }
-
-    /// [`Self::stop_jobs`], then closes the store: the last call.
-    pub async fn shutdown(&self) {
-        self.stop_jobs().await;
-        self.store.close().await;
-    }
-
-    /// Whether the store answers, is migrated and has space.
-    pub async fn ready(&self) -> Result<(), AppError> {
-        if self.is_stopping() {
-            return Err(AppError::Unavailable);
-        }
-        Ok(self.store.check().await?)
-    }
-
-    /// Works on the queue in the calling task until no job is due, beside the configured job slots.
-    pub async fn run_until_empty(&self) -> Result<(), AppError> {
-        Ok(self.worker.run_until_empty().await?)
-    }
-
-    /// Wakes whenever some job changed; the receiver then reads [`Self::job`].
-    #[must_use]
-    pub fn job_changes(&self) -> watch::Receiver<u64> {
-        self.signals.changes()
-    }
-}
-
-/// Takes up what earlier processes left: blobs without a row, claims of processes that are dead, analyses made by another
-/// version of the algorithms.
-async fn take_up(store: &dyn Store, max_attempts: u32) -> Result<(), AppError> {
-    let swept = store.sweep_blobs(ORPHAN_AGE).await?;
-    let requeued = store.end_claims_of_dead_processes(max_attempts, now()).await?;
-    if swept + usize::try_from(requeued).unwrap_or(usize::MAX) > 0 {
-        tracing::info!(swept, requeued, "took up what an earlier process left");
-    }
-    for Outdated { tenant, map, options } in store.outdated().await? {
-        tracing::info!(%map, "will be analysed again by this version of the algorithms");
-        let Some(source) = store.map_source(&tenant, map).await? else { continue };
-        let job = AnalysisProcess::job(map, &source, &options);
-        store.request_analysis(&tenant, &options, &job, u64::MAX, now()).await?;
-    }
-    Ok(())
-}
+pub use map_context::MapContext;
+pub use service::App;

@@ -7,8 +7,9 @@ use stillage_core::analysis::Diagnostic;
 use stillage_core::watch::{StopFlag, Watch};
 use stillage_core::{Analysis, AnalysisSpec, OccupancyGrid};
 
+use super::failure::Failure;
+use super::input;
 use super::progress::Progress;
-use super::{Failure, input};
 use crate::ingest::{self, DecodedMap, Limits, MapSource};
 
 /// A map with its analysis.

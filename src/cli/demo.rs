@@ -8,7 +8,7 @@ use stillage_core::AnalysisOptions;
 use tokio::net::TcpListener;
 use uuid::Uuid;
 
-use super::Failure;
+use super::failure::Failure;
 use crate::app::{App, AppError, Caller, JobRecord, JobState, MapContext, NewMap};
 use crate::config::Config;
 use crate::ingest::MapSource;

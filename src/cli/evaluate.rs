@@ -8,8 +8,9 @@ use stillage_core::evaluation::{self, Evaluation, GeometryScores, LabelScores, P
 use stillage_core::semantics;
 use stillage_core::watch::Watch;
 
+use super::failure::Failure;
 use super::progress::Progress;
-use super::{Failure, computation, input};
+use super::{computation, input};
 use crate::http::EvaluationView;
 use crate::ingest;
 

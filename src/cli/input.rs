@@ -7,7 +7,7 @@ use serde::de::DeserializeOwned;
 use stillage_core::AnalysisSpec;
 use stillage_core::semantics::{Assignment, AssignmentProblem, RuleSet, RuleSetDraft};
 
-use super::Failure;
+use super::failure::Failure;
 use crate::ingest::{self, IngestError, MapSource};
 use crate::options::RequestedOptions;
 

@@ -12,12 +12,15 @@ mod openapi;
 mod serve;
 
 mod computation;
+mod failure;
 mod input;
 mod progress;
 
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
+
+use failure::Failure;
 
 /// Turns a robot's occupancy map of a warehouse or office into a semantic map.
 #[derive(Debug, Parser)]
@@ -41,27 +44,6 @@ enum Command {
     Openapi(openapi::OpenapiArgs),
     /// Brings the database of a data folder up to date (`serve` does so by itself).
     Migrate(migrate::MigrateArgs),
-}
-
-/// Why a command failed.
-#[derive(Debug)]
-enum Failure {
-    /// The input is wrong: one sentence with cause and remedy.
-    Input(String),
-    /// The program or the system is at fault.
-    Internal(String),
-}
-
-impl Failure {
-    /// A fault of the program or the system.
-    fn internal(error: impl std::fmt::Display) -> Self {
-        Self::Internal(error.to_string())
-    }
-
-    /// What keeps a service from starting is most often how it was set up; the message says what to change.
-    fn setup(error: impl std::fmt::Display) -> Self {
-        Self::Input(error.to_string())
-    }
 }
 
 /// Runs the command line.

@@ -40,7 +40,7 @@ pub use id::FeatureId;
 pub use property::{Kind, Property};
 pub use schema::CollectionSchema;
 pub use value::{BoxValue, Pose, Value};
-pub use view::{LabelWords, AnalysedMap};
+pub use view::{AnalysedMap, LabelWords};
 
 /// The features of a collection, by id.
 #[must_use]

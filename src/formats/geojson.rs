@@ -68,7 +68,8 @@ pub fn feature_collection<'a>(
 
 /// EPSG:3857 as the `crs` member of GeoJSON 2008, which RFC 7946 dropped and GIS tools still read: for files, which no
 /// header tells what their coordinates are.
-pub const EPSG_3857: NamedCrs = NamedCrs { r#type: "name", properties: CrsProperties { name: "urn:ogc:def:crs:EPSG::3857" } };
+pub const EPSG_3857: NamedCrs =
+    NamedCrs { r#type: "name", properties: CrsProperties { name: "urn:ogc:def:crs:EPSG::3857" } };
 
 /// A coordinate reference system by name (GeoJSON 2008, 3.1).
 #[derive(Debug, Serialize)]
@@ -94,7 +95,8 @@ impl Serialize for Properties<'_> {
 
 fn write_feature(feature: &Feature, transform: &Transform, members: Members<'_>, out: &mut Vec<u8>) {
     let properties = Properties(feature);
-    let document = GeoJsonFeature { id: Some(&feature.id), geometry: &feature.geometry, properties: &properties, members };
+    let document =
+        GeoJsonFeature { id: Some(&feature.id), geometry: &feature.geometry, properties: &properties, members };
     write_document(&document, transform, out);
 }
 

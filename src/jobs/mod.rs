@@ -14,9 +14,12 @@ mod compute;
 pub mod processes;
 mod retry;
 mod running;
+mod shared;
+mod signals;
 #[cfg(test)]
 mod tests;
 mod worker;
 
 pub use retry::backoff;
-pub use worker::{Signals, Worker};
+pub use signals::Signals;
+pub use worker::Worker;

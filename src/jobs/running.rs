@@ -9,7 +9,7 @@ use tokio::time::MissedTickBehavior;
 
 use super::compute::{ComputePool, Task};
 use super::processes::{ComputeError, Process};
-use super::worker::Worker;
+use super::shared::Shared;
 use crate::fail_point;
 use crate::records::JobState;
 use crate::stage_clock::StageClock;
@@ -21,7 +21,7 @@ const LAST_MOMENTS: Duration = Duration::from_secs(1);
 
 /// A job in progress.
 pub(super) struct Running<'a> {
-    worker: &'a Worker,
+    shared: &'a Shared,
     claim: Claim,
     clock: Arc<StageClock>,
     stop: StopFlag,
@@ -31,20 +31,20 @@ pub(super) struct Running<'a> {
 }
 
 impl<'a> Running<'a> {
-    pub(super) fn new(worker: &'a Worker, claim: Claim) -> Self {
+    pub(super) fn new(shared: &'a Shared, claim: Claim) -> Self {
         let clock = Arc::new(StageClock::new());
         let (stop, written) = (StopFlag::default(), Progress::default());
-        Self { worker, claim, clock, stop, written, renewed: Instant::now() }
+        Self { shared, claim, clock, stop, written, renewed: Instant::now() }
     }
 
     /// Sees the job to its end. An error means that its end could not be written; the lease will bring it back.
     pub(super) async fn run(mut self, pool: &ComputePool) -> Result<(), StoreError> {
         fail_point::pass("before-compute");
-        let process = match self.worker.processes().find(&self.claim.process) {
+        let process = match self.shared.processes.find(&self.claim.process) {
             Ok(process) => Arc::clone(process),
             Err(message) => return self.end(JobState::Failed, &message).await,
         };
-        let source = match self.worker.store().blobs().get(&self.claim.source).await {
+        let source = match self.shared.store.blobs().get(&self.claim.source).await {
             Ok(source) => source,
             Err(error) => return self.end_with_fault(error).await,
         };
@@ -70,7 +70,7 @@ impl<'a> Running<'a> {
         let inputs = self.claim.inputs.clone();
         let mut result =
             pool.start(Task { process, inputs, source, stop: self.stop.clone(), clock: Arc::clone(&self.clock) });
-        let mut ticks = tokio::time::interval(self.worker.settings().heartbeat);
+        let mut ticks = tokio::time::interval(self.shared.settings.heartbeat);
         ticks.set_missed_tick_behavior(MissedTickBehavior::Delay);
         loop {
             tokio::select! {
@@ -88,7 +88,7 @@ impl<'a> Running<'a> {
                         return Ok(None);
                     }
                 },
-                () = self.worker.grace_is_over() => {
+                () = self.shared.grace_is_over() => {
                     let requeued = self.give_back().await;
                     self.drain(result).await;
                     return requeued.map(|()| None);
@@ -100,7 +100,7 @@ impl<'a> Running<'a> {
     /// Tells the store where the job is, when that changed or the lease wants renewing; otherwise only asks whether it
     /// is to be cancelled. An error means that the claim is lost.
     async fn heartbeat(&mut self) -> Result<bool, StoreError> {
-        let lease = self.worker.settings().terms.lease;
+        let lease = self.shared.settings.terms.lease;
         let progress = Progress {
             percent: self.clock.percent(),
             stage: self.clock.stage().map(|stage| stage.name().to_owned()),
@@ -108,16 +108,16 @@ impl<'a> Running<'a> {
         };
         let is_due = progress != self.written || self.renewed.elapsed() >= lease / 3;
         let answer = if is_due {
-            self.worker.store().heartbeat(&self.claim, &progress, lease, now()).await
+            self.shared.store.heartbeat(&self.claim, &progress, lease, now()).await
         } else {
-            self.worker.store().is_cancel_requested(&self.claim).await
+            self.shared.store.is_cancel_requested(&self.claim).await
         };
         match answer {
             Ok(cancel) => {
                 if is_due {
                     self.written = progress;
                     self.renewed = Instant::now();
-                    self.worker.signals().changed();
+                    self.shared.signals.changed();
                 }
                 Ok(cancel)
             }
@@ -139,7 +139,7 @@ impl<'a> Running<'a> {
         tokio::select! {
             _ = result => {}
             () = async {
-                self.worker.grace_is_over().await;
+                self.shared.grace_is_over().await;
                 tokio::time::sleep(LAST_MOMENTS).await;
             } => tracing::warn!(job = %self.claim.job, "the computation did not stop in time"),
         }
@@ -147,9 +147,9 @@ impl<'a> Running<'a> {
 
     /// Stores the blob, then commits the result with the end of the job.
     async fn store_result(&self, made: &JobResult) -> Result<(), StoreError> {
-        self.worker.store().finish(&self.claim, made, &self.clock.reports(), now()).await?;
+        self.shared.store.finish(&self.claim, made, &self.clock.reports(), now()).await?;
         tracing::info!(job = %self.claim.job, map = %self.claim.map, process = self.claim.process, "job finished");
-        self.worker.signals().changed();
+        self.shared.signals.changed();
         Ok(())
     }
 
@@ -159,7 +159,7 @@ impl<'a> Running<'a> {
 
     /// After a fault that may pass, the job waits and is tried again; any other, or the last attempt, ends it.
     async fn end_with_fault(&self, error: StoreError) -> Result<(), StoreError> {
-        let terms = &self.worker.settings().terms;
+        let terms = &self.shared.settings.terms;
         let attempt = self.claim.attempt;
         if !error.is_transient() {
             return self.end(JobState::Failed, &error.to_string()).await;
@@ -170,7 +170,7 @@ impl<'a> Running<'a> {
         let wait = (terms.backoff)(self.claim.job, attempt);
         let message = format!("attempt {attempt} of {} failed: {error}", terms.max_attempts);
         tracing::warn!(job = %self.claim.job, attempt, ?wait, %error, "job will be tried again");
-        let requeued = self.worker.store().requeue(&self.claim, attempt, wait, &message, now()).await;
+        let requeued = self.shared.store.requeue(&self.claim, attempt, wait, &message, now()).await;
         self.settled(requeued)
     }
 
@@ -178,7 +178,7 @@ impl<'a> Running<'a> {
     async fn give_back(&self) -> Result<(), StoreError> {
         let attempt = self.claim.attempt.saturating_sub(1);
         let message = "put back because the service was stopped";
-        let requeued = self.worker.store().requeue(&self.claim, attempt, Duration::ZERO, message, now()).await;
+        let requeued = self.shared.store.requeue(&self.claim, attempt, Duration::ZERO, message, now()).await;
         self.settled(requeued)
     }
 
@@ -188,13 +188,13 @@ impl<'a> Running<'a> {
 
     async fn end(&self, state: JobState, message: &str) -> Result<(), StoreError> {
         tracing::info!(job = %self.claim.job, state = state.name(), message, "job ended");
-        let ended = self.worker.store().end(&self.claim, state, message, now()).await;
+        let ended = self.shared.store.end(&self.claim, state, message, now()).await;
         self.settled(ended)
     }
 
     /// A claim that was lost is settled as well: by somebody else.
     fn settled(&self, outcome: Result<(), StoreError>) -> Result<(), StoreError> {
-        self.worker.signals().changed();
+        self.shared.signals.changed();
         match outcome {
             Err(StoreError::ClaimLost) => Ok(()),
             other => other,

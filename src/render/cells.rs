@@ -4,7 +4,7 @@
 use stillage_core::{Occupancy, OccupancyGrid};
 
 use super::drawing::{Colour, Scale};
-use super::{Palette, encode};
+use super::encoding::{Palette, encode};
 
 /// A colour over what lies below.
 #[derive(Clone, Copy)]

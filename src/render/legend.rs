@@ -3,7 +3,7 @@
 use stillage_core::semantics::{Cogency, SemanticMap};
 
 use super::drawing::{Colour, Pixel, Shape, Stroke, Text};
-use super::semantic::{INK, parse_colour, stroke};
+use super::style::{INK, parse_colour, stroke};
 use super::typeface;
 
 /// Distances in ems: around and between the items, from line to line, width of a colour or line, from it to its name.

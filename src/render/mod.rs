@@ -10,13 +10,13 @@
 
 mod cells;
 mod drawing;
+mod encoding;
 mod legend;
 mod raster;
 mod semantic;
+mod style;
 mod svg;
 mod typeface;
-
-use std::borrow::Cow;
 
 use stillage_core::{Analysis, Occupancy, OccupancyGrid};
 
@@ -24,6 +24,7 @@ pub use semantic::{semantic_png, semantic_svg};
 
 use cells::Veil;
 use drawing::Colour;
+use encoding::{Palette, encode};
 
 /// Grey levels of `map_saver`.
 const FREE: u8 = 254;
@@ -110,42 +111,6 @@ fn colour(index: usize) -> Colour {
         };
         [channel(0.0), channel(4.0), channel(2.0)]
     })
-}
-
-/// The colours of a palette picture: three bytes each, and how opaque they are (all of them where it is empty).
-struct Palette {
-    colours: Vec<u8>,
-    opacities: Vec<u8>,
-}
-
-impl Palette {
-    fn opaque(colours: Vec<u8>) -> Self {
-        Self { colours, opacities: Vec::new() }
-    }
-}
-
-/// Encodes pixels of one byte per channel. A picture without pixels, which PNG does not know, becomes one pixel of 0.
-fn encode(width: usize, height: usize, kind: png::ColorType, palette: Option<Palette>, pixels: &[u8]) -> Vec<u8> {
-    let (width, height, pixels) = match pixels {
-        [] => (1, 1, Cow::Owned(vec![0; kind.samples()])),
-        pixels => (width as u32, height as u32, Cow::Borrowed(pixels)),
-    };
-    let mut bytes = Vec::new();
-    let mut encoder = png::Encoder::new(&mut bytes, width, height);
-    encoder.set_color(kind);
-    encoder.set_depth(png::BitDepth::Eight);
-    encoder.set_compression(png::Compression::Fast);
-    if let Some(Palette { colours, opacities }) = palette {
-        encoder.set_palette(colours);
-        if !opacities.is_empty() {
-            encoder.set_trns(opacities);
-        }
-    }
-    encoder
-        .write_header()
-        .and_then(|mut writer| writer.write_image_data(&pixels))
-        .expect("the pixels match the size, and memory takes every byte");
-    bytes
 }
 
 #[cfg(test)]

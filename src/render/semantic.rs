@@ -9,9 +9,11 @@ use stillage_core::layout::Location;
 use stillage_core::semantics::{Cogency, SemanticMap};
 use stillage_core::{Analysis, OccupancyGrid};
 
-use super::drawing::{Colour, Drawing, Pixel, Scale, Shape, Stroke, Text};
+use super::drawing::{Drawing, Pixel, Scale, Shape, Text};
+use super::encoding::encode;
 use super::legend::Legend;
-use super::{encode, raster, svg, typeface};
+use super::style::{INK, PAPER, parse_colour, stroke};
+use super::{raster, svg, typeface};
 
 /// A small map is enlarged by a whole factor until its longer side has at least so many pixels: a wide screen, on which
 /// the codes of pallet places of a site of 80 m can be read.
@@ -32,11 +34,6 @@ const EM_PER_THICKNESS: f64 = 14.0;
 const SMALLEST_CODE: f64 = 7.5;
 /// Share of a location's sides that its code may take.
 const CODE_SHARE: f64 = 0.84;
-
-pub(super) const PAPER: Colour = [255, 255, 255];
-pub(super) const INK: Colour = [20, 20, 24];
-const NO_COLOUR: Colour = [205, 205, 205];
-const ACCESS: Colour = [226, 74, 20];
 
 /// Draws the semantic map, as PNG.
 #[must_use]
@@ -129,14 +126,6 @@ fn edges<'a>(analysis: &Analysis, semantic: &SemanticMap, frame: &Frame, thickne
     })
 }
 
-pub(super) const fn stroke(cogency: Cogency, thickness: f64) -> Stroke {
-    match cogency {
-        Cogency::Cogent => Stroke { colour: INK, opacity: 1.0, thickness },
-        Cogency::StorageAccess => Stroke { colour: ACCESS, opacity: 1.0, thickness: 2.0 * thickness },
-        Cogency::Invalid => Stroke { colour: INK, opacity: 0.2, thickness },
-    }
-}
-
 /// The code of a location, along the side where it is larger, if it can be read there.
 fn code(location: &Location, frame: &Frame, most: f64) -> Option<Text> {
     let Location { code, width, depth, heading, .. } = location;
@@ -156,13 +145,6 @@ fn code(location: &Location, frame: &Frame, most: f64) -> Option<Text> {
         colour: INK,
         halo: Some(PAPER),
     })
-}
-
-/// `#rrggbb`; grey for anything else.
-pub(super) fn parse_colour(text: &str) -> Colour {
-    let number = text.strip_prefix('#').filter(|digits| digits.len() == 6);
-    let number = number.and_then(|digits| u32::from_str_radix(digits, 16).ok());
-    number.map_or(NO_COLOUR, |number| [(number >> 16) as u8, (number >> 8) as u8, number as u8])
 }
 
 #[cfg(test)]

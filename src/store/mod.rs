@@ -25,66 +25,33 @@ mod analyses;
 mod blobs;
 #[cfg(test)]
 pub(crate) mod contract;
+mod engine;
 mod error;
 mod jobs;
 mod maps;
 pub mod queue;
+mod result_address;
 mod rule_sets;
 mod semantics;
 mod sqlite;
 
-use std::fmt;
 use std::sync::Arc;
-use std::time::Duration;
 
-use async_trait::async_trait;
 use jiff::Timestamp;
 
 use crate::config::Config;
 
-pub use analyses::{Analyses, MapState, NewAnalysis, Outdated, Request, ResultAddress, Snapshot};
+pub use analyses::{Analyses, MapState, NewAnalysis, Outdated, Request, Snapshot};
 pub use blobs::{Blob, BlobId, Blobs, LocalBlobs, Stored};
+pub use engine::Store;
 pub use error::StoreError;
 pub use jobs::{Jobs, NewJob};
 pub use maps::{IdempotencyKey, Maps, NewMapRow, Upload};
 pub use queue::Queue;
+pub use result_address::ResultAddress;
 pub use rule_sets::RuleSets;
 pub use semantics::{NewSemanticsRow, SemanticsVersions};
 pub use sqlite::Sqlite;
-
-/// An open store.
-#[async_trait]
-pub trait Store:
-    Maps + Analyses + Queue + Jobs + SemanticsVersions + RuleSets + fmt::Debug + Send + Sync + 'static
-{
-    /// The blobs.
-    fn blobs(&self) -> &dyn Blobs;
-
-    /// Whether there is room for uploads and results.
-    ///
-    /// # Errors
-    /// [`StoreError::NoSpace`] below the configured floor.
-    fn check_space(&self) -> Result<(), StoreError>;
-
-    /// Whether the database answers and there is room.
-    ///
-    /// # Errors
-    /// What is wrong.
-    async fn check(&self) -> Result<(), StoreError>;
-
-    /// The schema version of the database.
-    async fn schema_version(&self) -> Result<i64, StoreError>;
-
-    /// Removes blobs without a row that are older than `age`, and what is left of interrupted writes. Answers how many
-    /// blobs were removed.
-    ///
-    /// # Errors
-    /// When the database or the blobs do not answer.
-    async fn sweep_blobs(&self, age: Duration) -> Result<usize, StoreError>;
-
-    /// Closes the connections; pending writes end first.
-    async fn close(&self);
-}
 
 /// Opens the configured store and brings its database up to date.
 ///

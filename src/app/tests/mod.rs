@@ -12,6 +12,7 @@ use tempfile::TempDir;
 use uuid::Uuid;
 
 use super::*;
+use crate::config::Config;
 use crate::coordinates::Georeference;
 use crate::ingest::MapSource;
 

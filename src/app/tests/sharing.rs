@@ -1,6 +1,7 @@
 //! One store for several processes and several callers.
 
 use super::*;
+use crate::jobs::processes::Processes;
 use crate::records::Tenant;
 
 #[tokio::test]

@@ -1,18 +1,22 @@
 //! `stillage analyze`: a map file in, a folder of layers and pictures out, without a server.
 
+mod findings;
 mod output;
 
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
-use stillage_core::analysis::{ALGORITHM_VERSION, Diagnostic};
-use stillage_core::layout::{self, Location};
-use stillage_core::semantics::{self, Assignment, RuleSet, SemanticMap, Suggestion};
+use stillage_core::analysis::Diagnostic;
+use stillage_core::layout;
+use stillage_core::semantics::{self, Assignment, RuleSet};
 use stillage_core::{Analysis, OccupancyGrid};
 
 use super::computation::{self, Computed};
+use super::failure::Failure;
+use super::input;
 use super::progress::Progress;
-use super::{Failure, input};
+
+use findings::Findings;
 
 /// Arguments of `stillage analyze`.
 #[derive(Debug, clap::Args)]
@@ -35,19 +39,6 @@ pub(super) struct Arguments {
     /// Threads to compute with; all cores when absent.
     #[arg(long, value_name = "N")]
     threads: Option<NonZeroUsize>,
-}
-
-/// Everything that is found, ready to be written.
-struct Findings {
-    name: String,
-    grid: OccupancyGrid,
-    analysis: Analysis,
-    suggestions: Vec<Suggestion>,
-    assignment: Assignment,
-    semantic: SemanticMap,
-    locations: Vec<Location>,
-    /// Remarks of the ingest and the analysis.
-    diagnostics: Vec<Diagnostic>,
 }
 
 /// Runs the command.

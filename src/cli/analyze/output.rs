@@ -8,12 +8,14 @@ use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
 use stillage_core::Occupancy;
+use stillage_core::analysis::ALGORITHM_VERSION;
+use stillage_core::semantics::Suggestion;
 
-use super::{ALGORITHM_VERSION, Findings};
+use super::findings::Findings;
 use crate::app::StageReport;
-use crate::cli::Failure;
+use crate::cli::failure::Failure;
 use crate::coordinates::Transform;
-use crate::features::{Collection, AnalysedMap, features};
+use crate::features::{AnalysedMap, Collection, features};
 use crate::formats::{csv, geojson};
 use crate::render;
 use crate::stage_clock::peak_rss_mib;
@@ -93,7 +95,7 @@ fn report(findings: &Findings, stages: &[StageReport]) -> Value {
     let Findings { grid, analysis, semantic, .. } = findings;
     let frame = grid.frame();
     let rule_set = &semantic.rule_set;
-    let suggestion = |suggestion: &super::Suggestion| {
+    let suggestion = |suggestion: &Suggestion| {
         json!({
             "category": suggestion.category,
             "label": rule_set.label(suggestion.label).id,

@@ -16,7 +16,8 @@ fn sorted_by(keys: &[&str]) -> Vec<SortKey> {
 fn pages_follow_one_another_without_gap_or_repetition() {
     let faces = features(&hall_view(), Collection::Faces);
     for sort in [sorted_by(&[]), sorted_by(&["label", "-areaM2"]), sorted_by(&["-location"])] {
-        let whole = FeatureQuery { sort: sort.clone(), limit: usize::MAX, ..FeatureQuery::default() }.select(&faces).unwrap();
+        let whole =
+            FeatureQuery { sort: sort.clone(), limit: usize::MAX, ..FeatureQuery::default() }.select(&faces).unwrap();
         assert_eq!(whole.features.len(), faces.len());
         let mut found = Vec::new();
         let mut after = None;

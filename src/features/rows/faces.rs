@@ -9,7 +9,7 @@ use crate::features::geometry::{Geometry, GeometryType};
 use crate::features::property::{Kind, Property};
 use crate::features::shape;
 use crate::features::table::{Column, Table};
-use crate::features::view::{FUNCTIONALITIES, LabelWords, AnalysedMap, rounded};
+use crate::features::view::{AnalysedMap, FUNCTIONALITIES, LabelWords, rounded};
 
 /// A face.
 #[derive(Debug, Clone, PartialEq)]

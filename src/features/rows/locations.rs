@@ -10,7 +10,7 @@ use crate::features::property::{Kind, Property};
 use crate::features::shape;
 use crate::features::table::{Column, Table};
 use crate::features::value::Pose;
-use crate::features::view::{LabelWords, AnalysedMap, rounded};
+use crate::features::view::{AnalysedMap, LabelWords, rounded};
 
 /// A storage location. Positions and lengths in metres of the map frame.
 #[derive(Debug, Clone, PartialEq)]

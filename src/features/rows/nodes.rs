@@ -7,7 +7,7 @@ use stillage_core::arrangement::FaceId;
 use crate::features::geometry::{Geometry, GeometryType};
 use crate::features::property::{Kind, Property};
 use crate::features::table::{Column, Table};
-use crate::features::view::{LabelWords, AnalysedMap};
+use crate::features::view::{AnalysedMap, LabelWords};
 
 /// A node.
 #[derive(Debug, Clone, PartialEq)]

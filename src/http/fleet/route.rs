@@ -158,8 +158,12 @@ fn write(context: &MapContext, transform: &Transform, route: &routing::Route) ->
         faces: route.faces.iter().map(|face| face.0).collect(),
         edges: route.edges.iter().map(|edge| edge.0).collect(),
     };
-    let document =
-        geojson::GeoJsonFeature { id: None, geometry: &Geometry::LineString(points), properties: &properties, members: &[] };
+    let document = geojson::GeoJsonFeature {
+        id: None,
+        geometry: &Geometry::LineString(points),
+        properties: &properties,
+        members: &[],
+    };
     geojson::document(&document, transform)
 }
 

@@ -5,7 +5,11 @@ use axum::http::{HeaderValue, header};
 use axum::middleware::Next;
 use axum::response::{IntoResponse, Response};
 
-use super::{PROBLEM_JSON, Problem, ProblemType};
+use super::detail::Problem;
+use super::types::ProblemType;
+
+/// Media type of problem details.
+pub const PROBLEM_JSON: &str = "application/problem+json";
 
 /// Middleware: writes the body of every refusal.
 pub async fn render(request: Request, next: Next) -> Response {

@@ -44,13 +44,13 @@ impl LocalBlobs {
 #[async_trait]
 impl Blobs for LocalBlobs {
     async fn put(&self, blob: &Blob) -> Result<(), StoreError> {
-        let payload = || PutPayload::from_bytes(blob.bytes.clone());
+        let payload = || PutPayload::from_bytes(blob.bytes().clone());
         let create = PutOptions { mode: PutMode::Create, ..PutOptions::default() };
-        match self.files.put_opts(&location(&blob.id), payload(), create).await {
+        match self.files.put_opts(&location(blob.id()), payload(), create).await {
             Ok(_) => Ok(()),
-            Err(object_store::Error::AlreadyExists { .. }) => match self.get(&blob.id).await {
+            Err(object_store::Error::AlreadyExists { .. }) => match self.get(blob.id()).await {
                 Ok(_) => Ok(()),
-                Err(_) => Ok(self.files.put(&location(&blob.id), payload()).await.map(drop)?),
+                Err(_) => Ok(self.files.put(&location(blob.id()), payload()).await.map(drop)?),
             },
             Err(error) => Err(error.into()),
         }
@@ -64,7 +64,7 @@ impl Blobs for LocalBlobs {
             Err(error) => return Err(error.into()),
         };
         let blob = off_the_runtime(move || Blob::new(bytes)).await;
-        if blob.id == *id { Ok(blob) } else { Err(damaged("its bytes do not have its hash")) }
+        if blob.id() == id { Ok(blob) } else { Err(damaged("its bytes do not have its hash")) }
     }
 
     async fn remove(&self, id: &BlobId) -> Result<(), StoreError> {

@@ -1,0 +1,55 @@
+//! The analysed map in memory: everything a question about it needs.
+
+use std::sync::{Arc, OnceLock};
+
+use stillage_core::arrangement::CellFaces;
+use stillage_core::layout::Location;
+use stillage_core::semantics::{SemanticMap, Suggestion};
+use stillage_core::{Analysis, OccupancyGrid};
+use uuid::Uuid;
+
+use crate::features::{self, AnalysedMap, Collection, Feature};
+use crate::records::{MapRecord, SemanticsRecord};
+
+/// An analysed map in memory, ready to answer. Shared, immutable; replaced when the semantics change.
+#[derive(Debug)]
+pub struct MapContext {
+    /// The map.
+    pub record: MapRecord,
+    /// Its cells.
+    pub grid: Arc<OccupancyGrid>,
+    /// The analysis in force.
+    pub analysis_id: Uuid,
+    /// The geometric level.
+    pub analysis: Arc<Analysis>,
+    /// The face of every cell.
+    pub cells: Arc<CellFaces>,
+    /// The decision in force, or the suggestion.
+    pub semantics: SemanticsRecord,
+    /// The human level.
+    pub semantic: SemanticMap,
+    /// What each category is proposed to be under the rule set in force.
+    pub suggestions: Vec<Suggestion>,
+    /// The storage locations, by code.
+    pub locations: Vec<Location>,
+    /// Its collections, made when they are first asked for.
+    pub(super) features: FeatureCache,
+}
+
+/// The features of the collections that were asked for.
+#[derive(Debug, Default)]
+pub struct FeatureCache([OnceLock<Vec<Feature>>; Collection::ALL.len()]);
+
+impl MapContext {
+    /// The map as [`crate::features`] reads it.
+    #[must_use]
+    pub fn view(&self) -> AnalysedMap<'_> {
+        AnalysedMap { analysis: &self.analysis, semantic: &self.semantic, locations: &self.locations }
+    }
+
+    /// The features of a collection, by id. The first call makes them: keep it off the runtime.
+    #[must_use]
+    pub fn features(&self, collection: Collection) -> &[Feature] {
+        self.features.0[collection as usize].get_or_init(|| features::features(&self.view(), collection))
+    }
+}

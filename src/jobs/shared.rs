@@ -1,0 +1,60 @@
+//! What the job slots of a worker share with the jobs that run in them.
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use tokio::sync::watch;
+use tokio::time::Instant;
+
+use super::processes::Processes;
+use super::signals::Signals;
+use crate::store::Store;
+use crate::store::queue::Terms;
+
+/// What the worker is configured with.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Settings {
+    pub(super) terms: Terms,
+    pub(super) heartbeat: Duration,
+}
+
+/// The store, the processes, and when to stop.
+#[derive(Debug)]
+pub(super) struct Shared {
+    pub(super) store: Arc<dyn Store>,
+    pub(super) processes: Processes,
+    pub(super) signals: Arc<Signals>,
+    pub(super) settings: Settings,
+    /// Set once: from when on running jobs are put back.
+    stop_at: watch::Sender<Option<Instant>>,
+}
+
+impl Shared {
+    pub(super) fn new(store: Arc<dyn Store>, processes: Processes, signals: Arc<Signals>, settings: Settings) -> Self {
+        Self { store, processes, signals, settings, stop_at: watch::Sender::new(None) }
+    }
+
+    /// Asks the slots to stop; jobs that run are put back after a grace period. Only the first call counts.
+    pub(super) fn stop(&self, grace: Duration) {
+        self.stop_at.send_if_modified(|at| at.is_none() && at.replace(Instant::now() + grace).is_none());
+    }
+
+    /// Whether the worker was told to stop.
+    pub(super) fn is_stopping(&self) -> bool {
+        self.stop_at.borrow().is_some()
+    }
+
+    /// Waits for a request to stop: the end of its grace period.
+    pub(super) async fn stop_requested(&self) -> Option<Instant> {
+        let mut stop_at = self.stop_at.subscribe();
+        // The sender lives as long as this value.
+        stop_at.wait_for(Option::is_some).await.ok().and_then(|at| *at)
+    }
+
+    /// Waits for a request to stop, and for its grace period.
+    pub(super) async fn grace_is_over(&self) {
+        if let Some(at) = self.stop_requested().await {
+            tokio::time::sleep_until(at).await;
+        }
+    }
+}

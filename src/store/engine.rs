@@ -1,0 +1,42 @@
+//! What an engine offers as a whole.
+
+use std::fmt;
+use std::time::Duration;
+
+use async_trait::async_trait;
+
+use super::{Analyses, Blobs, Jobs, Maps, Queue, RuleSets, SemanticsVersions, StoreError};
+
+/// An open store.
+#[async_trait]
+pub trait Store:
+    Maps + Analyses + Queue + Jobs + SemanticsVersions + RuleSets + fmt::Debug + Send + Sync + 'static
+{
+    /// The blobs.
+    fn blobs(&self) -> &dyn Blobs;
+
+    /// Whether there is room for uploads and results.
+    ///
+    /// # Errors
+    /// [`StoreError::NoSpace`] below the configured floor.
+    fn check_space(&self) -> Result<(), StoreError>;
+
+    /// Whether the database answers and there is room.
+    ///
+    /// # Errors
+    /// What is wrong.
+    async fn check(&self) -> Result<(), StoreError>;
+
+    /// The schema version of the database.
+    async fn schema_version(&self) -> Result<i64, StoreError>;
+
+    /// Removes blobs without a row that are older than `age`, and what is left of interrupted writes. Answers how many
+    /// blobs were removed.
+    ///
+    /// # Errors
+    /// When the database or the blobs do not answer.
+    async fn sweep_blobs(&self, age: Duration) -> Result<usize, StoreError>;
+
+    /// Closes the connections; pending writes end first.
+    async fn close(&self);
+}
