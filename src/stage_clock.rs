@@ -20,12 +20,12 @@ pub struct StageClock(Mutex<Times>);
 #[derive(Debug, Default)]
 struct Times {
     finished: Vec<StageReport>,
-    running: Option<Running>,
+    running: Option<RunningStage>,
     shares: StageShares,
 }
 
 #[derive(Debug)]
-struct Running {
+struct RunningStage {
     stage: Stage,
     fraction: f64,
     wall: Instant,
@@ -88,7 +88,7 @@ impl Observer for StageClock {
     fn progress(&self, stage: Stage, fraction: f64) {
         let mut times = self.times();
         if times.running.as_ref().is_none_or(|running| running.stage != stage) {
-            times.running = Some(Running { stage, fraction: 0.0, wall: Instant::now(), cpu: cpu_time() });
+            times.running = Some(RunningStage { stage, fraction: 0.0, wall: Instant::now(), cpu: cpu_time() });
         }
         let Some(running) = times.running.as_mut() else { return };
         running.fraction = running.fraction.max(fraction);

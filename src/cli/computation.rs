@@ -9,7 +9,7 @@ use stillage_core::{Analysis, AnalysisSpec, OccupancyGrid};
 
 use super::failure::Failure;
 use super::input;
-use super::progress::Progress;
+use super::progress::ProgressDisplay;
 use crate::ingest::{self, DecodedMap, Limits, MapSource};
 
 /// A map with its analysis.
@@ -35,7 +35,7 @@ pub(super) fn analyze(
     source: MapSource,
     spec: &AnalysisSpec,
     pool: &rayon::ThreadPool,
-    progress: &Progress,
+    progress: &ProgressDisplay,
 ) -> Result<Computed, Failure> {
     let decoded = progress.clock().time("ingest", || ingest::decode(&source, &spec.options().grid, &Limits::default()));
     let DecodedMap { grid, warnings } = decoded.map_err(|error| input::refused(path, &error))?;

@@ -9,14 +9,14 @@ use stillage_core::semantics;
 use stillage_core::watch::Watch;
 
 use super::failure::Failure;
-use super::progress::Progress;
+use super::progress::ProgressDisplay;
 use super::{computation, input};
 use crate::http::EvaluationView;
 use crate::ingest;
 
 /// Arguments of `stillage evaluate`.
 #[derive(Debug, clap::Args)]
-pub(super) struct Arguments {
+pub(super) struct EvaluateArgs {
     /// The map: a `map_server` YAML file with its image beside it, or a `nav_msgs/OccupancyGrid` message as JSON.
     #[arg(value_name = "MAP")]
     map: PathBuf,
@@ -41,7 +41,7 @@ pub(super) struct Arguments {
 }
 
 /// Runs the command.
-pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
+pub(super) fn run(arguments: &EvaluateArgs) -> Result<(), Failure> {
     let spec = input::options(arguments.options.as_deref())?;
     let rule_set = input::rule_set(&arguments.rule_set)?;
     evaluation::check_rule_set(&rule_set)
@@ -53,7 +53,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     })?;
     let source = input::map(&arguments.map)?;
 
-    let progress = Progress::new();
+    let progress = ProgressDisplay::new();
     let pool = computation::pool(arguments.threads)?;
     let analysis = computation::analyze(&arguments.map, source, &spec, &pool, &progress)?.analysis;
     let assigned = assignment.map(|assignment| semantics::apply(&analysis, &rule_set, &assignment)).transpose();

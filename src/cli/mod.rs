@@ -35,9 +35,9 @@ enum Command {
     /// Serves the REST API.
     Serve(serve::ServeArgs),
     /// Analyses one map file and writes GeoJSON layers, pictures and a report.
-    Analyze(analyze::Arguments),
+    Analyze(analyze::AnalyzeArgs),
     /// Analyses one map file and says how well the result fits its known truth.
-    Evaluate(evaluate::Arguments),
+    Evaluate(evaluate::EvaluateArgs),
     /// Serves on loopback with a temporary store, uploads an example map and shows where to look.
     Demo(demo::DemoArgs),
     /// Prints the OpenAPI 3.1 document of the service.

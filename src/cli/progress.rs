@@ -11,7 +11,7 @@ use stillage_core::watch::Observer;
 use crate::stage_clock::StageClock;
 
 /// Shows and times the progress of one analysis.
-pub(super) struct Progress {
+pub(super) struct ProgressDisplay {
     clock: StageClock,
     /// `None` where nobody would see it move.
     bar: Option<ProgressBar>,
@@ -19,7 +19,7 @@ pub(super) struct Progress {
     printed: AtomicUsize,
 }
 
-impl Progress {
+impl ProgressDisplay {
     pub(super) fn new() -> Self {
         let bar = std::io::stderr().is_terminal().then(|| {
             let style = ProgressStyle::with_template("{bar:40} {percent:>3} % {msg}");
@@ -48,7 +48,7 @@ impl Progress {
     }
 }
 
-impl Observer for Progress {
+impl Observer for ProgressDisplay {
     fn begin(&self, shares: &StageShares) {
         self.clock.begin(shares);
     }

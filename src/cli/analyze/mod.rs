@@ -14,13 +14,13 @@ use stillage_core::{Analysis, OccupancyGrid};
 use super::computation::{self, Computed};
 use super::failure::Failure;
 use super::input;
-use super::progress::Progress;
+use super::progress::ProgressDisplay;
 
 use findings::Findings;
 
 /// Arguments of `stillage analyze`.
 #[derive(Debug, clap::Args)]
-pub(super) struct Arguments {
+pub(super) struct AnalyzeArgs {
     /// The map: a `map_server` YAML file with its image beside it, or a `nav_msgs/OccupancyGrid` message as JSON.
     #[arg(value_name = "MAP")]
     map: PathBuf,
@@ -42,7 +42,7 @@ pub(super) struct Arguments {
 }
 
 /// Runs the command.
-pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
+pub(super) fn run(arguments: &AnalyzeArgs) -> Result<(), Failure> {
     // Everything small is read first: a typing error should not cost an analysis.
     let spec = input::options(arguments.options.as_deref())?;
     let rule_set = input::rule_set(&arguments.rule_set)?;
@@ -52,7 +52,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let folder = arguments.out.clone().unwrap_or_else(|| PathBuf::from(format!("{name}.stillage")));
     output::check(&folder)?;
 
-    let progress = Progress::new();
+    let progress = ProgressDisplay::new();
     let pool = computation::pool(arguments.threads)?;
     let Computed { grid, analysis, warnings } = computation::analyze(&arguments.map, source, &spec, &pool, &progress)?;
     let findings =
