@@ -158,7 +158,7 @@ fn names_follow_one_style_and_occur_once() {
             assert!(name.chars().all(|character| character.is_ascii_alphanumeric()), "{name}");
             assert_eq!(CollectionSchema::of(collection).find(name), Some(index), "{name} occurs twice");
             // The unit stands in the name where users would otherwise have to guess it.
-            assert!(!name.ends_with("M") || property.unit == Some("m"), "{name}");
+            assert!(!name.ends_with('M') || property.unit == Some("m"), "{name}");
             assert!(!name.ends_with("Deg") || property.unit == Some("deg"), "{name}");
         }
     }

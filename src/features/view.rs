@@ -46,7 +46,7 @@ const fn functionality(functionality: Functionality) -> &'static str {
 
 impl AnalysedMap<'_> {
     /// What each label of the rule set says, by [`LabelId`].
-    pub fn labels(&self) -> Labels {
+    pub(super) fn labels(&self) -> Labels {
         let words = |label: &stillage_core::semantics::Label| {
             Arc::new(LabelWords {
                 id: label.id.clone(),
@@ -58,31 +58,31 @@ impl AnalysedMap<'_> {
     }
 
     /// A point of the grid frame in the map frame.
-    pub fn position(&self, point: Point) -> Point {
+    pub(super) fn position(&self, point: Point) -> Point {
         self.analysis.frame.to_map(point)
     }
 
     /// A point of the grid frame as a property: x and y in the map frame.
-    pub fn rounded_position(&self, point: Point) -> [f64; 2] {
+    pub(super) fn rounded_position(&self, point: Point) -> [f64; 2] {
         let point = self.position(point);
         [rounded(point.x), rounded(point.y)]
     }
 
     /// An undirected line's angle in the grid frame -> degrees in the map frame, `[-90, 90)`.
-    pub fn orientation_degrees(&self, angle: f64) -> f64 {
+    pub(super) fn orientation_degrees(&self, angle: f64) -> f64 {
         let degrees = rounded(fold_half_turn(self.analysis.frame.angle_to_map(angle)).to_degrees());
         if degrees >= 90.0 { degrees - 180.0 } else { degrees }
     }
 
     /// A direction in the grid frame -> degrees in the map frame, `[-180, 180)`.
-    pub fn heading_degrees(&self, angle: f64) -> f64 {
+    pub(super) fn heading_degrees(&self, angle: f64) -> f64 {
         let turned = (self.analysis.frame.angle_to_map(angle).to_degrees() + 180.0).rem_euclid(360.0) - 180.0;
         let degrees = rounded(turned);
         if degrees >= 180.0 { degrees - 360.0 } else { degrees }
     }
 
     /// Whether an edge has a dual: edges on the outer boundary have none.
-    pub fn has_link(&self, edge: EdgeId) -> bool {
+    pub(super) fn has_link(&self, edge: EdgeId) -> bool {
         self.semantic.connectivity[edge.index()].is_some()
     }
 }
@@ -93,7 +93,7 @@ pub struct Labels(Vec<Arc<LabelWords>>);
 
 impl Labels {
     /// What a label says.
-    pub fn of(&self, label: LabelId) -> Arc<LabelWords> {
+    pub(super) fn of(&self, label: LabelId) -> Arc<LabelWords> {
         Arc::clone(&self.0[usize::from(label.0)])
     }
 }

@@ -3,9 +3,12 @@
 use crate::features::rows::locations::LocationRow;
 use crate::features::{Feature, Row, Value};
 
+/// Reads a cell off a location.
+type ReadCell = fn(&LocationRow) -> Value<'_>;
+
 /// The columns: the properties of a location that are no lists, its centre and its approach spread out. Their order is
 /// what importers rely on: new columns come last.
-const COLUMNS: [(&str, fn(&LocationRow) -> Value<'_>); 17] = [
+const COLUMNS: [(&str, ReadCell); 17] = [
     ("code", |location| location.code.as_str().into()),
     ("label", |location| location.label.id.as_str().into()),
     ("labelName", |location| location.label.name.as_str().into()),

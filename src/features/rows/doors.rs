@@ -40,6 +40,7 @@ pub const TABLE: Table<DoorRow> = Table {
 };
 
 /// The doors of a map, by id.
+#[must_use]
 pub fn read(view: &AnalysedMap<'_>) -> Vec<(Geometry, DoorRow)> {
     let row = |(index, door): (usize, &Door)| {
         let row = DoorRow {

@@ -101,6 +101,7 @@ pub const TABLE: Table<EdgeRow> = Table {
 };
 
 /// The edges of a map, by id.
+#[must_use]
 pub fn read(view: &AnalysedMap<'_>) -> Vec<(Geometry, EdgeRow)> {
     let subdivision = &view.analysis.subdivision;
     let row = |edge: EdgeId| {

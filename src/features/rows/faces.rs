@@ -145,6 +145,7 @@ pub const TABLE: Table<FaceRow> = Table {
 };
 
 /// The faces of a map, by id.
+#[must_use]
 pub fn read(view: &AnalysedMap<'_>) -> Vec<(Geometry, FaceRow)> {
     let subdivision = &view.analysis.subdivision;
     let mut codes = vec![None; subdivision.face_count()];

@@ -58,6 +58,7 @@ pub const TABLE: Table<LineRow> = Table {
 };
 
 /// The lines of a map, by id.
+#[must_use]
 pub fn read(view: &AnalysedMap<'_>) -> Vec<(Geometry, LineRow)> {
     let row = |(index, line): (usize, &Line)| {
         let foot = Point::from(normal(line.orientation) * line.offset);

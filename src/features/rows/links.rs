@@ -50,6 +50,7 @@ pub const TABLE: Table<LinkRow> = Table {
 };
 
 /// The links of a map, by id. Each runs from node to node through the middle of its edge.
+#[must_use]
 pub fn read(view: &AnalysedMap<'_>) -> Vec<(Geometry, LinkRow)> {
     let (subdivision, graph) = (&view.analysis.subdivision, &view.analysis.graph);
     let row = |edge: EdgeId| {

@@ -131,6 +131,7 @@ pub const TABLE: Table<LocationRow> = Table {
 };
 
 /// The storage locations of a map, by code.
+#[must_use]
 pub fn read(view: &AnalysedMap<'_>) -> Vec<(Geometry, LocationRow)> {
     let labels = view.labels();
     let approach = |pose: ApproachPose| {

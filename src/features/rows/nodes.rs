@@ -34,6 +34,7 @@ pub const TABLE: Table<NodeRow> = Table {
 };
 
 /// The nodes of a map, by id.
+#[must_use]
 pub fn read(view: &AnalysedMap<'_>) -> Vec<(Geometry, NodeRow)> {
     let graph = &view.analysis.graph;
     let labels = view.labels();

@@ -55,6 +55,7 @@ pub const TABLE: Table<PlaceRow> = Table {
 };
 
 /// The places of a map, by id.
+#[must_use]
 pub fn read(view: &AnalysedMap<'_>) -> Vec<(Geometry, PlaceRow)> {
     let labels = view.labels();
     let row = |(index, place): (usize, &Place)| {

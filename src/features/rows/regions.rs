@@ -48,6 +48,7 @@ pub const TABLE: Table<RegionRow> = Table {
 };
 
 /// The regions of a map, by id.
+#[must_use]
 pub fn read(view: &AnalysedMap<'_>) -> Vec<(Geometry, RegionRow)> {
     let row = |(index, region): (usize, &Region)| {
         let mut orientations: Vec<f64> =

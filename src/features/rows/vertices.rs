@@ -27,6 +27,7 @@ pub const TABLE: Table<VertexRow> = Table {
 };
 
 /// The vertices of a map, by id.
+#[must_use]
 pub fn read(view: &AnalysedMap<'_>) -> Vec<(Geometry, VertexRow)> {
     let subdivision = &view.analysis.subdivision;
     let mut edges = vec![Vec::new(); subdivision.vertex_count()];

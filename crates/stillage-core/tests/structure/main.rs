@@ -14,64 +14,6 @@ use std::path::Path;
 use circles::circle_through;
 use files::{Files, Sources};
 
-/// Files that still lie on a circle; this list only shrinks.
-const STANDING: &[&str] = &[
-    "src/app/context.rs",
-    "src/app/features.rs",
-    "src/app/grid.rs",
-    "src/app/mod.rs",
-    "src/app/rule_sets.rs",
-    "src/cli/analyze/mod.rs",
-    "src/cli/analyze/output.rs",
-    "src/cli/computation.rs",
-    "src/cli/demo.rs",
-    "src/cli/evaluate.rs",
-    "src/cli/input.rs",
-    "src/cli/mod.rs",
-    "src/geojson/csv.rs",
-    "src/geojson/decomposition.rs",
-    "src/geojson/feature.rs",
-    "src/geojson/mod.rs",
-    "src/geojson/rings.rs",
-    "src/geojson/semantics.rs",
-    "src/geojson/subdivision.rs",
-    "src/geojson/transform.rs",
-    "src/http/problem/mod.rs",
-    "src/http/problem/render.rs",
-    "src/ingest/document.rs",
-    "src/ingest/message.rs",
-    "src/ingest/metadata.rs",
-    "src/ingest/mod.rs",
-    "src/ingest/picture.rs",
-    "src/ingest/truth.rs",
-    "src/ingest/verdict.rs",
-    "src/jobs/processes/analysis.rs",
-    "src/jobs/processes/mod.rs",
-    "src/jobs/running.rs",
-    "src/jobs/worker.rs",
-    "src/render/cells.rs",
-    "src/render/legend.rs",
-    "src/render/mod.rs",
-    "src/render/raster.rs",
-    "src/render/semantic.rs",
-    "src/render/svg.rs",
-    "src/store/analyses.rs",
-    "src/store/blobs/local.rs",
-    "src/store/blobs/mod.rs",
-    "src/store/error.rs",
-    "src/store/jobs.rs",
-    "src/store/maps.rs",
-    "src/store/mod.rs",
-    "src/store/queue.rs",
-    "src/store/rule_sets.rs",
-    "src/store/semantics.rs",
-    "src/store/sqlite/folder.rs",
-    "src/store/sqlite/mod.rs",
-];
-
-/// Types that still share a name; this list only shrinks.
-const SHARED_NAMES: &[&str] = &["Arguments", "Geometry", "MapView", "Progress", "Running"];
-
 /// The sources below a folder of this package.
 fn sources(folder: &str) -> Sources {
     fn add(folder: &Path, root: &Path, found: &mut Sources) {
@@ -100,24 +42,16 @@ fn all_files() -> [(&'static str, Files); 2] {
         .map(|(name, folder)| (name, Files::read(&sources(folder))))
 }
 
-/// One line for every file on a circle, or for every file of the standing list that is on none.
-fn complaints(prefix: &str, files: &Files, standing: &[&str]) -> Vec<String> {
+/// One line for every file on a circle.
+fn complaints(prefix: &str, files: &Files) -> Vec<String> {
     let references = files.references();
-    let complaint = |file: &String| {
-        let name = format!("{prefix}{file}");
-        match (circle_through(&references, file), standing.contains(&name.as_str())) {
-            (Some(circle), false) => Some(format!("{prefix}{}", circle.join(" -> "))),
-            (None, true) => Some(format!("{name} lies on no circle any more: take it off the list")),
-            _ => None,
-        }
-    };
-    references.keys().filter_map(complaint).collect()
+    let circles = references.keys().filter_map(|file| circle_through(&references, file));
+    circles.map(|circle| format!("{prefix}{}", circle.join(" -> "))).collect()
 }
 
 #[test]
 fn no_files_refer_to_one_another_in_a_circle() {
-    let complaints: Vec<String> =
-        all_files().iter().flat_map(|(prefix, files)| complaints(prefix, files, STANDING)).collect();
+    let complaints: Vec<String> = all_files().iter().flat_map(|(prefix, files)| complaints(prefix, files)).collect();
     assert!(complaints.is_empty(), "circles between files:\n{}", complaints.join("\n"));
 }
 
@@ -132,11 +66,8 @@ fn no_two_types_share_a_name() {
         }
         shared.extend(places.into_iter().filter(|(_, places)| places.len() > 1));
     }
-    let unknown = shared.iter().filter(|(name, _)| !SHARED_NAMES.contains(name));
-    let unknown = unknown.map(|(name, places)| format!("{name}: {}", places.join(", ")));
-    let done = SHARED_NAMES.iter().filter(|name| !shared.contains_key(*name));
-    let done = done.map(|name| format!("{name} is shared no more: take it off the list"));
-    let complaints: Vec<String> = unknown.chain(done).collect();
+    let complaints: Vec<String> =
+        shared.iter().map(|(name, places)| format!("{name}: {}", places.join(", "))).collect();
     assert!(complaints.is_empty(), "types that share a name:\n{}", complaints.join("\n"));
 }
 
@@ -153,11 +84,9 @@ fn a_child_that_uses_the_types_of_a_parent_that_calls_it_is_a_circle() {
         ("rooms/doors.rs", "use super::Door; pub fn find() -> Vec<Door> { vec![] }"),
     ]);
     assert_eq!(
-        complaints("", &files, &[]),
+        complaints("", &files),
         ["rooms/doors.rs -> rooms/mod.rs -> rooms/doors.rs", "rooms/mod.rs -> rooms/doors.rs -> rooms/mod.rs"]
     );
-    let standing = ["rooms/doors.rs", "rooms/mod.rs", "lib.rs"];
-    assert_eq!(complaints("", &files, &standing), ["lib.rs lies on no circle any more: take it off the list"]);
 }
 
 #[test]
@@ -168,7 +97,7 @@ fn a_circle_may_lead_through_re_exports_and_long_paths() {
         ("a/inner.rs", "use crate::b::{self, Thing}; pub struct Other; pub fn first() { b::second() }"),
         ("b.rs", "pub struct Thing; pub fn second() { let _ = (crate::first(), '\"', crate::a::Renamed); }"),
     ]);
-    assert_eq!(complaints("", &files, &[]), ["a/inner.rs -> b.rs -> a/inner.rs", "b.rs -> a/inner.rs -> b.rs"]);
+    assert_eq!(complaints("", &files), ["a/inner.rs -> b.rs -> a/inner.rs", "b.rs -> a/inner.rs -> b.rs"]);
 }
 
 #[test]
@@ -180,7 +109,7 @@ fn a_function_may_have_the_name_of_its_module() {
         ("halls.rs", "use crate::plan; pub fn find() { plan::plan() }"),
     ]);
     assert_eq!(
-        complaints("", &files, &[]),
+        complaints("", &files),
         ["halls.rs -> plan/plan.rs -> halls.rs", "plan/plan.rs -> halls.rs -> plan/plan.rs"]
     );
 }
@@ -201,6 +130,6 @@ fn re_exports_comments_texts_and_tests_make_no_circle() {
         ),
         ("rooms/tests.rs", "use super::all; pub struct Door;"),
     ]);
-    assert_eq!(complaints("", &files, &[]), [""; 0]);
+    assert_eq!(complaints("", &files), [""; 0]);
     assert_eq!(files.types().collect::<Vec<_>>(), [("Door", "rooms/door.rs")]);
 }
