@@ -17,7 +17,7 @@ const UNEXPLORED: f64 = 0.5;
 /// Gives the faces outside the site their category.
 pub(super) fn mark_outside(faces: &mut [FaceAnnotation], subdivision: &Subdivision, categories: FaceCategories) {
     let is_candidate = |face: &FaceAnnotation| {
-        // A face without a cell says nothing about the ground.
+        // A face without a cell is no evidence of unexplored ground.
         let is_unexplored = face.cells > 0 && face.unknown_fraction > UNEXPLORED;
         let is_place = face.kind == Some(PlotKind::Place);
         usize::from(face.category) >= categories.clusters && is_unexplored && !is_place

@@ -8,7 +8,7 @@
 //! Input is rounded to an integer lattice once, noded by iterated snap rounding and linked into a doubly connected edge
 //! list. All decisions are exact integer arithmetic, so no input makes it fail and the order of the input does not
 //! matter. The author's code intersects all pairs symbolically instead and compares tangent angles as floating-point
-//! numbers, which fails for near parallels and coincident lines; [`noding`] says what happens to them here.
+//! numbers, which fails for near parallels and coincident lines; [`noding`] describes what happens to them here.
 //!
 //! Cost: O(n + k log k) for n segments with k crossings spread over the map.
 

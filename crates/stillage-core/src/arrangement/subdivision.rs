@@ -156,7 +156,7 @@ impl Subdivision {
     /// The rings of a face: the outer one counter-clockwise, then the holes clockwise; first points not repeated.
     ///
     /// Rings are simple: a cycle that comes through a vertex twice (a hole that touches the outline, say) is taken
-    /// apart there, as GeoJSON and OGC Simple Features want it.
+    /// apart there, as GeoJSON and OGC Simple Features require.
     #[must_use]
     pub fn rings(&self, face: FaceId) -> Vec<Vec<Point>> {
         let vertices = |&start: &HalfEdgeId| self.cycle(start).map(|half| self.half_edge(half).origin);

@@ -1,4 +1,4 @@
-//! A storage location as an inventory system sees it.
+//! A storage location: its code, place, size, occupancy and access.
 
 use serde::{Deserialize, Serialize};
 
@@ -26,7 +26,7 @@ pub struct ApproachPose {
     pub heading: f64,
 }
 
-/// A storage face as an inventory system sees it.
+/// A storage face with what an inventory system needs of it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Location {
     /// `aisle-bay`, unique in its map, like `03-012`. Locations without access have aisle 0.

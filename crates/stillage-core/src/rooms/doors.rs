@@ -82,3 +82,31 @@ fn near(buckets: &BTreeMap<[i64; 2], Vec<usize>>, [start, end]: [Point; 2]) -> V
 fn bucket(point: Point) -> [i64; 2] {
     [point.x, point.y].map(|side| (side / BUCKET_M).floor() as i64)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::arrangement::{EdgeSource, SourceSegment, arrange};
+    use crate::watch::Watch;
+
+    /// Two rooms of a square of 40 m on either side of its diagonal, which is one edge.
+    #[test]
+    fn a_doorway_within_reach_of_a_long_border_is_a_door() {
+        let corners = [(0.0, 0.0), (40.0, 0.0), (40.0, 40.0), (0.0, 40.0)].map(|(x, y)| Point::new(x, y));
+        let segment = |[start, end]: [usize; 2]| {
+            let [start, end] = [corners[start], corners[end]];
+            SourceSegment { start, end, source: EdgeSource::Boundary }
+        };
+        let segments = [[0, 1], [1, 2], [2, 3], [3, 0], [0, 2]].map(segment);
+        let subdivision = arrange(&segments, &Watch::unwatched()).expect("nobody stops it");
+        let doorway = |along: f64, aside: f64| {
+            let middle = Point::new(along, along) + crate::Vector::new(-aside, aside) / std::f64::consts::SQRT_2;
+            [middle - crate::Vector::new(0.4, 0.0), middle + crate::Vector::new(0.4, 0.0)]
+        };
+        let near = [doorway(0.5, 0.0), doorway(13.3, 0.29), doorway(27.9, -0.29), doorway(39.2, 0.1)];
+        let far = [doorway(13.3, 0.31), doorway(20.0, -0.6), doorway(30.0, 5.0)];
+        let found = find(&[near.as_slice(), far.as_slice()].concat(), &subdivision, &[None, Some(0), Some(1)]);
+        assert_eq!(found.iter().map(|door| door.ends).collect::<Vec<_>>(), near);
+        assert!(found.iter().all(|door| (door.width() - 0.8).abs() < 1e-9 && door.edges.len() == 1));
+    }
+}

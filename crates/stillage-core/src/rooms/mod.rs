@@ -17,8 +17,8 @@
 //! | [`room_cells`], [`room_map`], [`doors`] | the room of every cell; the room of every face, and the edges of every door |
 //! | [`distance_transform`] | the nearest of some cells, and the distance to it |
 //!
-//! The borders are lines of the subdivision, so every room is a union of faces. Which rooms are halls is not decided
-//! here: whoever asks for rooms says so. Cost: O(cells log cells).
+//! The borders are lines of the subdivision, so every room is a union of faces. Which rooms are halls is
+//! given by the caller. Cost: O(cells log cells).
 
 mod borders;
 mod distance_transform;

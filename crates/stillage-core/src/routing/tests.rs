@@ -58,7 +58,7 @@ fn passes_through(start: Point, end: Point, column: usize, row: usize) -> bool {
     leaves - enters > 1e-9
 }
 
-/// Every cell that a path passes through is free and drivable, and the route tells its own length and faces.
+/// Every cell that a path passes through is free and drivable, and the route gives its own length and faces.
 fn check_invariants(map: &DrawnMap, semantic: &SemanticMap, route: &Route) {
     assert!(route.path.len() >= 2);
     for pair in route.path.windows(2) {

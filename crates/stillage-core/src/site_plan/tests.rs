@@ -31,8 +31,8 @@ fn drawn(picture: &str) -> OccupancyGrid {
     OccupancyGrid::new(width, height, frame, (0..width * height).map(cell).collect())
 }
 
-/// A grid of so many columns and rows, told by the centres of its cells, metres.
-fn told(columns: usize, rows: usize, at: impl Fn(Point) -> Occupancy) -> OccupancyGrid {
+/// A grid of some columns and rows; `at` gives the occupancy at the centre of a cell, metres.
+fn grid_of(columns: usize, rows: usize, at: impl Fn(Point) -> Occupancy) -> OccupancyGrid {
     let center = |index: usize| Point::new((index % columns) as f64 + 0.5, (index / columns) as f64 + 0.5) * CELL;
     let frame = GridFrame { resolution: CELL, origin: Point::origin(), yaw: 0.0 };
     OccupancyGrid::new(columns, rows, frame, (0..columns * rows).map(|index| at(center(index))).collect())
@@ -151,7 +151,7 @@ fn furniture_divides_nothing() {
 #[test]
 fn slanted_walls_are_as_good_as_any() {
     let turn = 30_f64.to_radians();
-    let grid = told(400, 400, |center| {
+    let grid = grid_of(400, 400, |center| {
         let offset = center - Point::new(10.0, 10.0);
         let (along, across) = (direction(turn).dot(&offset), normal(turn).dot(&offset));
         let is_wall = (along.abs().max(across.abs()) > 5.9) || (along - 1.0).abs() < 0.1 && (across - 2.0).abs() > 0.5;
@@ -183,7 +183,7 @@ fn grids_without_ground_have_no_rooms() {
 /// Pallets in rows stay rows behind the wall of an office.
 #[test]
 fn an_office_in_the_corner_of_a_hall_is_a_room() {
-    let grid = told(480, 400, |Point { coords }| {
+    let grid = grid_of(480, 400, |Point { coords }| {
         let (x, y) = (coords.x, coords.y);
         let is_wall = |x: f64, y: f64| x < 0.1 || y < 0.1 || x > 23.9 || y > 19.9;
         let in_office = x < 5.0 && y < 4.0;
@@ -210,7 +210,7 @@ fn an_office_in_the_corner_of_a_hall_is_a_room() {
 #[test]
 fn a_bay_behind_a_gate_is_a_room_where_the_hall_is_one() {
     let hall = |has_pallets: bool| {
-        told(600, 400, move |Point { coords }| {
+        grid_of(600, 400, move |Point { coords }| {
             let (x, y) = (coords.x - 6.0, coords.y);
             let is_gate = (11.0..14.0).contains(&y);
             if x < 0.0 {
