@@ -1,8 +1,8 @@
 //! Connected components of cells, as runs along the rows.
 //!
-//! Neighbouring cells of a row are one run; runs that touch those of the row before are joined by union-find (A. Rosenfeld
-//! and J. Pfaltz, *Sequential operations in digital picture processing*, 1966, doi 10.1145/321356.321357, with runs in place
-//! of cells). Components are ordered by their first cells. Cost: O(cells) time, O(runs) memory.
+//! Neighbouring cells of a row are one run; runs that touch those of the row before are joined by union-find (A.
+//! Rosenfeld and J. Pfaltz, *Sequential operations in digital picture processing*, 1966, doi 10.1145/321356.321357,
+//! with runs in place of cells). Components are ordered by their first cells. Cost: O(cells) time, O(runs) memory.
 
 use std::ops::Range;
 
@@ -42,7 +42,8 @@ pub(crate) struct Components {
 }
 
 impl Components {
-    /// The components of the cells for which `is_member` holds (by row-major index), of a grid of `cells` cells in rows of
+    /// The components of the cells for which `is_member` holds (by row-major index), of a grid of `cells` cells in rows
+    /// of
     /// `width`.
     ///
     /// # Errors

@@ -1,8 +1,8 @@
 //! Declutter: single hits and small holes are removed before any stage relies on free space.
 //!
 //! Scanners leave single hits in free space, and one of them would close an aisle for every stage that measures widths.
-//! Size alone does not tell them from structure: a rack post of 0.09 m is one to four cells. So the occupied cells around a
-//! small component decide, and how many components are like it:
+//! Size alone does not tell them from structure: a rack post of 0.09 m is one to four cells. So the occupied cells
+//! around a small component decide, and how many components are like it:
 //!
 //! 1. The rate of speckle is measured on the cleanest tiles of the map, which hold nothing but floor.
 //! 2. A small component is *lone* unless the occupied area around it is more than speckle of that rate would bring. Lone
@@ -13,10 +13,10 @@
 //! 4. Removed cells take the state of the cells around them. Small unknown holes in free space become free; small free
 //!    specks in unknown ground become unknown, so that ground nobody saw stays outside the site.
 //!
-//! Source: the connected-component filters of document analysis (kFill, L. O'Gorman 1992), with the local density in place
-//! of a fixed size, and the false discovery rate (Y. Benjamini and Y. Hochberg 1995, doi
-//! 10.1111/j.2517-6161.1995.tb02031.x) in place of a threshold. Cost: O(cells). Limits: lone posts below three cells are
-//! removed; hits that touch structure stay.
+//! Source: the connected-component filters of document analysis (kFill, L. O'Gorman 1992), with the local density in
+//! place of a fixed size, and the false discovery rate (Y. Benjamini and Y. Hochberg 1995, doi
+//! 10.1111/j.2517-6161.1995.tb02031.x) in place of a threshold. Cost: O(cells). Limits: lone posts below three cells
+//! are removed; hits that touch structure stay.
 
 use serde::{Deserialize, Serialize};
 
@@ -31,10 +31,11 @@ const SMALL_AREA: f64 = 0.02;
 const POST_CELLS: usize = 3;
 /// Least area of a lone component that is kept as a post, square metres: a post of 0.09 m has 0.008.
 const POST_AREA: f64 = 0.006;
-/// Half the side of the square in which occupied cells are counted, metres: the blocks of a pallet are 0.35 to 0.6 m apart.
+/// Half the side of the square in which occupied cells are counted, metres: the blocks of a pallet are 0.35 to 0.6 m
+/// apart.
 const NEIGHBOURHOOD_REACH_M: f64 = 0.5;
-/// Occupied area around a component that is not lone, square metres: two posts, or three blocks of a pallet that are hardly
-/// seen.
+/// Occupied area around a component that is not lone, square metres: two posts, or three blocks of a pallet that are
+/// hardly seen.
 const NEIGHBOUR_AREA: f64 = 0.015;
 /// Poisson deviations by which the cells around must exceed the expected speckle as well.
 /// No measurement is recorded for this value.
@@ -45,7 +46,8 @@ const RATE_TILE_M: f64 = 4.0;
 const RATE_RANK: f64 = 0.2;
 /// Rate below which a map has no speckle, hits per cell: one in 2000.
 const CLEAN_RATE: f64 = 5e-4;
-/// Number of eight-connected shapes of one, two, three and four cells (fixed polyplets): the ways in which hits can touch.
+/// Number of eight-connected shapes of one, two, three and four cells (fixed polyplets): the ways in which hits can
+/// touch.
 const SHAPES: [f64; 4] = [1.0, 4.0, 20.0, 110.0];
 /// Expected speckle above which a class of components is removed, as a share of the class: the majority.
 const SPECKLE_SHARE: f64 = 0.5;

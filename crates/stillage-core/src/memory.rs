@@ -1,7 +1,7 @@
 //! How much memory an analysis needs, estimated before it begins.
 //!
-//! The estimate is the larger of two peaks: while cells get their categories, and while the ground is divided into rooms. At
-//! 20.5 million cells with the default options it is 1,171 MiB; 968 MiB were measured for the whole process.
+//! The estimate is the larger of two peaks: while cells get their categories, and while the ground is divided into
+//! rooms. At 20.5 million cells with the default options it is 1,171 MiB; 968 MiB were measured for the whole process.
 
 use crate::categorization::KEPT_CELLS;
 use crate::features;
@@ -11,11 +11,12 @@ use crate::spec::{AnalysisOptions, CategoryCount, ClusteringMethod};
 /// Memory of the smallest map, bytes: tables, and the working memory of tiles.
 const BASE_BYTES: f64 = 16.0 * 1024.0 * 1024.0;
 
-/// Bytes per cell while cells get their categories: grid, both masks of the sweep, categories, numbers and labels of the
-/// measured cells.
+/// Bytes per cell while cells get their categories: grid, both masks of the sweep, categories, numbers and labels of
+/// the measured cells.
 const BYTES_PER_CELL: f64 = 16.0;
 
-/// Bytes per cell while rooms are found: also the nearest obstacles, the basins of the flood and the frames of the regions.
+/// Bytes per cell while rooms are found: also the nearest obstacles, the basins of the flood and the frames of the
+/// regions.
 const ROOM_BYTES_PER_CELL: f64 = 54.0;
 
 /// Bytes that the analysis of a map of `cells` cells needs at its peak; the estimate is meant to be too high.

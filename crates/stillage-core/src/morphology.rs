@@ -1,8 +1,8 @@
 //! Opening by a square: the cells covered by the squares that fit into a set of cells (G. Matheron, *Random sets and
 //! integral geometry*, 1975).
 //!
-//! An opening is [`fitting_squares`], then [`mark_covered`]. Squares lie along the grid, so each half is one pass over the
-//! cells with running lengths. Cost: O(cells), whatever the side.
+//! An opening is [`fitting_squares`], then [`mark_covered`]. Squares lie along the grid, so each half is one pass over
+//! the cells with running lengths. Cost: O(cells), whatever the side.
 
 use crate::watch::{Stopped, Watch};
 

@@ -1,15 +1,16 @@
 //! Radiography: the occupied cells of a region are projected along its orientations; peaks become lines.
 //!
-//! Source: the paper, II-B "Cell Decomposition". The author's published code (Hann window, peaks of at least 0.15 of the
-//! highest, a least distance between them) gives the defaults, turned into metres.
+//! Source: the paper, II-B "Cell Decomposition". The author's published code (Hann window, peaks of at least 0.15 of
+//! the highest, a least distance between them) gives the defaults, turned into metres.
 //!
-//! Departures: cell centres are projected, each shared between its two nearest bins, where the author rotates the picture,
-//! which blurs it and cuts its corners; and each region is projected by itself, so a line ends where its region ends (II-D
-//! gives the reason). As in the paper a line is otherwise infinite, and its peak is compared with the highest of the
-//! radiogram, even where that is the outer wall of the building: alignments far weaker than a wall are not found.
+//! Departures: cell centres are projected, each shared between its two nearest bins, where the author rotates the
+//! picture, which blurs it and cuts its corners; and each region is projected by itself, so a line ends where its
+//! region ends (II-D gives the reason). As in the paper a line is otherwise infinite, and its peak is compared with the
+//! highest of the radiogram, even where that is the outer wall of the building: alignments far weaker than a wall are
+//! not found.
 //!
-//! Cost: O(cells + occupied cells x orientations + lines x tiles crossed). Limits: alignments closer than the least distance
-//! are one line.
+//! Cost: O(cells + occupied cells x orientations + lines x tiles crossed). Limits: alignments closer than the least
+//! distance are one line.
 
 use serde::{Deserialize, Serialize};
 
@@ -21,8 +22,8 @@ use crate::signal::{self, Boundary, Peak};
 use crate::spec::DecompositionOptions;
 use crate::watch::{Stopped, Watch};
 
-/// Lengths below this count as 0, cells: distances of a line from the border of a region, and intervals and gaps where a
-/// line meets the corner of a tile.
+/// Lengths below this count as 0, cells: distances of a line from the border of a region, and intervals and gaps where
+/// a line meets the corner of a tile.
 const TOLERANCE_CELLS: f64 = 1e-6;
 
 /// Projection of the occupied cells of a region on the normal of an orientation.

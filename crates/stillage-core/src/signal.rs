@@ -200,7 +200,8 @@ pub fn ridge_peaks(values: &[f64], boundary: Boundary, spec: &RidgeSpec) -> Vec<
     bins
 }
 
-/// Continues each ridge whose gap is not too long with its nearest maximum within reach; the other maxima start new ridges.
+/// Continues each ridge whose gap is not too long with its nearest maximum within reach; the other maxima start new
+/// ridges.
 fn follow(ridges: &mut Vec<Ridge>, maxima: &[usize], reach: f64, length: usize, boundary: Boundary, max_gap: usize) {
     let mut taken = vec![false; maxima.len()];
     for ridge in ridges.iter_mut().filter(|ridge| ridge.gap <= max_gap) {

@@ -1,9 +1,9 @@
 //! The ground of the site: all of the map except the unexplored ground that reaches its border.
 //!
-//! Unknown cells behind goods and between racks belong to the site, those around the building do not. The ground outside is
-//! found on a coarse grid, whose cells are known where any of their cells is: a square wider than a place is moved in from
-//! beyond the border, over unknown coarse cells only, and what it covers is outside. So the outside does not enter gaps
-//! between goods. Cost: O(cells).
+//! Unknown cells behind goods and between racks belong to the site, those around the building do not. The ground
+//! outside is found on a coarse grid, whose cells are known where any of their cells is: a square wider than a place is
+//! moved in from beyond the border, over unknown coarse cells only, and what it covers is outside. So the outside does
+//! not enter gaps between goods, nor goods before a wall that is seen only between them. Cost: O(cells).
 
 use crate::components::{Components, Neighbours};
 use crate::grid::{Occupancy, OccupancyGrid};

@@ -1,12 +1,13 @@
 //! The share of each stage in the time of an analysis, estimated before the first stage.
 //!
 //! No fixed shares fit all maps: beams take a third of the time of a small map and two thirds of that of a site of the
-//! paper's size, and options change it as much. So the time of each stage is estimated from the cells of the map and the
-//! options, by the measured rates below. The tests compare the estimate with measured runs.
+//! paper's size, and options change it as much. So the time of each stage is estimated from the cells of the map and
+//! the options, by the measured rates below. The tests compare the estimate with measured runs.
 //!
-//! Rates are nanoseconds on two threads of an AMD EPYC with AVX-512, fitted on 2026-11-28 to the runs in the tests; only
-//! their ratios matter. Limits: the content of a map counts as well (rows, directions, iterations of k-means), so a stage of
-//! a small map may take twice its estimate; with very many lines of the paper's method the arrangement takes longest.
+//! Rates are nanoseconds on two threads of an AMD EPYC with AVX-512, fitted on 2026-11-28 to the runs in the tests;
+//! only their ratios matter. Limits: the content of a map counts as well (rows, directions, iterations of k-means), so
+//! a stage of a small map may take twice its estimate; with very many lines of the paper's method the arrangement takes
+//! longest.
 
 use crate::categorization::{FIT_CELLS, KEPT_CELLS, sampled_share};
 use crate::grid::{Occupancy, OccupancyGrid};
@@ -49,7 +50,8 @@ const RELAXATION: f64 = 8.0;
 const RESTART: f64 = 31.0;
 /// Last run of k-means on the whole sample, for each row and category, ns.
 const LAST_RUN: f64 = 60.0;
-/// One restart of `halmstad2017`, for each row and category, ns: its tolerance is in effect finer and its rows are longer.
+/// One restart of `halmstad2017`, for each row and category, ns: its tolerance is in effect finer and its rows are
+/// longer.
 const HALMSTAD_RESTART: f64 = 90.0;
 /// Rows on which restarts are compared, as a share of the fitted ones.
 const COMPARISON: f64 = 0.1;

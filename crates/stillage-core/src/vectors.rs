@@ -1,9 +1,9 @@
 //! Code compiled several times, for several SIMD widths; the width is chosen when the program runs.
 //!
-//! One x86-64 binary runs on every machine and uses AVX2 or AVX-512 where they are available; elsewhere (aarch64 and others)
-//! the portable path is compiled for the vectors that every such machine has. A [`Kernel`] is ordinary safe code over short
-//! arrays whose length is a parameter. The numbers of an array are never combined with one another, and there is no fused
-//! multiply-add, so every width gives the same bytes.
+//! One x86-64 binary runs on every machine and uses AVX2 or AVX-512 where they are available; elsewhere (aarch64 and
+//! others) the portable path is compiled for the vectors that every such machine has. A [`Kernel`] is ordinary safe
+//! code over short arrays whose length is a parameter. The numbers of an array are never combined with one another, and
+//! there is no fused multiply-add, so every width gives the same bytes.
 
 #![allow(unsafe_code, reason = "calls of functions compiled for features that were just detected: the one place")]
 
@@ -25,7 +25,8 @@ pub trait Kernel {
     /// Its result.
     type Output;
 
-    /// Computes with `SIMD_WIDTH` single precision numbers at a time. It, and every function it calls in inner loops, must be
+    /// Computes with `SIMD_WIDTH` single precision numbers at a time. It, and every function it calls in inner loops,
+    /// must be
     /// `#[inline(always)]`: a function that is not inlined is compiled for the portable path only.
     fn run<const SIMD_WIDTH: usize>(self) -> Self::Output;
 }

@@ -1,8 +1,8 @@
 //! Walls: occupied cells that are connected over many metres.
 //!
-//! Goods and racks are short components or rows of dots. A wall is long, straight and thin, and has more energy than they
-//! have in every projection, so stages that look for the directions of goods leave walls out. Cost: O(cells). Limits: goods
-//! that touch one another over many metres count as walls, so no stage relies on the other cells alone.
+//! Goods and racks are short components or rows of dots. A wall is long, straight and thin, and has more energy than
+//! they have in every projection, so stages that look for the directions of goods leave walls out. Cost: O(cells).
+//! Limits: goods that touch one another over many metres count as walls, so no stage relies on the other cells alone.
 
 use crate::components::{Components, Neighbours};
 use crate::grid::{Occupancy, OccupancyGrid};

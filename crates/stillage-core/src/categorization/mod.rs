@@ -1,13 +1,13 @@
 //! Place categories: features, scaled and clustered (paper, II-A; doi 10.1109/ECMR.2015.7324207).
 //!
-//! A clustering is fitted to the features of a sample of the measured cells. It gives every measured cell a category, part
-//! by part, and memberships where they are asked for; relaxation, an option, brings neighbours to agree. A free cell that
-//! is not measured takes the category of the nearest measured one through free space, or through walls where there is no
-//! other way. Departure: the paper stops at the clusters; here they are numbered by their mean beam length, from the
-//! narrowest places to the widest, so that the same map has the same numbers whatever the seed.
+//! A clustering is fitted to the features of a sample of the measured cells. It gives every measured cell a category,
+//! part by part, and memberships where they are asked for; relaxation, an option, brings neighbours to agree. A free
+//! cell that is not measured takes the category of the nearest measured one through free space, or through walls where
+//! there is no other way. Departure: the paper stops at the clusters; here they are numbered by their mean beam length,
+//! from the narrowest places to the widest, so that the same map has the same numbers whatever the seed.
 //!
-//! Cost: that of the features and of the clustering, and O(cells) for the cells in between. Limits: 32 categories by the
-//! checked options, 253 by the type.
+//! Cost: that of the features and of the clustering, and O(cells) for the cells in between. Limits: 32 categories by
+//! the checked options, 253 by the type.
 
 mod category_map;
 mod parts;
@@ -29,8 +29,8 @@ use spread::spread;
 /// Cells that categories are fitted to: the standard error of a centroid is below half a percent of the standard
 /// deviation of a feature.
 pub(crate) const FIT_CELLS: usize = 200_000;
-/// Movement of the centroids below which k-means ends ([`FitOptions::tolerance`]). With a looser one, thousands of cells
-/// may change their category with the seed.
+/// Movement of the centroids below which k-means ends ([`FitOptions::tolerance`]). With a looser one, thousands of
+/// cells may change their category with the seed.
 const TOLERANCE: f64 = 1e-6;
 /// The same in the author's code, which fits to all cells (the default of scikit-learn).
 const AUTHORS_TOLERANCE: f64 = 1e-4;
@@ -40,8 +40,8 @@ const AUTHORS_TOLERANCE: f64 = 1e-4;
 pub struct Categorization {
     /// The category of every cell.
     pub map: CategoryMap,
-    /// The distribution of every measured cell over the categories; absent where neither a mixture nor a relaxation is asked
-    /// for, so that a cell has its category alone.
+    /// The distribution of every measured cell over the categories; absent where neither a mixture nor a relaxation is
+    /// asked for, so that a cell has its category alone.
     pub memberships: Option<CellMemberships>,
 }
 

@@ -1,8 +1,8 @@
 //! Features part by part: a sample for the clustering, then the label of every cell.
 //!
-//! The features of all cells of a large site would fill a gigabyte, so they never exist together: each part is measured,
-//! labelled and dropped. The parts of the sample are kept until they are labelled, so nothing is measured twice; a map of
-//! up to [`KEPT_CELLS`] is its own sample.
+//! The features of all cells of a large site would fill a gigabyte, so they never exist together: each part is
+//! measured, labelled and dropped. The parts of the sample are kept until they are labelled, so nothing is measured
+//! twice; a map of up to [`KEPT_CELLS`] is its own sample.
 
 use std::ops::Range;
 

@@ -40,8 +40,8 @@ pub(super) fn spread(
     Ok(())
 }
 
-/// Gives every cell that may be entered the category of the nearest source, in chessboard steps; of equally near sources
-/// the first in breadth-first order.
+/// Gives every cell that may be entered the category of the nearest source, in chessboard steps; of equally near
+/// sources the first in breadth-first order.
 fn flood(
     width: usize,
     sources: &[u32],

@@ -112,8 +112,8 @@ pub fn fit(
 
 /// Shares of the time of a fit at which the number of clusters is found, and at which the centroids are found.
 fn parts_of_the_time(options: &FitOptions) -> [f64; 2] {
-    /// Time of the search for the number, and that of a mixture, over that of k-means: measured on 360,000 rows of thirteen
-    /// features.
+    /// Time of the search for the number, and that of a mixture, over that of k-means: measured on 360,000 rows of
+    /// thirteen features.
     const TIMES_K_MEANS: f64 = 7.0;
     let search = if options.count == CategoryCount::Auto { TIMES_K_MEANS } else { 0.0 };
     let mixture = if options.method == Method::KMeans { 0.0 } else { TIMES_K_MEANS };
@@ -121,8 +121,8 @@ fn parts_of_the_time(options: &FitOptions) -> [f64; 2] {
     [search / whole, (search + 1.0) / whole]
 }
 
-/// Fits a mixture from the best centroids and from those of some single runs of k-means, and keeps the likeliest fit: the
-/// best centroids are rarely the best start.
+/// Fits a mixture from the best centroids and from those of some single runs of k-means, and keeps the likeliest fit:
+/// the best centroids are rarely the best start.
 fn fit_mixture(
     points: &Points,
     best: Vec<f32>,

@@ -174,7 +174,8 @@ fn greedy_candidates(k: usize) -> usize {
 }
 
 /// k-means++: each further centroid is a row drawn with a probability in proportion to its squared distance to the
-/// nearest one so far; of several such rows the one that leaves the least inertia. Ends early when every row is a centroid.
+/// nearest one so far; of several such rows the one that leaves the least inertia. Ends early when every row is a
+/// centroid.
 fn first_centroids(points: &Points, k: usize, candidates: usize, random: &mut ChaCha8Rng) -> Vec<f32> {
     let mut centroids: Vec<f32> = points.row(below(points.len(), random)).collect();
     let mut distances = vec![f32::INFINITY; points.len()];
@@ -227,8 +228,8 @@ fn lloyd(
     Ok(KMeansRun { centroids, inertia })
 }
 
-/// Moves each centroid to the mean of its rows, and one without rows to the row that is farthest from its centroid. Gives
-/// the sum of the squared moves of those with rows.
+/// Moves each centroid to the mean of its rows, and one without rows to the row that is farthest from its centroid.
+/// Gives the sum of the squared moves of those with rows.
 fn move_centroids(points: &Points, centroids: &mut [f32], sums: &ClusterSums) -> f64 {
     let mut moved = 0.0;
     let clusters = || centroid_ranges(&sums.counts, points.columns());

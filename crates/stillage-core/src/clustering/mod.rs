@@ -1,9 +1,9 @@
 //! Clustering of rows of numbers: a model is fitted to a sample, then every row is assigned by the model alone.
 //!
 //! [`fit()`] takes a sample (or all rows) and gives a [`PlaceModel`]: the scaling of the columns with the centroids of
-//! k-means, or with a Gaussian mixture. The model is immutable and can be stored. [`PlaceModel::assign`] gives the rows of a
-//! block their clusters, [`PlaceModel::memberships`] their distributions over the clusters. Neither has a state, so blocks
-//! of any size on any number of threads give the same bytes.
+//! k-means, or with a Gaussian mixture. The model is immutable and can be stored. [`PlaceModel::assign`] gives the rows
+//! of a block their clusters, [`PlaceModel::memberships`] their distributions over the clusters. Neither has a state,
+//! so blocks of any size on any number of threads give the same bytes.
 //!
 //! Clusters are numbered by the mean of the first column over the rows they were fitted to: the same whatever the seed.
 

@@ -5,8 +5,8 @@
 //! | centroids | the nearest centroid | in a mixture of equal weights and one spherical variance: the mean squared distance of the fitted rows to their centroid, over the number of columns |
 //! | [`GaussianMixture`] | the greatest membership | in the mixture |
 //!
-//! Ties go to the lower cluster. Correlated columns make the memberships of centroids too certain; full covariances do not
-//! have that defect.
+//! Ties go to the lower cluster. Correlated columns make the memberships of centroids too certain; full covariances do
+//! not have that defect.
 //!
 //! Cost: O(k x columns) per row, x columns again for full covariances. Limits: 255 clusters.
 
@@ -78,8 +78,8 @@ impl PlaceModel {
         self.walk(rows, labels, |_, _, _| ());
     }
 
-    /// The cluster of each row of a block, and its membership in every cluster: [`PlaceModel::len`] numbers of sum 1 for
-    /// each row, the greatest of which is that of its cluster.
+    /// The cluster of each row of a block, and its membership in every cluster: [`PlaceModel::len`] numbers of sum 1
+    /// for each row, the greatest of which is that of its cluster.
     ///
     /// # Panics
     /// When there are not as many labels as rows, or not as many memberships as rows times clusters.

@@ -1,7 +1,7 @@
 //! Scaled rows in the layout of the innermost loops: groups of [`SIMD_WIDTH`] rows, column by column within a group.
 //!
-//! One value of a centroid is compared with [`SIMD_WIDTH`] rows at once, which the compiler turns into vector instructions.
-//! No number depends on the rows in its group, so results are the same for any division into blocks.
+//! One value of a centroid is compared with [`SIMD_WIDTH`] rows at once, which the compiler turns into vector
+//! instructions. No number depends on the rows in its group, so results are the same for any division into blocks.
 
 use super::random::{below, stream};
 use super::scaling::RowScaling;
@@ -35,8 +35,8 @@ impl NearestCentroids {
     }
 }
 
-/// At most `limit` of `available` rows, ascending: one drawn at random from each of `limit` equal intervals, or all of them
-/// where there are no more.
+/// At most `limit` of `available` rows, ascending: one drawn at random from each of `limit` equal intervals, or all of
+/// them where there are no more.
 pub(super) fn sample(available: usize, limit: usize, seed: u64) -> Vec<usize> {
     let count = available.min(limit.max(1));
     let mut random = stream(seed, SAMPLE_STREAM);

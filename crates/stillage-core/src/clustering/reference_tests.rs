@@ -1,6 +1,6 @@
 //! The same rows clustered by scikit-learn 1.9.1: `KMeans(k, n_init=20, tol=1e-6)` and `GaussianMixture(k, tol=1e-4,
-//! reg_covar=1e-2)`, the best of five seeds, on z-scored rows, all else as it comes. Inertia must agree within 1 %; the mean
-//! log-likelihood of a row may be better.
+//! reg_covar=1e-2)`, the best of five seeds, on z-scored rows, all else as it comes. Inertia must agree within 1 %; the
+//! mean log-likelihood of a row may be better.
 
 use super::*;
 use crate::features::FeatureSource;

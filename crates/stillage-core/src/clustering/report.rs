@@ -36,7 +36,8 @@ pub struct MixtureReport {
     pub rows: usize,
     /// Mean logarithm of the density of these rows.
     pub log_likelihood: f64,
-    /// Bayesian information criterion, lower is better. It counts rows as independent, which neighbouring cells are not.
+    /// Bayesian information criterion, lower is better. It counts rows as independent, which neighbouring cells are
+    /// not.
     pub bic: f64,
     /// Iterations of expectation-maximization.
     pub iterations: usize,

@@ -1,8 +1,8 @@
 //! Scaling of the columns, so that they are comparable. It is an option, since it changes clusters more than any other.
 //!
-//! A scaling is fitted once, to the rows that the clusters are fitted to, and is then a part of the model. Scaled values are
-//! not stored. Statistics are sums in double precision over fixed blocks
-//! of rows, combined in order: the same for any number of threads. Cost: O(values), twice for the fit.
+//! A scaling is fitted once, to the rows that the clusters are fitted to, and is then a part of the model. Scaled
+//! values are not stored. Statistics are sums in double precision over fixed blocks of rows, combined in order: the
+//! same for any number of threads. Cost: O(values), twice for the fit.
 
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};

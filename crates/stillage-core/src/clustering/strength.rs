@@ -1,11 +1,11 @@
-//! The number of clusters, by prediction strength: the largest number whose clusters in one half of the rows are found again
-//! in the other half.
+//! The number of clusters, by prediction strength: the largest number whose clusters in one half of the rows are found
+//! again in the other half.
 //!
-//! Source: R. Tibshirani and G. Walther, *Cluster validation by prediction strength* (2005,
-//! doi 10.1198/106186005X59243). Both halves of a sample are clustered. For each cluster of one half, the share of its pairs
-//! of rows is counted that the centroids of the other half put together; the strength is the smallest share. The number of
-//! clusters is the largest of at least [`STRONG`] strength. Departure: the median over both directions of several halvings
-//! is taken, not the mean, since a few outliers spoil some halvings.
+//! Source: R. Tibshirani and G. Walther, *Cluster validation by prediction strength* (2005, doi
+//! 10.1198/106186005X59243). Both halves of a sample are clustered. For each cluster of one half, the share of its
+//! pairs of rows is counted that the centroids of the other half put together; the strength is the smallest share. The
+//! number of clusters is the largest of at least [`STRONG`] strength. Departure: the median over both directions of
+//! several halvings is taken, not the mean, since a few outliers spoil some halvings.
 //!
 //! Compared on 38 maps (26 of offices and flats, 12 of warehouses, three of these generated), thirteen features,
 //! z-scores, 2 to 8 clusters:
@@ -14,15 +14,15 @@
 //! | --- | --- |
 //! | silhouette (to centroids), Calinski-Harabasz, Davies-Bouldin | 2 or 3 on most: open space against narrow space |
 //! | bend of the inertia | 3 or 4 on nearly all: it depends on the range, not on the map |
-//! | Bayesian information criterion of a mixture | not tried: it counts neighbouring cells as independent |
+//! | Bayesian information criterion of a mixture | not tried by itself: it counts neighbouring cells as independent |
 //! | prediction strength | 2 on 1 map, 3 on 3, 4 on 7, 5 on 10, 6 on 7, 7 on 5, 8 on 5 |
 //!
-//! For comparison, the number that agrees best with the true places (V-measure): 5, 5, 5, 2 and 10 on five office maps with
-//! drawn rooms, hallways and doors; 4, 3 and 7 on three generated warehouses.
+//! For comparison, the number that agrees best with the true places (V-measure): 5, 5, 5, 2 and 10 on five office maps
+//! with drawn rooms, hallways and doors; 4, 3 and 7 on three generated warehouses.
 //!
-//! Cost: for each number and halving, k-means on two halves of [`HALF`] rows. Limits: rows of one map are not independent,
-//! so the strength says whether the clusters are stable on this map, not whether another map has them. Where the strength
-//! is near the bound, another seed may find another number, usually one more or less.
+//! Cost: for each number and halving, k-means on two halves of [`HALF`] rows. Limits: rows of one map are not
+//! independent, so the strength says whether the clusters are stable on this map, not whether another map has them.
+//! Where the strength is near the bound, another seed may find another number, usually one more or less.
 
 use super::kmeans::{self, KMeansOptions};
 use super::points::{Points, nearest, sample};
@@ -80,8 +80,8 @@ pub(super) fn choose(candidates: &[Candidate]) -> usize {
     strong.or_else(strongest).map_or(1, |candidate| candidate.k)
 }
 
-/// The smallest share, over the clusters of points, of pairs that other centroids put together; 1 for a cluster of one row
-/// and without centroids.
+/// The smallest share, over the clusters of points, of pairs that other centroids put together; 1 for a cluster of one
+/// row and without centroids.
 fn strength(points: &Points, own: &[f32], others: &[f32]) -> f64 {
     if own.is_empty() || others.is_empty() {
         return 1.0;

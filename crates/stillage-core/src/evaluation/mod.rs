@@ -1,8 +1,8 @@
 //! How well an analysis agrees with the truth of its site: Table III of the paper, made precise.
 //!
 //! Source: the paper, section III-C and Table III, which counts the pallet cells that are detected correctly, with
-//! "systematic" and other errors. Departure: the paper looks at the labels of places; users of places also need each place
-//! to be *one face*, so that is counted as well.
+//! "systematic" and other errors. Departure: the paper looks at the labels of places; users of places also need each
+//! place to be *one face*, so that is counted as well.
 //!
 //! | figure | meaning |
 //! | --- | --- |
@@ -18,9 +18,9 @@
 //! Lax and by area alone mean little: faces that are cut too small pass both. Only places count whose surroundings the
 //! robot saw by half or more; the paper leaves unexplored margins out.
 //!
-//! Areas are those of the polygons, not of cells. [`evaluate`] gives all figures. [`Evaluator`] compares the geometry once;
-//! [`Evaluator::score`] then scores any labels in milliseconds, and [`Evaluator::decision`] gives the decision per category
-//! of a person who knows the truth.
+//! Areas are those of the polygons, not of cells. [`evaluate`] gives all figures. [`Evaluator`] compares the geometry
+//! once; [`Evaluator::score`] then scores any labels in milliseconds, and [`Evaluator::decision`] gives the decision
+//! per category of a person who knows the truth.
 //!
 //! Cost: O(true areas x faces they meet), seconds for a site of 6,000 places. Limits: true areas of one label must not
 //! overlap.

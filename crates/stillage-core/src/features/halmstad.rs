@@ -324,8 +324,8 @@ mod tests {
             ";
         let grid = OccupancyGrid::from_ascii(&picture.replace('x', "."), 1.0);
         let caster = Caster::new(&grid, &options(8, 5.0));
-        // Samples outside the image are moved to its border, so beams there reach the range. The beam straight down runs in
-        // the column beside the cell, since the cosine of three quarters of a turn is rounded below zero.
+        // Samples outside the image are moved to its border, so beams there reach the range. The beam straight down
+        // runs in the column beside the cell, since the cosine of three quarters of a turn is rounded below zero.
         assert_eq!(lengths(&caster, 3 * 7 + 3), [2.0, 2.0, 4.0, 4.0, 4.0, 1.0, 2.0, 4.0]);
     }
 

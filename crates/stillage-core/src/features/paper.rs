@@ -14,12 +14,13 @@
 //! | offset | distance of the end points' mean from the cell |
 //!
 //! Departures from the paper: none known. Where its table leaves a definition open, the author's code and O. Mozos'
-//! definitions decide (differences wrap around as in Mozos). A feature that is no number (PC2 of points on a line) is 0.
+//! definitions decide (differences wrap around as in Mozos). A feature that is no number (PC2 of points on a line) is
+//! 0.
 //!
-//! Method: the sweep gives the beams of a tile direction by direction; each is added to twelve running sums per cell and
-//! not kept. Directions that are swept along columns come first, with rows and columns exchanged, so that the sums are
-//! transposed once and no beam is. Cost: O(cells x beams). Tiles are independent, and no sum depends on the SIMD width, so
-//! the result depends on neither threads nor machine.
+//! Method: the sweep gives the beams of a tile direction by direction; each is added to twelve running sums per cell
+//! and not kept. Directions that are swept along columns come first, with rows and columns exchanged, so that the sums
+//! are transposed once and no beam is. Cost: O(cells x beams). Tiles are independent, and no sum depends on the SIMD
+//! width, so the result depends on neither threads nor machine.
 
 use super::cell_features::CellFeatures;
 use super::paper_sums::{BeamTerms, GROUP, Planes, ScanTerms, TileSums};

@@ -1,7 +1,7 @@
 //! The thirteen features of one cell as functions of twelve sums over its beams.
 //!
-//! With beams `d_0 .. d_(n-1)` (cells), `e_i = d_i - pivot` and `delta_i = d_i - d_(i-1)` around the circle, the sums are
-//! those of `e, e^2, e^3, e^4, |delta|, delta^2`, the perimeter, the gaps, and of `d cos t, d sin t, d^2 cos 2t,
+//! With beams `d_0 .. d_(n-1)` (cells), `e_i = d_i - pivot` and `delta_i = d_i - d_(i-1)` around the circle, the sums
+//! are those of `e, e^2, e^3, e^4, |delta|, delta^2`, the perimeter, the gaps, and of `d cos t, d sin t, d^2 cos 2t,
 //! d^2 sin 2t`. The pivot is any number near the mean: it keeps the powers small, so that single precision is enough
 //! for the kurtosis of nearly round places. The area of the polygon of end points follows from
 //! `d_i d_(i-1) = (d_i^2 + d_(i-1)^2 - delta_i^2) / 2`.
@@ -14,8 +14,8 @@ use crate::raycast::{PLANE_LENGTH, PLANE_PITCH};
 /// Number of sums.
 const SUMS: usize = 12;
 
-/// Standard deviation of beam lengths below which they count as equal and the kurtosis is 0, cells: a grid cannot show a
-/// rounder place.
+/// Standard deviation of beam lengths below which they count as equal and the kurtosis is 0, cells: a grid cannot show
+/// a rounder place.
 const NEARLY_CONSTANT: f64 = 0.01;
 
 /// What the beams of one direction have in common.
@@ -129,8 +129,8 @@ impl TileSums {
         }
     }
 
-    /// Adds consecutive beams (terms and plane of each) of the cells of some groups. Unless `opens`, the first beam follows
-    /// the beam added last.
+    /// Adds consecutive beams (terms and plane of each) of the cells of some groups. Unless `opens`, the first beam
+    /// follows the beam added last.
     #[inline(always)]
     pub(super) fn add<const N: usize>(
         &mut self,

@@ -1,7 +1,7 @@
 //! Arithmetic on a few neighbouring cells at once: short arrays, which compilers turn into vector instructions.
 //!
-//! Plain loops throughout: closures of `array::from_fn` may not be inlined, and code that is not inlined is not compiled
-//! for the wider vectors.
+//! Plain loops throughout: closures of `array::from_fn` may not be inlined, and code that is not inlined is not
+//! compiled for the wider vectors.
 
 use std::ops::{Add, AddAssign, Mul, Sub};
 

@@ -29,8 +29,8 @@ enum Profile<'a> {
 }
 
 impl<'a> FeatureSource<'a> {
-    /// Share of the work, 0 to 1, that is done when the source is ready and no part is measured, if a share `parts` of the
-    /// parts will be.
+    /// Share of the work, 0 to 1, that is done when the source is ready and no part is measured, if a share `parts` of
+    /// the parts will be.
     #[must_use]
     pub fn preparation_share(profile: FeatureProfile, parts: f64) -> f64 {
         match profile {

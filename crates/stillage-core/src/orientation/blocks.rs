@@ -1,10 +1,10 @@
 //! Directions that only a part of a map has.
 //!
-//! The energy of a whole map is a sum of squares, so a hall of another direction beside a few hundred aligned racks stays
-//! far below any threshold. So the map is scanned block by block. A block votes for its best pair of perpendicular
-//! directions if that pair stands out, and far above all known pairs; a pair with enough votes is refined on the blocks
-//! that voted for it. Cost: that of one more scan, since the blocks share the sample. Limits: parts smaller than
-//! [`LEAST_BLOCKS`] blocks are not found.
+//! The energy of a whole map is a sum of squares, so a hall of another direction beside a few hundred aligned racks
+//! stays far below any threshold. So the map is scanned block by block. A block votes for its best pair of
+//! perpendicular directions if that pair stands out, and far above all known pairs; a pair with enough votes is refined
+//! on the blocks that voted for it. Cost: that of one more scan, since the blocks share the sample. Limits: parts
+//! smaller than [`LEAST_BLOCKS`] blocks are not found.
 
 use rayon::prelude::*;
 

@@ -1,7 +1,7 @@
 //! The default method: directions along which the occupied cells are aligned best.
 //!
-//! Racks may be turned against their hall, and its walls have far more energy, so cells that are no wall are searched by
-//! themselves as well, and then blocks of the map ([`blocks`]). Each direction is fitted to the points of its lines
+//! Racks may be turned against their hall, and its walls have far more energy, so cells that are no wall are searched
+//! by themselves as well, and then blocks of the map ([`blocks`]). Each direction is fitted to the points of its lines
 //! ([`slope`]). Cost: that of four scans of [`super::energy`].
 
 use std::f64::consts::PI;

@@ -2,9 +2,9 @@
 //!
 //! Project the occupied cells on the normal of the direction, count them per bin of one cell, and add up the squares:
 //! the sum is largest where walls and racks fall into few bins. The *contrast* of a direction is its energy above the
-//! running median of the neighbouring directions. Source: the accuracy study behind this project; the same idea finds the
-//! skew of scanned pages (W. Postl, *Detection of linear oblique structures and skew scan in digitized documents*, ICPR
-//! 1986). Measured there on 31 maps:
+//! running median of the neighbouring directions. Source: the accuracy study behind this project; the same idea finds
+//! the skew of scanned pages (W. Postl, *Detection of linear oblique structures and skew scan in digitized documents*,
+//! ICPR 1986). Measured in the accuracy study on 31 maps:
 //!
 //! | method | error | missed or invented |
 //! | --- | --- | --- |
@@ -14,8 +14,8 @@
 //! Cells are points jittered inside their cell, since otherwise the pixel grid itself would be the best alignment. The
 //! jitter and the choice of a sample are hashes of the cell's index: the same on every run and any number of threads.
 //!
-//! Cost: O(cells + sample x angles). Limits: the energy of a direction falls about as 1 / error; a scan in steps of 0.25
-//! degrees finds every alignment, one in much wider steps would not.
+//! Cost: O(cells + sample x angles). Limits: the energy of a direction falls about as 1 / error; a scan in steps of
+//! 0.25 degrees finds every alignment, one in much wider steps would not.
 
 use rayon::prelude::*;
 
@@ -286,7 +286,8 @@ impl EnergyScan {
         near.fold(f64::NEG_INFINITY, f64::max)
     }
 
-    /// The maxima of the pair contrast that reach `share` of the highest: both directions of each, strongest pair first.
+    /// The maxima of the pair contrast that reach `share` of the highest: both directions of each, strongest pair
+    /// first.
     #[must_use]
     pub fn pair_peaks(&self, share: f64) -> Vec<f64> {
         let pairs = self.pair_contrasts();

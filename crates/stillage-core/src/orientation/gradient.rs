@@ -1,8 +1,8 @@
 //! Histogram of gradient orientations, weighted by magnitude ("wHOG" in the paper, II-B).
 //!
-//! The picture is 1 where a cell is occupied and 0 elsewhere, so the border of the unknown has no gradient; beyond the grid
-//! the border cells repeat. Gradients are first derivatives of a Gaussian, separable. A row is filtered by adding one
-//! kernel per occupied cell, columns by sums of whole rows, which the compiler vectorizes.
+//! The picture is 1 where a cell is occupied and 0 elsewhere, so the border of the unknown has no gradient; beyond the
+//! grid the border cells repeat. Gradients are first derivatives of a Gaussian, separable. A row is filtered by adding
+//! one kernel per occupied cell, columns by sums of whole rows, which the compiler vectorizes.
 //!
 //! Departure: the author's code blurs twice and takes an 11 x 11 Sobel kernel of the grey picture, all in pixels; here
 //! there is one scale, in metres. Cost: O(cells x kernel). Limits: the standard deviation is limited to 1 to 32 cells.
@@ -66,8 +66,8 @@ where
     Ok(totals)
 }
 
-/// The position among the bins over `[-pi/2, pi/2)` of the line across a gradient: the bin whose centre is the last before
-/// it, and the fraction of the way to the next centre.
+/// The position among the bins over `[-pi/2, pi/2)` of the line across a gradient: the bin whose centre is the last
+/// before it, and the fraction of the way to the next centre.
 fn bin_of_line(along: f32, across: f32, bins: usize) -> (usize, f32) {
     // The line runs along (-across, along); its angle is folded to half a turn and counted from -pi/2.
     let angle = along.atan2(-across) + FRAC_PI_2;

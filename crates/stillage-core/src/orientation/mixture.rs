@@ -1,12 +1,12 @@
 //! Mixture of wrapped normal distributions with a uniform floor, over directions of lines (period pi).
 //!
-//! Source: the paper, II-B: "GMM acts as an aggressive low-pass filter". Fitted by expectation-maximization on the bins of
-//! a histogram; the number of components is that of the least Bayesian information criterion (G. Schwarz, *Estimating the
-//! dimension of a model*, 1978). Only the nearest image of each wrapped normal is counted, exact to 1e-4 for the deviations
-//! allowed here.
+//! Source: the paper, II-B: "GMM acts as an aggressive low-pass filter". Fitted by expectation-maximization on the bins
+//! of a histogram; the number of components is that of the least Bayesian information criterion (G. Schwarz,
+//! *Estimating the dimension of a model*, 1978). Only the nearest image of each wrapped normal is counted, exact to
+//! 1e-4 for the deviations allowed here.
 //!
-//! Cost: O(bins x components) per iteration. Limits: components start at the highest bins, and the result depends on the
-//! start; it is the same on every run.
+//! Cost: O(bins x components) per iteration. Limits: components start at the highest bins, and the result depends on
+//! the start; it is the same on every run.
 
 use std::f64::consts::PI;
 
@@ -14,8 +14,8 @@ use super::bins::angle_at;
 use crate::geometry::fold_half_turn;
 use crate::watch::{Stopped, Watch};
 
-/// Independent observations that the histogram counts for in the criterion (3000 in the accuracy study): the gradients of
-/// neighbouring cells are not independent.
+/// Independent observations that the histogram counts for in the criterion (3000 in the accuracy study): the gradients
+/// of neighbouring cells are not independent.
 const OBSERVATIONS: f64 = 3_000.0;
 /// Parameters of a component: mean, deviation, weight.
 const PARAMETERS: f64 = 3.0;

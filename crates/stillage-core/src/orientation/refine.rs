@@ -11,8 +11,8 @@ use crate::watch::{Stopped, Watch};
 /// strongest false one 0.07.
 const MIN_CONTRAST: f64 = 0.1;
 
-/// The same for a direction perpendicular to a stronger one, which is expected in buildings: the walls across a corridor
-/// of 15 m in `office__halmstad_F5_05` have 0.05.
+/// The same for a direction perpendicular to a stronger one, which is expected in buildings: the walls across a
+/// corridor of 15 m in `office__halmstad_F5_05` have 0.05.
 const MIN_CONTRAST_ACROSS: f64 = 0.03;
 
 /// Largest deviation of such a direction from the perpendicular, degrees: maps of robots are slightly bent.
@@ -28,8 +28,8 @@ const ACROSS_DEG: f64 = 2.0;
 /// | real maps | 50 and more |
 const MIN_DEVIATIONS: f64 = 5.0;
 
-/// Moves each angle to the nearby maximum of the energy, adds the pairs of perpendicular directions that the energy shows,
-/// and keeps those that stand out; strongest first.
+/// Moves each angle to the nearby maximum of the energy, adds the pairs of perpendicular directions that the energy
+/// shows, and keeps those that stand out; strongest first.
 pub(super) fn refine(
     sample: &OccupiedSample,
     angles: &[f64],

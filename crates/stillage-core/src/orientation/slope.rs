@@ -1,9 +1,10 @@
 //! Orientations to hundredths of a degree: one least-squares slope for the points of all sharp lines.
 //!
-//! The energy of a hall hardly changes over a tenth of a degree: a line of 30 m then leaves its bin by one cell only. So
-//! each sharp line of the projection is fitted by least squares, all lines with one slope, those along the direction and
-//! those across it together where the two are perpendicular. Long lines have most weight. The fit is accepted only if the
-//! energy stays nearly the same. Errors on drawn halls: 0.05 degrees by the energy alone, 0.01 by the fit. Cost: O(sample).
+//! The energy of a hall hardly changes over a tenth of a degree: a line of 30 m then leaves its bin by one cell only.
+//! So each sharp line of the projection is fitted by least squares, all lines with one slope, those along the direction
+//! and those across it together where the two are perpendicular. Long lines have most weight. The fit is accepted only
+//! if the energy stays nearly the same. Errors on drawn halls: 0.05 degrees by the energy alone, 0.01 by the fit. Cost:
+//! O(sample).
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -12,16 +13,16 @@ use crate::watch::{Stopped, Watch};
 
 /// Fits in a row; the remaining error falls to a third in each.
 const ITERATIONS: usize = 4;
-/// Least energy of an accepted fit, as a share of the energy before it. Scanned maps keep 0.99; drawings with crooked goods
-/// keep 0.88 to 0.96, and there the energy is right.
+/// Least energy of an accepted fit, as a share of the energy before it. Scanned maps keep 0.99; drawings with crooked
+/// goods keep 0.88 to 0.96, and there the energy is right.
 const KEPT_ENERGY: f64 = 0.98;
 /// Least height of a line above the mean count of a bin, Poisson deviations; 3 to 12 give the same results.
 const DEVIATIONS: f64 = 6.0;
 /// Bins to either side of a maximum that belong to its line: lines are slightly turned and bent.
 const SIDE: usize = 2;
 
-/// The direction near `angle`, radians, of the lines that a sample shows; `is_square` when there are lines across it at a
-/// right angle.
+/// The direction near `angle`, radians, of the lines that a sample shows; `is_square` when there are lines across it at
+/// a right angle.
 ///
 /// # Errors
 /// [`Stopped`] when the watch says so.
@@ -46,7 +47,8 @@ pub(crate) fn fit(sample: &OccupiedSample, angle: f64, is_square: bool, watch: &
     Ok(if after >= KEPT_ENERGY * before { fitted } else { angle })
 }
 
-/// Sums over all sharp lines along a direction, each about its mean: of u v and of u u, with u along the line and v across.
+/// Sums over all sharp lines along a direction, each about its mean: of u v and of u u, with u along the line and v
+/// across.
 fn moments(sample: &OccupiedSample, angle: f64) -> [f64; 2] {
     let (sine, cosine) = angle.sin_cos();
     let place = |&[x, y]: &[f32; 2]| {

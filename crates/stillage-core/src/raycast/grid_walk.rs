@@ -1,5 +1,5 @@
-//! The first pass of the sweep: several directions walk the whole grid and keep the states of their lines at the borders
-//! between tiles.
+//! The first pass of the sweep: several directions walk the whole grid and keep the states of their lines at the
+//! borders between tiles.
 
 use super::directions::{Direction, PHASES};
 use super::lines::Lines;

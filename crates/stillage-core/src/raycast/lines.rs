@@ -1,9 +1,9 @@
 //! The state of many lines of one phase, and their move across a row.
 //!
-//! Along one line, the distance from a row to the next blocking cell is that of the row ahead plus one row, or 0 where a
-//! cell blocks. In every row a line is stopped by the cell that it enters and by the cell that it leaves through (the
-//! supercover of the line), so walls of touching corners stop beams. The move is an addition and two masks over contiguous
-//! numbers, which compilers turn into vector instructions.
+//! Along one line, the distance from a row to the next blocking cell is that of the row ahead plus one row, or 0 where
+//! a cell blocks. In every row a line is stopped by the cell that it enters and by the cell that it leaves through (the
+//! supercover of the line), so walls of touching corners stop beams. The move is an addition and two masks over
+//! contiguous numbers, which compilers turn into vector instructions.
 
 use std::ops::Range;
 
@@ -43,8 +43,8 @@ impl Lines {
         &mut self.states[(number - self.first) as usize..]
     }
 
-    /// Moves some lines across a row of the mask, from the border ahead to the border behind. Up to [`LINES_PER_STEP`] lines
-    /// after them are moved as well; their states are right only outside the grid.
+    /// Moves some lines across a row of the mask, from the border ahead to the border behind. Up to [`LINES_PER_STEP`]
+    /// lines after them are moved as well; their states are right only outside the grid.
     #[inline(always)]
     pub(super) fn cross(&mut self, numbers: &Range<isize>, mask: &Mask, row: usize, crossing: &RowCrossing) {
         let steps = numbers.len().div_ceil(LINES_PER_STEP);

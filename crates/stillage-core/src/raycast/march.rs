@@ -1,9 +1,9 @@
 //! One beam, exactly: the grid traversal of J. Amanatides and A. Woo, *A fast voxel traversal algorithm for ray
 //! tracing* (Eurographics 1987, doi 10.2312/egtp.19871000).
 //!
-//! Departure: a beam through the corner of four cells does not step into one of the two cells beside the corner. It goes
-//! on into the opposite cell, unless that cell or both cells beside the corner stop beams. So diagonal walls of touching
-//! corners stop beams, and a mirrored map has mirrored beams.
+//! Departure: a beam through the corner of four cells does not step into one of the two cells beside the corner. It
+//! goes on into the opposite cell, unless that cell or both cells beside the corner stop beams. So diagonal walls of
+//! touching corners stop beams, and a mirrored map has mirrored beams.
 //!
 //! Cost: O(length of the beam in cells).
 

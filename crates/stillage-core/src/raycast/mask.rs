@@ -12,8 +12,8 @@ pub(super) const LINES_PER_STEP: usize = 32;
 /// Side of the blocks in which a mask is transposed, cells: source and target of a block stay in the first-level cache.
 const TRANSPOSE_BLOCK: usize = 32;
 
-/// Columns on either side of the grid that stop every beam: the lines a tile needs are at most the side of a tile away from
-/// it, and are moved in whole steps.
+/// Columns on either side of the grid that stop every beam: the lines a tile needs are at most the side of a tile away
+/// from it, and are moved in whole steps.
 const MARGIN: usize = TILE + 2 * LINES_PER_STEP;
 
 /// For each cell all bits set where beams pass, none where they stop.

@@ -5,9 +5,10 @@
 //! | [`march()`] | follows one beam exactly, cell by cell: the definition | its length in cells |
 //! | [`Sweep`] | all cells along digital lines within an eighth of a cell of their centres: behind the features | constant |
 //!
-//! Beams start at the centre of a cell, evenly around, the first along x, counter-clockwise. A beam ends where it enters
-//! the first cell that stops it: an occupied cell, an unknown cell if [`BeamOptions::unknown_blocks`], or the end of the
-//! grid. The beams of all cells are never stored together: a sweep gives those of one tile and one direction at a time.
+//! Beams start at the centre of a cell, evenly around, the first along x, counter-clockwise. A beam ends where it
+//! enters the first cell that stops it: an occupied cell, an unknown cell if [`BeamOptions::unknown_blocks`], or the
+//! end of the grid. The beams of all cells are never stored together: a sweep gives those of one tile and one direction
+//! at a time.
 
 mod beams;
 mod directions;

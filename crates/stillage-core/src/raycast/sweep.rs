@@ -1,13 +1,15 @@
 //! The direction sweep: the beams of all cells along digital lines, O(1) per (cell, beam).
 //!
-//! One walk over the rows, against the beam, gives the beam of every cell (see [`super::lines`]). Two passes keep the memory
-//! small. The first ([`Sweep::new`]) walks the whole grid and keeps the states of all lines at the borders between tiles:
-//! [`PHASES`] numbers of two bytes per border cell and beam, 22.5 bytes per cell of the grid for 360 beams. The second
-//! ([`Sweep::cast`]) walks single tiles from those states, in any order and on any thread, with the same result.
+//! One walk over the rows, against the beam, gives the beam of every cell (see [`super::lines`]). Two passes keep the
+//! memory small. The first ([`Sweep::new`]) walks the whole grid and keeps the states of all lines at the borders
+//! between tiles: [`PHASES`] numbers of two bytes per border cell and beam, 22.5 bytes per cell of the grid for 360
+//! beams. The second ([`Sweep::cast`]) walks single tiles from those states, in any order and on any thread, with the
+//! same result.
 //!
-//! Source: own formulation. Cost: O(cells x beams). Limits: the length of a beam is right to a quarter of a row where it
-//! meets a wall head on; along walls and past corners of pillars the nearest line may pass or stop where the exact beam does
-//! not. Tests hold at least 98 % of beams within two cells of the exact ones, and at most 1.2 % more than twenty off.
+//! Source: own formulation. Cost: O(cells x beams). Limits: the length of a beam is right to a quarter of a row where
+//! it meets a wall head on; along walls and past corners of pillars the nearest line may pass or stop where the exact
+//! beam does not. Tests hold at least 98 % of beams within two cells of the exact ones, and at most 1.2 % more than
+//! twenty off.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -90,8 +92,8 @@ impl Sweep {
     }
 
     /// Casts one beam from every measured cell of a tile into `plane` ([`super::PLANE_LENGTH`] numbers), in units of
-    /// [`Sweep::unit`]. Rows of the plane are [`super::PLANE_PITCH`] apart; they are the measured rows of the tile or, if
-    /// [`Sweep::is_transposed`], its measured columns. The numbers of cells that are not free are arbitrary.
+    /// [`Sweep::unit`]. Rows of the plane are [`super::PLANE_PITCH`] apart; they are the measured rows of the tile or,
+    /// if [`Sweep::is_transposed`], its measured columns. The numbers of cells that are not free are arbitrary.
     #[inline(always)]
     pub fn cast(&self, tile: &Tile, beam: usize, scratch: &mut TileScratch, plane: &mut [u16]) {
         let (direction, borders) = (&self.directions[beam], &self.borders[beam]);

@@ -2,8 +2,8 @@
 
 use std::ops::Range;
 
-/// Side of a tile, cells. The planes and sums of a tile take 1.4 MB, about a second-level cache, and grow with the square
-/// of the side; the states at the borders of all tiles shrink with it.
+/// Side of a tile, cells. The planes and sums of a tile take 1.4 MB, about a second-level cache, and grow with the
+/// square of the side; the states at the borders of all tiles shrink with it.
 pub(super) const TILE: usize = 128;
 
 /// Numbers from one row of a plane to the next.

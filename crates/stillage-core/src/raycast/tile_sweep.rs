@@ -105,8 +105,8 @@ impl<'a> SweptTile<'a> {
         }
     }
 
-    /// Reads the beams of the cells of a row: half a row to the border ahead, then along the nearest line. Numbers beyond
-    /// the tile are arbitrary.
+    /// Reads the beams of the cells of a row: half a row to the border ahead, then along the nearest line. Numbers
+    /// beyond the tile are arbitrary.
     #[inline(always)]
     fn read(&self, row: usize, lines: &[Lines; PHASES], lengths: &mut [u16; TILE]) {
         const HALF_ROW: u16 = UNITS_PER_ROW / 2;

@@ -1,12 +1,12 @@
 //! Regions by direction: each tile takes the pair of perpendicular directions that its structure is aligned with.
 //!
-//! Around each tile the occupied cells are projected along every dominant pair of the map, with weights that fall with the
-//! distance; the tile takes the pair with the largest radiogram energy. Source: the accuracy study behind this project
-//! (0.995 to 1.0 of the places in the right region, without a given number of regions).
+//! Around each tile the occupied cells are projected along every dominant pair of the map, with weights that fall with
+//! the distance; the tile takes the pair with the largest radiogram energy. Source: the accuracy study behind this
+//! project (0.995 to 1.0 of the places in the right region, without a given number of regions).
 //!
 //! Departure: walls are left out where there is anything else, since a straight wall has more energy than all the racks
-//! beside it, and racks may be turned against their hall. Tiles without structure take the pair of the nearest tile with
-//! some, so borders run through the middle of aisles.
+//! beside it, and racks may be turned against their hall. Tiles without structure take the pair of the nearest tile
+//! with some, so borders run through the middle of aisles.
 //!
 //! Cost: O(tiles x cells in the window x pairs). Limits: blocks of the same direction are one region.
 
@@ -111,8 +111,8 @@ fn pairs(global: &Orientations) -> Vec<f64> {
     pairs
 }
 
-/// Energy of each pair around each tile that `is_asked` names; `None` where the window holds too little, or nothing near
-/// the tile.
+/// Energy of each pair around each tile that `is_asked` names; `None` where the window holds too little, or nothing
+/// near the tile.
 fn energies(
     grid: &OccupancyGrid,
     tiles: &Tiles,

@@ -1,13 +1,13 @@
 //! Gabor texture: the energy of 5 frequencies x 8 orientations per tile.
 //!
-//! Source: the paper, II-D, after J. Bigun's texture segmentation. The filters are Gaussians in the frequency plane that
-//! touch at half their height, after A. K. Jain and F. Farrokhnia, *Unsupervised texture segmentation using Gabor filters*
-//! (Pattern Recognition 24(12), 1991, doi 10.1016/0031-3203(91)90143-S). The paper gives no wavelengths: here they are in
-//! metres, from the pitch of pallets to two pitches of aisles.
+//! Source: the paper, II-D, after J. Bigun's texture segmentation. The filters are Gaussians in the frequency plane
+//! that touch at half their height, after A. K. Jain and F. Farrokhnia, *Unsupervised texture segmentation using Gabor
+//! filters* (Pattern Recognition 24(12), 1991, doi 10.1016/0031-3203(91)90143-S). The paper gives no wavelengths: here
+//! they are in metres, from the pitch of pallets to two pitches of aisles.
 //!
-//! Method: the picture is the share of occupied cells per pixel of about 0.4 m. One forward transform, then a product and
-//! an inverse transform for each filter. Magnitudes are averaged per tile and smoothed by a Gaussian over the known tiles
-//! only, so that tiles at the border of the map are not mixed with the unknown.
+//! Method: the picture is the share of occupied cells per pixel of about 0.4 m. One forward transform, then a product
+//! and an inverse transform for each filter. Magnitudes are averaged per tile and smoothed by a Gaussian over the known
+//! tiles only, so that tiles at the border of the map are not mixed with the unknown.
 //!
 //! Cost: O(filters x pixels log pixels). Limits: structure finer than two pixels is not seen.
 
@@ -115,8 +115,8 @@ impl Picture {
     }
 }
 
-/// A Gaussian in the frequency plane, on one side of the origin only, so that its response is complex and the magnitude of
-/// the response is smooth.
+/// A Gaussian in the frequency plane, on one side of the origin only, so that its response is complex and the magnitude
+/// of the response is smooth.
 struct GaborFilter {
     /// Centre, cycles per pixel, along `direction`.
     frequency: f32,

@@ -6,12 +6,12 @@
 //! | Gabor (the paper, II-D) | a Gabor bank of 5 frequencies and 8 orientations, principal components, k-means (`texture`) |
 //! | single | the whole map is one region |
 //!
-//! Departures of the Gabor method: texture is clustered per tile instead of per pixel (its energy is smoothed over several
-//! tiles anyway); regions are contiguous sets of tiles instead of the bounding boxes around them, which would overlap (the
-//! box of each is reported); the number of regions need not be given (`patterns`).
+//! Departures of the Gabor method: texture is clustered per tile instead of per pixel (its energy is smoothed over
+//! several tiles anyway); regions are contiguous sets of tiles instead of the bounding boxes around them, which would
+//! overlap (the box of each is reported); the number of regions need not be given (`patterns`).
 //!
-//! Cost of the Gabor method: O(40 pixels log pixels) for the transforms at about 0.4 m per pixel, then O(tiles). Limits: its
-//! border between two regions is right to about half the smoothing length; at most 255 regions.
+//! Cost of the Gabor method: O(40 pixels log pixels) for the transforms at about 0.4 m per pixel, then O(tiles).
+//! Limits: its border between two regions is right to about half the smoothing length; at most 255 regions.
 
 use crate::geometry::OrientedBox;
 use crate::grid::OccupancyGrid;

@@ -1,13 +1,13 @@
 //! How many regions a map has, by the Gabor method: clusters of texture that agree in orientation are one pattern.
 //!
-//! The paper leaves the number of clusters to the user. Texture alone does not give it: k-means splits any map, and tiles
-//! differ most in how full they are. Regions serve to keep the lines of one orientation out of blocks of another (II-D), so
-//! clusters count as different only if their dominant orientations are. For each number of clusters the radiogram energy
-//! of each cluster is scanned; clusters without an orientation are left to their neighbours; clusters that agree are
-//! merged. The number that leaves most patterns is taken, the one of greater sharpness in a tie.
+//! The paper leaves the number of clusters to the user. Texture alone does not give it: k-means splits any map, and
+//! tiles differ most in how full they are. Regions serve to keep the lines of one orientation out of blocks of another
+//! (II-D), so clusters count as different only if their dominant orientations are. For each number of clusters the
+//! radiogram energy of each cluster is scanned; clusters without an orientation are left to their neighbours; clusters
+//! that agree are merged. The number that leaves most patterns is taken, the one of greater sharpness in a tie.
 //!
-//! Orientations are compared as pairs (a direction and its perpendicular). Cost: O(k (sample x angles)) for each number k
-//! of clusters. Limits: two blocks of the same orientation and different pitch are one region.
+//! Orientations are compared as pairs (a direction and its perpendicular). Cost: O(k (sample x angles)) for each number
+//! k of clusters. Limits: two blocks of the same orientation and different pitch are one region.
 
 use super::tiles::{NONE, Tiles};
 use crate::orientation::energy::{EnergyScan, OccupiedSample, pair_angle_between};
@@ -17,12 +17,14 @@ use crate::watch::{Stopped, Watch};
 pub(super) const SAMPLE_CELLS: usize = 60_000;
 /// Fewest sampled cells of a pattern (accuracy study: 60 per window).
 const MIN_CELLS: usize = 60;
-/// Least contrast of a pattern's orientation, as a share of the mean energy: below 0.1 for scattered points, above 1 for
-/// blocks of racks.
+/// Least contrast of a pattern's orientation, as a share of the mean energy: below 0.1 for scattered points, above 1
+/// for blocks of racks.
 const MIN_RELATIVE_CONTRAST: f64 = 0.3;
-/// Orientations that differ by less are the same (modulo a quarter turn), degrees. No measurement is recorded for this value.
+/// Orientations that differ by less are the same (modulo a quarter turn), degrees.
+/// No measurement is recorded for this value.
 const AGREEMENT_DEG: f64 = 2.0;
-/// Two patterns are one if in either of them the other's orientation has at least this share of the contrast of its own.
+/// Two patterns are one if in either of them the other's orientation has at least this share of the contrast of its
+/// own.
 const SHARED_CONTRAST: f64 = 0.5;
 
 /// A division of the tiles into patterns of different orientations.

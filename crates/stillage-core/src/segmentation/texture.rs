@@ -20,8 +20,8 @@ const MOST_COMPONENTS: usize = 8;
 const RESTARTS: usize = 8;
 /// Most iterations of a run of k-means.
 const MAX_ITERATIONS: usize = 100;
-/// Movement of the centroids below which a run ends, as a share of the mean variance ([`KMeansOptions::tolerance`]): far
-/// below the distance between any two tiles.
+/// Movement of the centroids below which a run ends, as a share of the mean variance ([`KMeansOptions::tolerance`]):
+/// far below the distance between any two tiles.
 const TOLERANCE: f64 = 1e-6;
 
 /// The region of each tile.

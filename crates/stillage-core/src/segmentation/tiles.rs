@@ -109,7 +109,8 @@ impl Tiles {
         [below, left, right, above].into_iter().flatten()
     }
 
-    /// Each labelled tile takes the most frequent label of the 3 x 3 tiles around it; in a tie its own, else the lowest.
+    /// Each labelled tile takes the most frequent label of the 3 x 3 tiles around it; in a tie its own, else the
+    /// lowest.
     pub(super) fn majority(&self, labels: &[u8]) -> Vec<u8> {
         let vote = |tile: usize| {
             let (column, row) = (tile % self.columns, tile / self.columns);
@@ -132,8 +133,8 @@ impl Tiles {
     /// Splits labels into contiguous pieces; small pieces take the label of the nearest large one.
     ///
     /// A piece is large when it holds at least `min_share` of the known cells; the largest always is. With `split` each
-    /// large piece becomes a region of its own, else the large pieces of one label are one region. Regions are numbered by
-    /// their first tile.
+    /// large piece becomes a region of its own, else the large pieces of one label are one region. Regions are numbered
+    /// by their first tile.
     pub(super) fn absorb_small_pieces(&self, labels: &[u8], min_share: f64, split: bool) -> Vec<u8> {
         let (piece_of, mut pieces) = self.pieces(labels);
         let total: u64 = self.known.iter().map(|&known| u64::from(known)).sum();

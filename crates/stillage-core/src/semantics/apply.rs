@@ -225,7 +225,8 @@ mod tests {
     use crate::semantics::pictures::DrawnMap;
     use expect_test::{Expect, expect};
 
-    /// Two rows of two pallet places along a corridor that ends in a junction, a wall beyond it, and an unlabelled nook.
+    /// Two rows of two pallet places along a corridor that ends in a junction, a wall beyond it, and an unlabelled
+    /// nook.
     fn corner_of_a_warehouse() -> DrawnMap {
         DrawnMap::new(
             "

@@ -1,7 +1,8 @@
 //! Cogency of edges, connectivity of links, and the rules behind them.
 //!
-//! Source: the paper, section II-C: the functions C(e) and C(l). Departure: the paper writes C(e) down for Table II only.
-//! Here it is derived from any table of labels, and equals the paper's on every pair of labels of Tables II and IV.
+//! Source: the paper, section II-C: the functions C(e) and C(l). Departure: the paper writes C(e) down for Table II
+//! only. Here it is derived from any table of labels, and equals the paper's on every pair of labels of Tables II and
+//! IV.
 
 use serde::{Deserialize, Serialize};
 

@@ -18,6 +18,8 @@ pub(crate) mod pictures;
 mod rule_set;
 mod semantic_map;
 mod suggestion;
+mod traits;
+mod view;
 
 pub use apply::apply;
 pub use assignment::{Assignment, AssignmentProblem};

@@ -117,8 +117,8 @@ impl RuleSet {
     }
 }
 
-// The colours of the paper's Fig. 9 and 10 (junctions yellow, pallet cells green, corridors blue), in the tones of M. Okabe
-// and K. Ito (2008), which readers who confuse red and green can tell apart.
+// The colours of the paper's Fig. 9 and 10 (junctions yellow, pallet cells green, corridors blue), in the tones of M.
+// Okabe and K. Ito (2008), which readers who confuse red and green can tell apart.
 const BLUE: &str = "#56b4e9";
 const YELLOW: &str = "#f0e442";
 const GREEN: &str = "#009e73";

@@ -10,9 +10,9 @@ use super::options::AnalysisOptions;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Preset {
-    /// Every stage as the paper describes it (ECMR 2015, doi 10.1109/ECMR.2015.7324207), on the map as it is: features of
-    /// Table I, k-means, peaks of the gradient histogram, Gabor regions, infinite lines, votes of cells.
-    /// What the paper does not say about k-means is taken from the author's code of 2017.
+    /// Every stage as the paper describes it (ECMR 2015, doi 10.1109/ECMR.2015.7324207), on the map as it is: features
+    /// of Table I, k-means, peaks of the gradient histogram, Gabor regions, infinite lines, votes of cells. What the
+    /// paper does not say about k-means is taken from the author's code of 2017.
     Paper,
     /// The paper with the place categorization of the author's published code of 2017: its beams and its seventeen
     /// features, two categories.

@@ -1,5 +1,5 @@
-//! One component of a mixture, stored as the factor that turns its rows into standard normal ones, so that a density needs
-//! only a sum of squares.
+//! One component of a mixture, stored as the factor that turns its rows into standard normal ones, so that a density
+//! needs only a sum of squares.
 
 use serde::{Deserialize, Serialize};
 

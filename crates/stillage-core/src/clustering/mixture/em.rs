@@ -1,11 +1,11 @@
 //! Expectation-maximization of a Gaussian mixture.
 //!
-//! Starts from clusters (k-means), as scikit-learn does. A share of each column's variance over all rows is added to its
-//! variance in each component, so that no component shrinks to a point. A component of less weight than one row per column
-//! is dropped. Ends when the mean log-likelihood of a row gains less than the tolerance.
+//! Starts from clusters (k-means), as scikit-learn does. A share of each column's variance over all rows is added to
+//! its variance in each component, so that no component shrinks to a point. A component of less weight than one row per
+//! column is dropped. Ends when the mean log-likelihood of a row gains less than the tolerance.
 //!
-//! Sums are taken over fixed blocks of rows and combined in order. Cost: O(rows x k x columns^2) per iteration with full
-//! covariances, O(rows x k x columns) with diagonal ones.
+//! Sums are taken over fixed blocks of rows and combined in order. Cost: O(rows x k x columns^2) per iteration with
+//! full covariances, O(rows x k x columns) with diagonal ones.
 
 use nalgebra::{Cholesky, DMatrix};
 use rayon::prelude::*;
@@ -16,9 +16,9 @@ use crate::clustering::points::{GROUPS_PER_BLOCK, Points, SIMD_WIDTH, nearest};
 use crate::spec::Covariance;
 use crate::watch::{Stopped, Watch};
 
-/// Share of a column's variance over all rows that is added to its variance in each component. A category narrower than a
-/// hundredth of the variance of the map is an artefact of the grid. (scikit-learn adds 1e-6, against singular matrices
-/// only.)
+/// Share of a column's variance over all rows that is added to its variance in each component. A category narrower than
+/// a hundredth of the variance of the map is an artefact of the grid. (scikit-learn adds 1e-6, against singular
+/// matrices only.)
 pub(in crate::clustering) const REGULARIZATION: f64 = 1e-2;
 
 /// Gain in mean log-likelihood of a row below which a fit ends (scikit-learn: 1e-3).
