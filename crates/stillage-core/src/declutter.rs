@@ -5,11 +5,11 @@
 //! around a small component decide, and how many components are like it:
 //!
 //! 1. The rate of speckle is measured on the cleanest tiles of the map, which hold nothing but floor.
-//! 2. A small component is *lone* unless the occupied area around it is more than speckle of that rate would bring. Lone
-//!    components are removed, except large ones (posts).
-//! 3. The others are classed by size and surroundings. Speckle of the rate would bring a known number of each class; where
-//!    that is most of the class, the whole class is removed. So hits on the floor before a rack are removed, and the legs at
-//!    the border of what the scanner saw are not.
+//! 2. A small component is *lone* unless the occupied area around it is more than speckle of that rate would bring.
+//!    Lone components are removed, except large ones (posts).
+//! 3. The others are classed by size and surroundings. Speckle of the rate would bring a known number of each class;
+//!    where that is most of the class, the whole class is removed. So hits on the floor before a rack are removed, and
+//!    the legs at the border of what the scanner saw are not.
 //! 4. Removed cells take the state of the cells around them. Small unknown holes in free space become free; small free
 //!    specks in unknown ground become unknown, so that ground nobody saw stays outside the site.
 //!

@@ -5,14 +5,15 @@
 //! continuous wavelet transform of narrow scales.
 //!
 //! Departures, each for a measured defect of the author's published code:
-//! - The histogram is folded to half a turn and circular throughout, so an orientation is found once and the ends of the
-//!   signal join.
-//! - The number of components is chosen by the Bayesian information criterion, and a uniform floor takes the cells without
-//!   orientation.
-//! - With `refine` (the default), radiogram energy ([`super::energy`]) corrects the peaks: they move to the nearby maximum of
-//!   the energy (one bin of 0.2 degrees would be 0.7 m across a hall of 190 m), those without contrast are dropped, and pairs
-//!   of perpendicular directions that only the energy shows are added. Gradients of stairs and dots gather at the directions
-//!   of the pixel grid, and the histogram of maps of pallet footprints is flat; the energy has neither defect.
+//! - The histogram is folded to half a turn and circular throughout, so an orientation is found once and the ends of
+//!   the signal join.
+//! - The number of components is chosen by the Bayesian information criterion, and a uniform floor takes the cells
+//!   without orientation.
+//! - With `refine` (the default), radiogram energy ([`super::energy`]) corrects the peaks: they move to the nearby
+//!   maximum of the energy (one bin of 0.2 degrees would be 0.7 m across a hall of 190 m), those without contrast are
+//!   dropped, and pairs of perpendicular directions that only the energy shows are added. Gradients of stairs and dots
+//!   gather at the directions of the pixel grid, and the histogram of maps of pallet footprints is flat; the energy has
+//!   neither defect.
 //!
 //! Cost: O(cells x kernel) for the gradients; the other steps do not depend on the size of the map. Limits: without
 //! `refine` directions are biased towards the pixel grid.

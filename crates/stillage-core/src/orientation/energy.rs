@@ -262,7 +262,8 @@ impl EnergyScan {
     /// Standard deviation that the energy would have if the cells were scattered at random.
     ///
     /// For bins that hold a Poisson number of cells with mean `l`, the sum of squares over `b` bins has the variance
-    /// `b (4 l^3 + 6 l^2 + l)`; the mean energy is `l` to `l + 1`. Several points per cell smooth most of the noise away.
+    /// `b (4 l^3 + 6 l^2 + l)`; the mean energy is `l` to `l + 1`. Several points per cell smooth most of the noise
+    /// away.
     #[must_use]
     pub fn noise(&self, sample: &OccupiedSample) -> f64 {
         let per_bin = self.mean_energy();

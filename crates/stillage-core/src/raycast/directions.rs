@@ -2,9 +2,9 @@
 //!
 //! A direction is swept across the *rows* of a mask: grid rows for beams steeper than 45 degrees, grid columns (rows of
 //! the transposed mask) for the others, so a line moves by at most one column per row. With cells `[c, c + 1)` and rows
-//! `[r, r + 1)`, the lines are `x(y) = slope y + i + p / 4` for integers `i` and phases `p` in 0..4. Neighbouring lines are
-//! a quarter of a column apart, so some line passes within an eighth of a column of every cell's centre. Positions are
-//! in fixed point: crossings are exact and the same on every machine.
+//! `[r, r + 1)`, the lines are `x(y) = slope y + i + p / 4` for integers `i` and phases `p` in 0..4. Neighbouring lines
+//! are a quarter of a column apart, so some line passes within an eighth of a column of every cell's centre. Positions
+//! are in fixed point: crossings are exact and the same on every machine.
 
 use super::beams::beam_direction;
 

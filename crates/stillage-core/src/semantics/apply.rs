@@ -162,8 +162,8 @@ fn no_such(what: &str, id: u32, valid: std::ops::Range<usize>, pointer: String) 
 /// Joins faces into places, and numbers the results by their smallest face.
 ///
 /// - A room is one place, whatever labels its faces have; its label is that of most of its area.
-/// - Elsewhere faces of one label are joined over connected links. Obstacles along an edge divide drivable places. Between
-///   two storage faces the obstacles are the goods, so a block of storage stays one place.
+/// - Elsewhere faces of one label are joined over connected links. Obstacles along an edge divide drivable places.
+///   Between two storage faces the obstacles are the goods, so a block of storage stays one place.
 /// - Unidentified faces outside rooms belong to no place.
 fn merge_places(
     analysis: &Analysis,
