@@ -26,6 +26,8 @@ pub mod stage_clock;
 
 pub mod app;
 
+pub mod views;
+
 pub mod http;
 pub mod server;
 

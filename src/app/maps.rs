@@ -5,7 +5,7 @@ use uuid::Uuid;
 use super::service::RETRY_AFTER_S;
 use super::{App, AppError, Caller, JobRecord, MapPatch, MapRecord, NewMap};
 use crate::blocking::off_the_runtime;
-use crate::coordinates::Georeference;
+use crate::coordinates::{Georeference, OutOfRange};
 use crate::ingest::{self, DecodedMap, MapSource};
 use crate::jobs::processes::AnalysisProcess;
 use crate::store::{Blob, IdempotencyKey, NewMapRow, Upload, now};
@@ -165,16 +165,6 @@ fn check_name(name: &str) -> Result<(), AppError> {
 }
 
 fn check_georeference(georeference: Option<&Georeference>) -> Result<(), AppError> {
-    let Some(Georeference { lon, lat, heading }) = georeference else { return Ok(()) };
-    if !(-180.0..=180.0).contains(lon) {
-        return Err(AppError::invalid("/georeference/lon", format!("{lon} is outside -180 to 180 degrees")));
-    }
-    // Beyond, the Web Mercator plane in which maps are drawn ends.
-    if !(-85.0..=85.0).contains(lat) {
-        return Err(AppError::invalid("/georeference/lat", format!("{lat} is outside -85 to 85 degrees")));
-    }
-    if !(-360.0..=360.0).contains(heading) {
-        return Err(AppError::invalid("/georeference/heading", format!("{heading} is outside -360 to 360 degrees")));
-    }
-    Ok(())
+    let wrong = |OutOfRange { member, detail }| AppError::invalid(&format!("/georeference/{member}"), detail);
+    georeference.map_or(Ok(()), |georeference| georeference.check().map_err(wrong))
 }

@@ -11,8 +11,8 @@ use stillage_core::watch::Watch;
 use super::failure::Failure;
 use super::progress::ProgressDisplay;
 use super::{computation, input};
-use crate::http::EvaluationView;
 use crate::ingest;
+use crate::views::evaluation::EvaluationView;
 
 /// Arguments of `stillage evaluate`.
 #[derive(Debug, clap::Args)]

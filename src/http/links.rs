@@ -6,9 +6,9 @@ use std::fmt::Write as _;
 use axum::extract::FromRequestParts;
 use axum::http::request::Parts;
 use axum::http::uri::Authority;
-use axum::http::{HeaderValue, header};
-use serde::Serialize;
-use utoipa::ToSchema;
+use axum::http::{HeaderValue, header as headers};
+
+use crate::views::link::Link;
 
 /// JSON.
 pub const JSON: &str = "application/json";
@@ -23,37 +23,11 @@ pub const SVG: &str = "image/svg+xml";
 /// An OpenAPI 3.1 document.
 pub const OPENAPI: &str = "application/vnd.oai.openapi+json;version=3.1";
 
-/// A link to another resource.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, ToSchema)]
-pub struct Link {
-    /// Where it leads.
-    #[schema(format = "uri")]
-    pub href: String,
-    /// How the target relates to this resource.
-    #[schema(example = "self")]
-    pub rel: &'static str,
-    /// Media type of the target.
-    #[schema(example = "application/json")]
-    pub r#type: &'static str,
-    /// The target, for people.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub title: Option<&'static str>,
-}
-
-impl Link {
-    /// Names the target for people.
-    #[must_use]
-    pub const fn titled(mut self, title: &'static str) -> Self {
-        self.title = Some(title);
-        self
-    }
-
-    /// The link as the value of a `Link` header (RFC 8288).
-    #[must_use]
-    pub fn header(&self) -> HeaderValue {
-        let text = format!("<{}>; rel=\"{}\"; type=\"{}\"", self.href, self.rel, self.r#type);
-        HeaderValue::try_from(text).expect("addresses are percent-encoded")
-    }
+/// A link as the value of a `Link` header (RFC 8288).
+#[must_use]
+pub fn header(link: &Link) -> HeaderValue {
+    let text = format!("<{}>; rel=\"{}\"; type=\"{}\"", link.href, link.rel, link.r#type);
+    HeaderValue::try_from(text).expect("addresses are percent-encoded")
 }
 
 /// Scheme and authority of the service as the client sees it: the `Host` header, and the scheme that a proxy in front
@@ -74,8 +48,8 @@ impl<S: Sync> FromRequestParts<S> for Base {
 
     async fn from_request_parts(parts: &mut Parts, _: &S) -> Result<Self, Infallible> {
         let text = |name| parts.headers.get(name).and_then(|value: &HeaderValue| value.to_str().ok());
-        let authority = text(header::HOST).or_else(|| parts.uri.authority().map(Authority::as_str));
-        let scheme = match text(header::HeaderName::from_static("x-forwarded-proto")) {
+        let authority = text(headers::HOST).or_else(|| parts.uri.authority().map(Authority::as_str));
+        let scheme = match text(headers::HeaderName::from_static("x-forwarded-proto")) {
             Some("https") => "https",
             _ => "http",
         };
@@ -113,6 +87,6 @@ mod tests {
     #[test]
     fn a_link_is_a_header_too() {
         let link = Base("http://robots:8080".into()).link("next", "/v1/maps?after=1", JSON);
-        assert_eq!(link.header(), "<http://robots:8080/v1/maps?after=1>; rel=\"next\"; type=\"application/json\"");
+        assert_eq!(header(&link), "<http://robots:8080/v1/maps?after=1>; rel=\"next\"; type=\"application/json\"");
     }
 }

@@ -14,8 +14,8 @@ mod guard;
 mod links;
 mod maps;
 mod ogc;
+mod paging;
 mod problem;
-mod views;
 
 use std::sync::Arc;
 
@@ -33,8 +33,6 @@ use utoipa_axum::router::{OpenApiRouter, UtoipaMethodRouterExt};
 use utoipa_axum::routes;
 
 use crate::app::App;
-
-pub use maps::evaluations::EvaluationView;
 
 /// Bytes that a body may have where nothing else is said: overrides for a hundred thousand faces.
 const BODY_BYTES: usize = 8 << 20;
@@ -123,7 +121,7 @@ pub fn router(app: Arc<App>) -> Router {
         .layer(from_fn(extract::negotiation::negotiate))
         .layer(DefaultBodyLimit::max(BODY_BYTES))
         .layer(Extension(metrics))
-        .layer(Extension(docs::Document(docs::openapi::write(&document).into())));
+        .layer(Extension(docs::Document::new(docs::openapi::write(&document))));
     router
         // Clients that take a map for the root of an API ask for it with a slash.
         .route("/v1/maps/{mapId}/", get(maps::map::get).layer(from_fn(guard::in_time)))

@@ -12,7 +12,8 @@ use utoipa::ToSchema;
 use utoipa_swagger_ui::{Config, SwaggerUi};
 
 use crate::http::extract::conditional::{EntityTag, IfNoneMatch};
-use crate::http::links::{Base, JSON, Link, OPENAPI};
+use crate::http::links::{Base, JSON, OPENAPI};
+use crate::views::link::Link;
 
 /// The front door.
 #[derive(Debug, Serialize, ToSchema)]
@@ -45,9 +46,22 @@ pub async fn landing(base: Base) -> Json<LandingPage> {
     })
 }
 
-/// The OpenAPI document, written once.
+/// The OpenAPI document, written once, with its tag.
 #[derive(Debug, Clone)]
-pub struct Document(pub Bytes);
+pub struct Document {
+    bytes: Bytes,
+    tag: EntityTag,
+}
+
+impl Document {
+    /// The document in these bytes.
+    #[must_use]
+    pub fn new(bytes: impl Into<Bytes>) -> Self {
+        let bytes = bytes.into();
+        let tag = EntityTag::of_content(&[&blake3::hash(&bytes).to_hex()]);
+        Self { bytes, tag }
+    }
+}
 
 /// OpenAPI document
 ///
@@ -57,8 +71,8 @@ pub struct Document(pub Bytes);
         content_type = "application/vnd.oai.openapi+json;version=3.1",
         headers(("ETag" = String, description = "Changes with the document")))))]
 pub async fn openapi(axum::Extension(document): axum::Extension<Document>, if_none_match: IfNoneMatch) -> Response {
-    let tag = EntityTag::of_content(&[&blake3::hash(&document.0).to_hex()]);
-    tag.answer(&if_none_match, || ([(axum::http::header::CONTENT_TYPE, OPENAPI)], document.0).into_response())
+    let Document { bytes, tag } = document;
+    tag.answer(&if_none_match, || ([(axum::http::header::CONTENT_TYPE, OPENAPI)], bytes).into_response())
 }
 
 /// The reference page at `/docs/`: swagger-ui, built into the program.

@@ -7,7 +7,6 @@ pub mod crs;
 pub mod negotiation;
 
 use std::error::Error;
-use std::fmt;
 
 use axum::body::Bytes;
 use axum::extract::rejection::{BytesRejection, JsonRejection};
@@ -15,11 +14,11 @@ use axum::extract::{FromRequest, FromRequestParts, Request};
 use axum::http::request::Parts;
 use axum::http::{HeaderMap, StatusCode, header};
 use serde::de::DeserializeOwned;
-use serde::{Deserialize, Deserializer, Serialize};
-use utoipa::{IntoParams, ToSchema};
-use uuid::Uuid;
+use serde::{Deserialize, Deserializer};
+use utoipa::IntoParams;
 
 use crate::http::problem::{Problem, ProblemType};
+use crate::views::id::Id;
 
 /// Typed path parameters: an id that cannot be valid names nothing, so it is a 404.
 #[derive(Debug)]
@@ -33,34 +32,6 @@ impl<S: Send + Sync, T: DeserializeOwned + Send> FromRequestParts<S> for Path<T>
         let axum::extract::Path(value) =
             path.map_err(|_| Problem::not_found(format!("there is nothing at {}", parts.uri.path())))?;
         Ok(Self(value))
-    }
-}
-
-/// The id of a map, analysis or job.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
-#[serde(try_from = "String", into = "String")]
-#[schema(value_type = String, format = "uuid", example = "019ab3c2-5d10-7c41-9a53-0242ac120002")]
-pub struct Id(pub Uuid);
-
-impl TryFrom<String> for Id {
-    type Error = &'static str;
-
-    fn try_from(text: String) -> Result<Self, Self::Error> {
-        // Only the hyphenated form: each resource has one address.
-        let id = Uuid::try_parse(&text).ok().filter(|_| text.len() == 36);
-        id.map(Self).ok_or("must be a UUID")
-    }
-}
-
-impl From<Id> for String {
-    fn from(id: Id) -> Self {
-        id.0.to_string()
-    }
-}
-
-impl fmt::Display for Id {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.0.fmt(formatter)
     }
 }
 
@@ -240,21 +211,6 @@ pub fn present<'de, D: Deserializer<'de>, T: Deserialize<'de>>(deserializer: D) 
     Option::deserialize(deserializer).map(Some)
 }
 
-/// A name for people: 1 to 200 characters, no control characters.
-#[derive(Debug, Clone, PartialEq, Eq, Deserialize, ToSchema)]
-#[serde(try_from = "String")]
-#[schema(value_type = String, min_length = 1, max_length = 200, pattern = r"^[^\x00-\x1f\x7f-\x9f]{1,200}$", example = "Hall 3")]
-pub struct Name(pub String);
-
-impl TryFrom<String> for Name {
-    type Error = &'static str;
-
-    fn try_from(text: String) -> Result<Self, Self::Error> {
-        let fits = !text.trim().is_empty() && text.chars().count() <= 200 && !text.chars().any(char::is_control);
-        if fits { Ok(Self(text)) } else { Err("must have 1 to 200 characters, none of them a control character") }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use std::collections::BTreeMap;
@@ -305,12 +261,5 @@ mod tests {
         let problem = paging("limit=0").await.expect_err("is refused");
         assert_eq!(problem.errors()[0].parameter.as_deref(), Some("limit"));
         assert_eq!(problem.errors()[0].detail, "must be a whole number from 1 to 1000");
-    }
-
-    #[test]
-    fn an_id_has_one_spelling() {
-        assert!(Id::try_from("019ab3c2-5d10-7c41-9a53-0242ac120002".to_owned()).is_ok());
-        assert!(Id::try_from("019ab3c25d107c419a530242ac120002".to_owned()).is_err());
-        assert!(Id::try_from("{019ab3c2-5d10-7c41-9a53-0242ac120002}".to_owned()).is_err());
     }
 }

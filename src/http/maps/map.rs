@@ -6,67 +6,28 @@ use axum::Json;
 use axum::extract::{Request, State};
 use axum::http::{HeaderValue, StatusCode, header};
 use axum::response::{IntoResponse, Response};
-use jiff::Timestamp;
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 use utoipa::{IntoParams, ToSchema};
 
 use super::{pictures, upload};
 use crate::app::{App, Caller, MapPatch, MapRecord};
 use crate::http::docs::refusals::{NoSpace, NotFound};
 use crate::http::extract::conditional::{EntityTag, IfMatch, IfNoneMatch};
-use crate::http::extract::{Id, JsonBody, MapPath, Name, Paging, Path, Query, present};
-use crate::http::links::{Base, JSON, Link};
-use crate::http::ogc::jobs::JobView;
+use crate::http::extract::{JsonBody, MapPath, Paging, Path, Query, present};
+use crate::http::links::{Base, JSON, header as link_header};
+use crate::http::ogc::jobs;
+use crate::http::paging::cut;
 use crate::http::problem::Problem;
-use crate::http::views::{DiagnosticView, GeoreferenceView, cut};
+use crate::views::georeference::GeoreferenceView;
+use crate::views::job::JobView;
+use crate::views::link::Link;
+use crate::views::map::{MapList, MapView};
+use crate::views::name::Name;
+use crate::views::occupancy_grid::OccupancyGridMessage;
 
-/// A map: its landing page.
-#[derive(Debug, Serialize, ToSchema)]
-#[schema(as = Map)]
-#[serde(rename_all = "camelCase")]
-pub struct MapView {
-    id: Id,
-    /// Name for people.
-    name: String,
-    #[schema(value_type = String, format = DateTime)]
-    created: Timestamp,
-    #[schema(value_type = String, format = DateTime)]
-    updated: Timestamp,
-    /// Columns of the grid.
-    width: u32,
-    /// Rows of the grid.
-    height: u32,
-    /// Side of a cell, metres.
-    resolution_m: f64,
-    georeference: GeoreferenceView,
-    /// The analysis that answers; absent until the first one is finished.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    analysis_id: Option<Id>,
-    /// Remarks of the upload.
-    warnings: Vec<DiagnosticView>,
-    /// Raised with every change; the `ETag`.
-    version: u64,
-    links: Vec<Link>,
-}
-
-impl MapView {
-    fn new(base: &Base, map: MapRecord) -> Self {
-        let links = map_links(base, &map);
-        Self {
-            id: Id(map.id),
-            name: map.name,
-            created: map.created,
-            updated: map.updated,
-            width: map.width,
-            height: map.height,
-            resolution_m: map.resolution,
-            georeference: GeoreferenceView::of(map.georeference),
-            analysis_id: map.analysis.map(Id),
-            warnings: map.warnings.iter().map(Into::into).collect(),
-            version: map.version,
-            links,
-        }
-    }
+fn view(base: &Base, map: MapRecord) -> MapView {
+    let links = map_links(base, &map);
+    MapView::new(map, links)
 }
 
 /// Everything below a map.
@@ -85,14 +46,6 @@ fn map_links(base: &Base, map: &MapRecord) -> Vec<Link> {
     links.extend(pictures::NAMES.map(|(name, kind, title)| to("preview", &format!("/{name}"), kind).titled(title)));
     links.push(base.link("up", "/v1/maps", JSON));
     links
-}
-
-/// A page of maps.
-#[derive(Debug, Serialize, ToSchema)]
-#[serde(rename_all = "camelCase")]
-pub struct MapList {
-    maps: Vec<MapView>,
-    links: Vec<Link>,
 }
 
 /// Parameters of an upload.
@@ -130,7 +83,7 @@ pub async fn create(
 ) -> Result<Response, Problem> {
     let map = upload::read(request, &app, query.name, &app.config().limits).await?;
     let (job, is_new) = app.create_map(&caller, map).await?;
-    let mut response = JobView::accepted(&base, job);
+    let mut response = jobs::accepted(&base, job);
     if !is_new {
         response.headers_mut().insert("idempotent-replayed", HeaderValue::from_static("true"));
     }
@@ -153,9 +106,9 @@ pub async fn list(
     let (maps, more) = cut(app.maps(&caller, limit + 1, paging.after.map(|id| id.0)).await?, limit);
     let next = maps.last().filter(|_| more).map(|last| format!("/v1/maps?limit={limit}&after={}", last.id));
     let next = next.map(|path| base.link("next", &path, JSON));
-    let headers: axum::http::HeaderMap = next.iter().map(|link| (header::LINK, link.header())).collect();
+    let headers: axum::http::HeaderMap = next.iter().map(|link| (header::LINK, link_header(link))).collect();
     let links = std::iter::once(base.link("self", "/v1/maps", JSON)).chain(next).collect();
-    let maps = maps.into_iter().map(|map| MapView::new(&base, map)).collect();
+    let maps = maps.into_iter().map(|map| view(&base, map)).collect();
     Ok((headers, Json(MapList { maps, links })).into_response())
 }
 
@@ -174,7 +127,7 @@ pub async fn get(
     if_none_match: IfNoneMatch,
 ) -> Result<Response, Problem> {
     let map = app.map(&caller, path.map_id.0).await?;
-    Ok(EntityTag::of_version(map.version).answer(&if_none_match, || Json(MapView::new(&base, map)).into_response()))
+    Ok(EntityTag::of_version(map.version).answer(&if_none_match, || Json(view(&base, map)).into_response()))
 }
 
 /// Changes to a map, as a JSON merge patch (RFC 7396).
@@ -209,7 +162,7 @@ pub async fn update(
 ) -> Result<Response, Problem> {
     let id = path.map_id.0;
     let georeference = match body.georeference {
-        Some(Some(georeference)) => Some(georeference.check("/georeference")?),
+        Some(Some(georeference)) => Some(upload::stored(georeference)?),
         Some(None) => Some(None),
         None => None,
     };
@@ -218,7 +171,7 @@ pub async fn update(
     let patch = MapPatch { name: body.name.map(|name| name.0), georeference };
     let map = app.update_map(&caller, id, patch, if_match).await?;
     let tag = [(header::ETAG, EntityTag::of_version(map.version).header())];
-    Ok((tag, Json(MapView::new(&base, map))).into_response())
+    Ok((tag, Json(view(&base, map))).into_response())
 }
 
 /// Delete a map
@@ -234,34 +187,4 @@ pub async fn delete(
 ) -> Result<StatusCode, Problem> {
     app.delete_map(&caller, path.map_id.0).await?;
     Ok(StatusCode::NO_CONTENT)
-}
-
-/// A `nav_msgs/OccupancyGrid` message, for the document: it is read by [`crate::ingest`].
-#[derive(Debug, ToSchema)]
-#[allow(dead_code, reason = "it describes the message")]
-pub struct OccupancyGridMessage {
-    /// Frame and time; not used.
-    header: Option<serde_json::Value>,
-    info: OccupancyGridInfo,
-    /// Cells, row-major from the lower left corner: -1 unknown, 0 free to 100 occupied.
-    #[schema(example = json!([0, 100, 0, -1]))]
-    data: Vec<i8>,
-}
-
-/// `nav_msgs/MapMetaData`
-#[derive(Debug, ToSchema)]
-#[allow(dead_code, reason = "it describes the message")]
-pub struct OccupancyGridInfo {
-    /// Side of a cell, metres.
-    #[schema(exclusive_minimum = 0, example = 0.05)]
-    resolution: f64,
-    /// Columns.
-    #[schema(minimum = 1, example = 2)]
-    width: u32,
-    /// Rows.
-    #[schema(minimum = 1, example = 2)]
-    height: u32,
-    /// Pose of the lower left corner: `position {x, y, z}`, `orientation {x, y, z, w}`.
-    #[schema(example = json!({"position": {"x": 0, "y": 0, "z": 0}, "orientation": {"x": 0, "y": 0, "z": 0, "w": 1}}))]
-    origin: serde_json::Value,
 }

@@ -3,7 +3,6 @@
 pub mod analyses;
 pub mod evaluations;
 pub mod map;
-pub mod options;
 pub mod pictures;
 pub mod rule_sets;
 pub mod semantics;

@@ -9,10 +9,11 @@ use axum::response::{IntoResponse, Response};
 use crate::app::{App, Caller, MapContext};
 use crate::http::docs::refusals::{NotAnalysed, NotFound};
 use crate::http::extract::conditional::{EntityTag, IfNoneMatch};
-use crate::http::extract::{Id, MapPath, Path};
+use crate::http::extract::{MapPath, Path};
 use crate::http::links::{PNG, SVG};
 use crate::http::problem::Problem;
 use crate::render;
+use crate::views::id::Id;
 
 /// Names, media types and titles of the pictures.
 pub const NAMES: [(&str, &str, &str); 5] = [

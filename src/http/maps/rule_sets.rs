@@ -6,177 +6,34 @@ use axum::Json;
 use axum::extract::State;
 use axum::http::{StatusCode, header};
 use axum::response::{IntoResponse, Response};
-use serde::de::IgnoredAny;
-use serde::{Deserialize, Serialize};
-use stillage_core::semantics::{Cogency, CogencyRule, Functionality, Label, RuleSetDraft};
-use utoipa::{IntoParams, ToSchema};
+use serde::Deserialize;
+use utoipa::IntoParams;
 
 use crate::app::{App, Caller, RuleSetRecord};
 use crate::http::docs::refusals::{Conflict, NotFound, PreconditionRequired};
 use crate::http::extract::conditional::{EntityTag, IfMatch, IfNoneMatch};
 use crate::http::extract::{JsonBody, Path};
-use crate::http::links::{Base, JSON, Link};
+use crate::http::links::{Base, JSON};
 use crate::http::problem::{Problem, ProblemType};
+use crate::views::rule_set::{RuleSetBody, RuleSetList, RuleSetView};
 
-/// A label that a person may give to places.
-#[derive(Debug, Serialize, Deserialize, ToSchema)]
-#[schema(as = Label)]
-#[serde(deny_unknown_fields, rename_all = "camelCase")]
-pub struct LabelView {
-    /// Short id, unique in its rule set.
-    #[schema(example = "co")]
-    id: String,
-    /// Name for people.
-    #[schema(example = "corridor")]
-    name: String,
-    /// `#rrggbb`
-    #[schema(pattern = "^#[0-9a-fA-F]{6}$", example = "#4e9a06")]
-    color: String,
-    /// What such a place is for.
-    #[serde(default)]
-    #[schema(value_type = Vec<FunctionalityView>)]
-    functionality: Vec<Functionality>,
-    /// Ids of the labels it may connect to.
-    #[serde(default)]
-    connects_to: Vec<String>,
+fn view(base: &Base, record: RuleSetRecord) -> RuleSetView {
+    let links = vec![
+        base.link("self", &format!("/v1/rule-sets/{}", record.id), JSON),
+        base.link("collection", "/v1/rule-sets", JSON),
+    ];
+    RuleSetView::new(record, links)
 }
 
-/// What a place is for.
-#[derive(Debug, ToSchema)]
-#[schema(as = Functionality, rename_all = "kebab-case")]
-#[allow(dead_code, reason = "it describes the words that the core reads")]
-pub enum FunctionalityView {
-    Drivable,
-    StorageAccess,
-    Connection,
-    Access,
-    Storage,
-    WorkPlace,
-}
-
-/// An edge between these labels, in either order, has this cogency.
-#[derive(Debug, Serialize, Deserialize, ToSchema)]
-#[schema(as = CogencyRule)]
-#[serde(deny_unknown_fields)]
-pub struct CogencyRuleView {
-    /// The two label ids; `*` for any.
-    #[schema(value_type = Vec<String>, min_items = 2, max_items = 2, example = json!(["co", "pc"]))]
-    when: [String; 2],
-    /// What such an edge is.
-    #[schema(value_type = CogencyView)]
-    then: Cogency,
-}
-
-/// What an edge means to its two faces: an obstruction, storage access, or nothing.
-#[derive(Debug, ToSchema)]
-#[schema(as = Cogency, rename_all = "kebab-case")]
-#[allow(dead_code, reason = "it describes the words that the core reads")]
-pub enum CogencyView {
-    Cogent,
-    StorageAccess,
-    Invalid,
-}
-
-/// A rule set.
-#[derive(Debug, Serialize, ToSchema)]
-#[schema(as = RuleSet)]
-#[serde(rename_all = "camelCase")]
-pub struct RuleSetView {
-    #[schema(example = "warehouse")]
-    id: String,
-    /// Whether it is built in and cannot be changed.
-    built_in: bool,
-    /// Raised with every change.
-    version: u64,
-    labels: Vec<LabelView>,
-    /// Explicit rules, first match wins; derived from the labels where absent or without a match.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    cogency: Option<Vec<CogencyRuleView>>,
-    links: Vec<Link>,
-}
-
-impl RuleSetView {
-    fn new(base: &Base, record: RuleSetRecord) -> Self {
-        let links = vec![
-            base.link("self", &format!("/v1/rule-sets/{}", record.id), JSON),
-            base.link("collection", "/v1/rule-sets", JSON),
-        ];
-        let label = |label: Label| LabelView {
-            id: label.id,
-            name: label.name,
-            color: label.color,
-            functionality: label.functionality,
-            connects_to: label.connects_to,
-        };
-        let rule = |rule: CogencyRule| CogencyRuleView { when: rule.when, then: rule.then };
-        Self {
-            id: record.id,
-            built_in: record.built_in,
-            version: record.version,
-            labels: record.draft.labels.into_iter().map(label).collect(),
-            cogency: record.draft.cogency.map(|rules| rules.into_iter().map(rule).collect()),
-            links,
-        }
-    }
-
-    fn answer(base: &Base, record: RuleSetRecord) -> Response {
-        let tag = [(header::ETAG, tag(&record).header())];
-        (tag, Json(Self::new(base, record))).into_response()
-    }
+fn answer(base: &Base, record: RuleSetRecord) -> Response {
+    let tag = [(header::ETAG, tag(&record).header())];
+    (tag, Json(view(base, record))).into_response()
 }
 
 /// The tag of a rule set. Versions count anew when a rule set is deleted and made again, so the content is in it too.
 fn tag(record: &RuleSetRecord) -> EntityTag {
     let draft = serde_json::to_string(&record.draft).expect("labels and rules are plain data");
     EntityTag::of_content(&["rule-set", &record.version.to_string(), &draft])
-}
-
-/// A rule set as it is sent. What a read adds (`builtIn`, `version`, `links`) may be sent back and is ignored.
-#[derive(Debug, Deserialize, ToSchema)]
-#[schema(as = RuleSetDraft)]
-#[serde(deny_unknown_fields, rename_all = "camelCase")]
-pub struct RuleSetBody {
-    /// The id: needed by POST, and by PUT only that of the address.
-    #[schema(pattern = "^[a-z0-9][a-z0-9-]{0,63}$", example = "cold-store")]
-    id: Option<String>,
-    #[schema(min_items = 1)]
-    labels: Vec<LabelView>,
-    /// Explicit rules, first match wins; derived from the labels where absent or without a match.
-    cogency: Option<Vec<CogencyRuleView>>,
-    #[serde(default, rename = "builtIn")]
-    #[schema(read_only, value_type = serde_json::Value)]
-    _built_in: IgnoredAny,
-    #[serde(default, rename = "version")]
-    #[schema(read_only, value_type = serde_json::Value)]
-    _version: IgnoredAny,
-    #[serde(default, rename = "links")]
-    #[schema(read_only, value_type = serde_json::Value)]
-    _links: IgnoredAny,
-}
-
-impl RuleSetBody {
-    fn into_draft(self) -> RuleSetDraft {
-        let label = |label: LabelView| Label {
-            id: label.id,
-            name: label.name,
-            color: label.color,
-            functionality: label.functionality,
-            connects_to: label.connects_to,
-        };
-        let rule = |rule: CogencyRuleView| CogencyRule { when: rule.when, then: rule.then };
-        RuleSetDraft {
-            labels: self.labels.into_iter().map(label).collect(),
-            cogency: self.cogency.map(|rules| rules.into_iter().map(rule).collect()),
-        }
-    }
-}
-
-/// The rule sets.
-#[derive(Debug, Serialize, ToSchema)]
-#[serde(rename_all = "camelCase")]
-pub struct RuleSetList {
-    rule_sets: Vec<RuleSetView>,
-    links: Vec<Link>,
 }
 
 /// `/v1/rule-sets/{ruleSetId}`
@@ -195,7 +52,7 @@ pub struct RuleSetPath {
 #[utoipa::path(get, path = "/v1/rule-sets", tag = "semantics", operation_id = "listRuleSets",
     responses((status = 200, description = "The rule sets", body = RuleSetList)))]
 pub async fn list(State(app): State<Arc<App>>, caller: Caller, base: Base) -> Result<Json<RuleSetList>, Problem> {
-    let rule_sets = app.rule_sets(&caller).await?.into_iter().map(|record| RuleSetView::new(&base, record)).collect();
+    let rule_sets = app.rule_sets(&caller).await?.into_iter().map(|record| view(&base, record)).collect();
     Ok(Json(RuleSetList { rule_sets, links: vec![base.link("self", "/v1/rule-sets", JSON)] }))
 }
 
@@ -217,7 +74,7 @@ pub async fn create(
     })?;
     let record = app.create_rule_set(&caller, &id, body.into_draft()).await?;
     let location = [(header::LOCATION, format!("/v1/rule-sets/{id}"))];
-    Ok((StatusCode::CREATED, location, RuleSetView::answer(&base, record)).into_response())
+    Ok((StatusCode::CREATED, location, answer(&base, record)).into_response())
 }
 
 fn is_rule_set_id(id: &str) -> bool {
@@ -239,7 +96,7 @@ pub async fn get(
     if_none_match: IfNoneMatch,
 ) -> Result<Response, Problem> {
     let record = app.rule_set(&caller, &path.rule_set_id).await?;
-    Ok(tag(&record).answer(&if_none_match, || Json(RuleSetView::new(&base, record)).into_response()))
+    Ok(tag(&record).answer(&if_none_match, || Json(view(&base, record)).into_response()))
 }
 
 /// The rule set that a write is meant for, once it may be written.
@@ -275,7 +132,7 @@ pub async fn replace(
     }
     let if_match = if_match.against(&tag(&current), current.version)?;
     let record = app.put_rule_set(&caller, &path.rule_set_id, body.into_draft(), if_match).await?;
-    Ok(RuleSetView::answer(&base, record))
+    Ok(answer(&base, record))
 }
 
 /// Delete a rule set

@@ -7,11 +7,14 @@ use stillage_core::AnalysisOptions;
 use utoipa::ToSchema;
 
 use crate::app::NewMap;
-use crate::http::extract::{self, Name, broken_body, is_json, parse_json};
+use crate::coordinates::{Georeference, OutOfRange};
+use crate::http::extract::{self, broken_body, is_json, parse_json};
 use crate::http::problem::{Problem, ProblemType};
-use crate::http::views::GeoreferenceView;
 use crate::ingest::{Limits, MapSource};
 use crate::options::RequestedOptions;
+use crate::views::georeference::GeoreferenceView;
+use crate::views::name::Name;
+use crate::views::options::AnalysisOptionsView;
 
 /// Bytes that the part `metadata` or `options` may have: a hundred times what `map_server` writes.
 const TEXT_PART_BYTES: usize = 64 << 10;
@@ -36,10 +39,19 @@ pub struct MapUploadView {
     name: Option<Name>,
     /// Options of the first analysis.
     #[schema(required = false)]
-    options: crate::http::maps::options::AnalysisOptionsView,
+    options: AnalysisOptionsView,
     /// Where the map lies on Earth.
     #[schema(required = false)]
     georeference: GeoreferenceView,
+}
+
+/// The georeference that is to be stored: nothing for a nominal one.
+///
+/// # Errors
+/// 422 for numbers that are no place on Earth.
+pub fn stored(georeference: GeoreferenceView) -> Result<Option<Georeference>, Problem> {
+    let wrong = |OutOfRange { member, detail }| Problem::invalid(format!("/georeference/{member}"), detail);
+    georeference.read().map_err(wrong)
 }
 
 /// Reads an upload of either shape.
@@ -135,7 +147,7 @@ impl Form {
         }
         map.options = self.options.unwrap_or_default().0;
         map.georeference = match self.georeference {
-            Some(georeference) => georeference.check("/georeference")?,
+            Some(georeference) => stored(georeference)?,
             None => None,
         };
         Ok(map)

@@ -17,9 +17,11 @@ use crate::features::{Collection, CollectionSchema};
 use crate::http::docs::refusals::{NotAnalysed, NotFound};
 use crate::http::extract::conditional::{EntityTag, IfNoneMatch};
 use crate::http::extract::crs::{CRS84, EPSG_3857};
-use crate::http::extract::{Id, MapPath, Path};
-use crate::http::links::{Base, CSV, GEO_JSON, JSON, Link};
+use crate::http::extract::{MapPath, Path};
+use crate::http::links::{Base, CSV, GEO_JSON, JSON};
 use crate::http::problem::Problem;
+use crate::views::id::Id;
+use crate::views::link::Link;
 
 /// A collection as a part of a path.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]

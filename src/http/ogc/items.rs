@@ -10,7 +10,6 @@ use serde::Deserialize;
 use utoipa::IntoParams;
 
 use super::collections::{CollectionId, CollectionPath};
-use super::feature_documents::{FeatureCollectionView, FeatureView};
 use super::items_query::{Format, ItemsQuery};
 use crate::app::{App, Caller, MapContext};
 use crate::blocking::off_the_runtime;
@@ -22,9 +21,12 @@ use crate::http::docs::refusals::{NotAnalysed, NotFound};
 use crate::http::extract::conditional::{EntityTag, IfNoneMatch};
 use crate::http::extract::crs::CrsName;
 use crate::http::extract::negotiation::Accept;
-use crate::http::extract::{Id, Path, Query};
-use crate::http::links::{Base, CSV, GEO_JSON, JSON, Link, encode};
+use crate::http::extract::{Path, Query};
+use crate::http::links::{Base, CSV, GEO_JSON, JSON, encode, header as link_header};
 use crate::http::problem::Problem;
+use crate::views::feature::{FeatureCollectionView, FeatureView};
+use crate::views::id::Id;
+use crate::views::link::Link;
 
 /// The header of OGC API Features part 2.
 pub const CONTENT_CRS: HeaderName = HeaderName::from_static("content-crs");
@@ -104,7 +106,7 @@ impl Answer {
             ],
         );
         let mut headers = headers(CrsName(self.query.crs()));
-        headers.extend(next.iter().map(|link| (header::LINK, link.header())));
+        headers.extend(next.iter().map(|link| (header::LINK, link_header(link))));
         (headers, body).into_response()
     }
 
@@ -114,7 +116,7 @@ impl Answer {
         headers.insert(header::CONTENT_TYPE, HeaderValue::from_static("text/csv; charset=utf-8"));
         let name = HeaderValue::from_static("attachment; filename=\"locations.csv\"");
         headers.insert(header::CONTENT_DISPOSITION, name);
-        headers.extend(self.next(page).iter().map(|link| (header::LINK, link.header())));
+        headers.extend(self.next(page).iter().map(|link| (header::LINK, link_header(link))));
         (headers, csv::locations(page.features.iter().copied())).into_response()
     }
 

@@ -10,16 +10,18 @@ use axum::http::{HeaderMap, StatusCode, header};
 use axum::response::sse::{Event, KeepAlive, Sse};
 use axum::response::{IntoResponse, Response};
 use futures::Stream;
-use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 use utoipa::{IntoParams, ToSchema};
 
 use crate::app::{App, Caller, JobFilter, JobRecord, JobState};
 use crate::http::docs::refusals::{Conflict, NotFound};
-use crate::http::extract::{Id, ListLimit, Path, Query};
-use crate::http::links::{Base, JSON, Link};
+use crate::http::extract::{ListLimit, Path, Query};
+use crate::http::links::{Base, JSON, header as link_header};
+use crate::http::paging::cut;
 use crate::http::problem::Problem;
-use crate::http::views::{StageView, cut};
+use crate::views::id::Id;
+use crate::views::job::{JobStatus, JobView};
+use crate::views::link::Link;
 
 /// How often an idle stream of events says that it is still there.
 const HEARTBEAT: Duration = Duration::from_secs(15);
@@ -27,116 +29,26 @@ const HEARTBEAT: Duration = Duration::from_secs(15);
 /// How soon a client comes back to a stream that broke off.
 const RETRY: Duration = Duration::from_secs(2);
 
-/// A job: `statusInfo` of OGC API Processes.
-#[derive(Debug, Serialize, ToSchema)]
-#[schema(as = Job)]
-#[serde(rename_all = "camelCase")]
-pub struct JobView {
-    #[serde(rename = "jobID")]
-    job_id: Id,
-    /// `semantic-map`
-    #[serde(rename = "processID")]
-    #[schema(example = "semantic-map")]
-    process_id: String,
-    /// `process`
-    #[schema(example = "process")]
-    r#type: &'static str,
-    status: JobStatus,
-    /// Percent.
-    #[schema(minimum = 0, maximum = 100)]
-    progress: u8,
-    /// For people.
-    message: String,
-    #[schema(value_type = String, format = DateTime)]
-    created: Timestamp,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[schema(value_type = Option<String>, format = DateTime)]
-    started: Option<Timestamp>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[schema(value_type = Option<String>, format = DateTime)]
-    finished: Option<Timestamp>,
-    #[schema(value_type = String, format = DateTime)]
-    updated: Timestamp,
-    /// The map that is analysed.
-    map_id: Id,
-    /// The analysis that was made.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    analysis_id: Option<Id>,
-    /// The stage it is in.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    stage: Option<String>,
-    /// What the finished stages cost.
-    stages: Vec<StageView>,
-    /// How often it was begun.
-    attempt: u32,
-    links: Vec<Link>,
+/// The job as the client sees it.
+fn view(base: &Base, job: JobRecord) -> JobView {
+    let path = format!("/v1/jobs/{}", job.id);
+    let mut links = vec![
+        base.link("self", &path, JSON),
+        base.link("monitor", &format!("{path}/events"), "text/event-stream"),
+        base.link("related", &format!("/v1/maps/{}", job.map), JSON).titled("The map"),
+    ];
+    if job.state == JobState::Successful {
+        let path = format!("/v1/maps/{}/collections", job.map);
+        links.push(base.link("http://www.opengis.net/def/rel/ogc/1.0/results", &path, JSON));
+    }
+    JobView::new(job, links)
 }
 
-/// State of a job.
-#[derive(Debug, Clone, Copy, Serialize, Deserialize, ToSchema)]
-#[serde(rename_all = "lowercase")]
-#[schema(as = StatusCode)]
-pub enum JobStatus {
-    Accepted,
-    Running,
-    Successful,
-    Failed,
-    Dismissed,
-}
-
-impl From<JobState> for JobStatus {
-    fn from(state: JobState) -> Self {
-        match state {
-            JobState::Accepted => Self::Accepted,
-            JobState::Running => Self::Running,
-            JobState::Successful => Self::Successful,
-            JobState::Failed => Self::Failed,
-            JobState::Dismissed => Self::Dismissed,
-        }
-    }
-}
-
-impl JobView {
-    /// The job as the client sees it.
-    #[must_use]
-    pub fn new(base: &Base, job: JobRecord) -> Self {
-        let path = format!("/v1/jobs/{}", job.id);
-        let mut links = vec![
-            base.link("self", &path, JSON),
-            base.link("monitor", &format!("{path}/events"), "text/event-stream"),
-            base.link("related", &format!("/v1/maps/{}", job.map), JSON).titled("The map"),
-        ];
-        if job.state == JobState::Successful {
-            let path = format!("/v1/maps/{}/collections", job.map);
-            links.push(base.link("http://www.opengis.net/def/rel/ogc/1.0/results", &path, JSON));
-        }
-        let analysis_id = job.analysis().map(Id);
-        Self {
-            job_id: Id(job.id),
-            process_id: job.process,
-            r#type: "process",
-            status: job.state.into(),
-            progress: job.progress,
-            message: job.message,
-            created: job.created,
-            started: job.started,
-            finished: job.finished,
-            updated: job.updated,
-            map_id: Id(job.map),
-            analysis_id,
-            stage: job.stage,
-            stages: job.stages.iter().map(Into::into).collect(),
-            attempt: job.attempt,
-            links,
-        }
-    }
-
-    /// 202 with the address of the job.
-    #[must_use]
-    pub fn accepted(base: &Base, job: JobRecord) -> Response {
-        let location = [(header::LOCATION, format!("/v1/jobs/{}", job.id))];
-        (StatusCode::ACCEPTED, location, Json(Self::new(base, job))).into_response()
-    }
+/// 202 with the address of the job.
+#[must_use]
+pub fn accepted(base: &Base, job: JobRecord) -> Response {
+    let location = [(header::LOCATION, format!("/v1/jobs/{}", job.id))];
+    (StatusCode::ACCEPTED, location, Json(view(base, job))).into_response()
 }
 
 /// `/v1/jobs/{jobId}`
@@ -226,9 +138,9 @@ pub async fn list(
     let status = if text.is_empty() { String::new() } else { format!("&status={text}") };
     let next = jobs.last().filter(|_| more).map(|last| format!("/v1/jobs?limit={limit}{status}&after={}", last.id));
     let next = next.map(|path| base.link("next", &path, JSON));
-    let headers: HeaderMap = next.iter().map(|link| (header::LINK, link.header())).collect();
+    let headers: HeaderMap = next.iter().map(|link| (header::LINK, link_header(link))).collect();
     let links = std::iter::once(base.link("self", "/v1/jobs", JSON)).chain(next).collect();
-    let jobs = jobs.into_iter().map(|job| JobView::new(&base, job)).collect();
+    let jobs = jobs.into_iter().map(|job| view(&base, job)).collect();
     Ok((headers, Json(JobList { jobs, links })).into_response())
 }
 
@@ -243,7 +155,7 @@ pub async fn get(
     Path(path): Path<JobPath>,
 ) -> Result<Response, Problem> {
     let job = app.job(&caller, path.job_id.0).await?;
-    Ok(([(header::CACHE_CONTROL, "no-store")], Json(JobView::new(&base, job))).into_response())
+    Ok(([(header::CACHE_CONTROL, "no-store")], Json(view(&base, job))).into_response())
 }
 
 /// Dismiss a job
@@ -258,7 +170,7 @@ pub async fn dismiss(
     base: Base,
     Path(path): Path<JobPath>,
 ) -> Result<Json<JobView>, Problem> {
-    Ok(Json(JobView::new(&base, app.dismiss_job(&caller, path.job_id.0).await?)))
+    Ok(Json(view(&base, app.dismiss_job(&caller, path.job_id.0).await?)))
 }
 
 /// One event of the stream, field by field.
@@ -334,7 +246,7 @@ fn watch(
                     watching.last = Some(event_id(&job));
                     watching.over = job.state.is_final();
                     let event = Event::default().event("progress").id(event_id(&job).to_string()).retry(RETRY);
-                    let event = event.json_data(JobView::new(&base, job)).ok()?;
+                    let event = event.json_data(view(&base, job)).ok()?;
                     return Some((Ok(event), watching));
                 }
                 watching.over = job.state.is_final();

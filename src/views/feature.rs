@@ -6,7 +6,7 @@ use serde::Serialize;
 use serde_json::Value;
 use utoipa::ToSchema;
 
-use crate::http::links::Link;
+use super::link::Link;
 
 /// Features in GeoJSON (RFC 7946).
 #[derive(Debug, Serialize, ToSchema)]
@@ -51,6 +51,8 @@ pub struct FeatureView {
 #[serde(untagged)]
 #[schema(as = FeatureId)]
 pub enum FeatureIdView {
+    /// Faces, edges and all else.
     Number(u64),
+    /// The code of a location.
     Text(String),
 }

@@ -1,0 +1,52 @@
+//! Analyses of a map.
+
+use jiff::Timestamp;
+use serde::Serialize;
+use stillage_core::AnalysisOptions;
+use utoipa::ToSchema;
+
+use super::id::Id;
+use super::link::Link;
+use super::options::AnalysisOptionsView;
+use super::remarks::{DiagnosticView, StageView};
+use crate::records::AnalysisRecord;
+
+/// A finished analysis.
+#[derive(Debug, Serialize, ToSchema)]
+#[schema(as = Analysis)]
+#[serde(rename_all = "camelCase")]
+pub struct AnalysisView {
+    id: Id,
+    map_id: Id,
+    #[schema(value_type = String, format = DateTime)]
+    created: Timestamp,
+    /// The options, with every default filled in.
+    #[schema(value_type = AnalysisOptionsView)]
+    options: AnalysisOptions,
+    /// What each stage cost.
+    stages: Vec<StageView>,
+    /// Remarks on the result.
+    diagnostics: Vec<DiagnosticView>,
+}
+
+impl From<AnalysisRecord> for AnalysisView {
+    fn from(record: AnalysisRecord) -> Self {
+        Self {
+            id: Id(record.id),
+            map_id: Id(record.map),
+            created: record.created,
+            stages: record.stages.iter().map(Into::into).collect(),
+            diagnostics: record.diagnostics.iter().map(Into::into).collect(),
+            options: record.options,
+        }
+    }
+}
+
+/// The analyses of a map.
+#[derive(Debug, Serialize, ToSchema)]
+pub struct AnalysisList {
+    /// Newest first.
+    pub analyses: Vec<AnalysisView>,
+    /// Itself.
+    pub links: Vec<Link>,
+}

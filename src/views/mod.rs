@@ -1,0 +1,21 @@
+//! JSON documents: what clients send and are sent, and what the command line prints, one file for each resource.
+//!
+//! A view is made from a record or from an analysed map and knows nothing of requests; the edge adds the links.
+
+pub mod analysis;
+pub mod category;
+pub mod diagnostics;
+pub mod evaluation;
+pub mod feature;
+pub mod georeference;
+pub mod id;
+pub mod job;
+pub mod link;
+pub mod map;
+pub mod name;
+pub mod occupancy_grid;
+pub mod options;
+pub mod remarks;
+pub mod rule_set;
+pub mod semantics;
+pub mod truth;

@@ -1,0 +1,103 @@
+//! The labels of a map.
+
+use std::collections::BTreeMap;
+
+use jiff::Timestamp;
+use serde::de::IgnoredAny;
+use serde::{Deserialize, Serialize};
+use utoipa::ToSchema;
+
+use super::link::Link;
+use crate::records::{SemanticsOrigin, SemanticsRecord};
+
+/// The labels of a map.
+#[derive(Debug, Serialize, ToSchema)]
+#[schema(as = Semantics)]
+#[serde(rename_all = "camelCase")]
+pub struct SemanticsView {
+    #[schema(example = "warehouse")]
+    rule_set: String,
+    /// Label by category.
+    #[schema(value_type = BTreeMap<String, String>, example = json!({"0": "co", "1": "pc"}))]
+    assignment: BTreeMap<u8, String>,
+    overrides: Vec<OverrideView>,
+    /// 0 is the suggestion; assigned versions count from 1.
+    version: u64,
+    origin: OriginView,
+    #[schema(value_type = String, format = DateTime)]
+    created: Timestamp,
+}
+
+/// The label of a single face, stronger than that of its category.
+#[derive(Debug, Serialize, Deserialize, ToSchema)]
+#[schema(as = LabelOverride)]
+#[serde(deny_unknown_fields)]
+pub struct OverrideView {
+    /// Id of the face.
+    pub face: u32,
+    /// Id of the label.
+    #[schema(example = "ju")]
+    pub label: String,
+}
+
+/// Who decided: nobody yet (the suggestion is in force), or a person.
+#[derive(Debug, Serialize, ToSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum OriginView {
+    /// Nobody yet.
+    Suggested,
+    /// A person.
+    Assigned,
+}
+
+impl From<SemanticsRecord> for SemanticsView {
+    fn from(record: SemanticsRecord) -> Self {
+        let overrides = record.assignment.overrides.into_iter().map(|(face, label)| OverrideView { face, label });
+        Self {
+            rule_set: record.rule_set,
+            assignment: record.assignment.assignment,
+            overrides: overrides.collect(),
+            version: record.version,
+            origin: match record.origin {
+                SemanticsOrigin::Suggested => OriginView::Suggested,
+                SemanticsOrigin::Assigned => OriginView::Assigned,
+            },
+            created: record.created,
+        }
+    }
+}
+
+/// New labels of a map. What a read adds (`version`, `origin`, `created`) may be sent back and is ignored.
+#[derive(Debug, Deserialize, ToSchema)]
+#[schema(as = NewSemantics)]
+#[serde(deny_unknown_fields, rename_all = "camelCase")]
+pub struct SemanticsBody {
+    /// The rule set; the one in force when absent.
+    #[schema(example = "warehouse")]
+    pub rule_set: Option<String>,
+    /// Label by category. Categories that are not named become the rule set's unidentified label.
+    #[serde(default)]
+    #[schema(example = json!({"0": "co", "1": "pc"}))]
+    pub assignment: BTreeMap<String, String>,
+    /// Labels of single faces.
+    #[serde(default)]
+    pub overrides: Vec<OverrideView>,
+    #[serde(default, rename = "version")]
+    #[schema(read_only, value_type = serde_json::Value)]
+    _version: IgnoredAny,
+    #[serde(default, rename = "origin")]
+    #[schema(read_only, value_type = serde_json::Value)]
+    _origin: IgnoredAny,
+    #[serde(default, rename = "created")]
+    #[schema(read_only, value_type = serde_json::Value)]
+    _created: IgnoredAny,
+}
+
+/// The versions of the labels of a map.
+#[derive(Debug, Serialize, ToSchema)]
+pub struct SemanticsHistory {
+    /// Newest first.
+    pub versions: Vec<SemanticsView>,
+    /// Itself, and the labels in force.
+    pub links: Vec<Link>,
+}
