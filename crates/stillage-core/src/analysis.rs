@@ -108,14 +108,14 @@ pub fn analyze(grid: &OccupancyGrid, spec: &AnalysisSpec, watch: &Watch<'_>) -> 
         let room_of_faces = if rooms.count == 0 {
             Vec::new()
         } else {
-            rooms.of_faces(subdivision.face_count(), &CellFaces::of_grid(&subdivision, grid))
+            rooms.of_faces(subdivision.face_count(), &CellFaces::of_grid(&subdivision, grid), watch)?
         };
         let planned = annotation::PlannedGround { plots: &plots, rooms: &room_of_faces };
         annotation::merge_alike(grid, &regions, subdivision, planned, &options.annotation, watch)
     })?;
     let graph = AdjacencyGraph::dual(&subdivision, watch)?;
     let cells = CellFaces::of_grid(&subdivision, grid);
-    let rooms = RoomMap::of(&rooms, &subdivision, &cells);
+    let rooms = RoomMap::of(&rooms, &subdivision, &cells, watch)?;
     let annotations = watch.stage(Stage::Annotation, || {
         let subject = annotation::Subject {
             grid,

@@ -1,10 +1,16 @@
 //! The room of every cell, and from it the room of every face.
 //!
-//! Cost: O(cells + runs log runs) for the faces, a run being neighbouring cells of a row with one face and one room.
+//! Cost: O(cells + runs log faces) for the faces, a run being neighbouring cells of a row with one face and one room.
+
+use std::collections::BTreeMap;
 
 use crate::arrangement::{CellFaces, FaceId};
 use crate::geometry::Point;
 use crate::runs::runs_of_equal;
+use crate::watch::{Stopped, Watch};
+
+/// Cells that are counted between two looks at the stop flag: below 50 ms of work.
+const CHECK_EVERY: usize = 1 << 18;
 
 /// Which cells lie in rooms, and the doorways between them.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -21,20 +27,31 @@ pub struct RoomCells {
 impl RoomCells {
     /// The room that most cells of each face lie in, by face id; rooms are numbered anew by their first face. Empty
     /// without rooms.
-    #[must_use]
-    pub fn of_faces(&self, face_count: usize, cells: &CellFaces) -> Vec<Option<u32>> {
+    ///
+    /// # Errors
+    /// [`Stopped`] when the watch says so.
+    pub fn of_faces(
+        &self,
+        face_count: usize,
+        cells: &CellFaces,
+        watch: &Watch<'_>,
+    ) -> Result<Vec<Option<u32>>, Stopped> {
         if self.count == 0 {
-            return Vec::new();
+            return Ok(Vec::new());
         }
-        let pairs: Vec<(FaceId, u32)> = cells.as_slice().iter().copied().zip(self.cells.iter().copied()).collect();
-        let mut runs: Vec<(FaceId, u32, usize)> =
-            runs_of_equal(&pairs).map(|run| (pairs[run.start].0, pairs[run.start].1, run.len())).collect();
-        runs.sort_unstable();
-        let mut room_of = vec![0; face_count];
-        for runs in runs.chunk_by(|one, other| one.0 == other.0).filter(|runs| runs[0].0 != FaceId::OUTER) {
-            let cells = |runs: &&[(FaceId, u32, usize)]| runs.iter().map(|run| run.2).sum::<usize>();
-            let most = runs.chunk_by(|one, other| one.1 == other.1).max_by_key(cells);
-            room_of[runs[0].0.index()] = most.map_or(0, |runs| runs[0].1);
+        let mut counts: BTreeMap<(FaceId, u32), usize> = BTreeMap::new();
+        for (faces, rooms) in cells.as_slice().chunks(CHECK_EVERY).zip(self.cells.chunks(CHECK_EVERY)) {
+            watch.check()?;
+            let pairs: Vec<(FaceId, u32)> = faces.iter().copied().zip(rooms.iter().copied()).collect();
+            for run in runs_of_equal(&pairs) {
+                *counts.entry(pairs[run.start]).or_default() += run.len();
+            }
+        }
+        let (mut room_of, mut most) = (vec![0; face_count], vec![0; face_count]);
+        for ((face, room), count) in counts.into_iter().filter(|((face, _), _)| *face != FaceId::OUTER) {
+            if count >= most[face.index()] {
+                (room_of[face.index()], most[face.index()]) = (room, count);
+            }
         }
         let mut numbers = vec![None; self.count + 1];
         let mut next = 0;
@@ -48,6 +65,6 @@ impl RoomCells {
             });
             Some(*number)
         };
-        room_of.into_iter().map(number).collect()
+        Ok(room_of.into_iter().map(number).collect())
     }
 }

@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::doors::{self, Door};
 use super::room_cells::RoomCells;
 use crate::arrangement::{CellFaces, FaceId, Subdivision};
+use crate::watch::{Stopped, Watch};
 
 /// The rooms and doors of a subdivision.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
@@ -17,11 +18,18 @@ pub struct RoomMap {
 
 impl RoomMap {
     /// Finds the faces of each room and the edges of each door; `cells` are those of the subdivision.
-    #[must_use]
-    pub fn of(rooms: &RoomCells, subdivision: &Subdivision, cells: &CellFaces) -> Self {
-        let faces = rooms.of_faces(subdivision.face_count(), cells);
+    ///
+    /// # Errors
+    /// [`Stopped`] when the watch says so.
+    pub fn of(
+        rooms: &RoomCells,
+        subdivision: &Subdivision,
+        cells: &CellFaces,
+        watch: &Watch<'_>,
+    ) -> Result<Self, Stopped> {
+        let faces = rooms.of_faces(subdivision.face_count(), cells, watch)?;
         let doors = doors::find(&rooms.doorways, subdivision, &faces);
-        Self { faces, doors }
+        Ok(Self { faces, doors })
     }
 
     /// Room of a face.
