@@ -3,8 +3,10 @@
 //! A client writes what differs from a preset, or from the defaults. [`RequestedOptions`] puts the two together; from
 //! there on options are whole.
 
+use std::fmt;
+
 use serde::Deserialize;
-use serde::de::{Deserializer, Error};
+use serde::de::{Deserializer, Error, MapAccess, SeqAccess, Visitor};
 use serde_json::{Map, Value};
 use stillage_core::AnalysisOptions;
 use stillage_core::spec::Preset;
@@ -20,13 +22,77 @@ const PRESET: &str = "preset";
 
 impl<'de> Deserialize<'de> for RequestedOptions {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let mut members = Map::deserialize(deserializer)?;
+        let Value::Object(mut members) = UniqueMembers::deserialize(deserializer)?.0 else {
+            return Err(D::Error::custom("must be an object"));
+        };
         let preset = Option::<Preset>::deserialize(members.remove(PRESET).unwrap_or_default())
             .map_err(|error| D::Error::custom(format!("{PRESET}: {error}")))?;
         let base = preset.map_or_else(AnalysisOptions::default, Preset::options);
         let mut whole = serde_json::to_value(base).map_err(D::Error::custom)?;
         put_over(&mut whole, Value::Object(members));
         serde_path_to_error::deserialize(whole).map(Self).map_err(D::Error::custom)
+    }
+}
+
+/// JSON in which no object names a member twice: a typing error would otherwise hide behind the last one.
+struct UniqueMembers(Value);
+
+impl<'de> Deserialize<'de> for UniqueMembers {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(UniqueMembersVisitor).map(Self)
+    }
+}
+
+struct UniqueMembersVisitor;
+
+impl<'de> Visitor<'de> for UniqueMembersVisitor {
+    type Value = Value;
+
+    fn expecting(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str("JSON")
+    }
+
+    fn visit_unit<E: Error>(self) -> Result<Value, E> {
+        Ok(Value::Null)
+    }
+
+    fn visit_bool<E: Error>(self, value: bool) -> Result<Value, E> {
+        Ok(value.into())
+    }
+
+    fn visit_u64<E: Error>(self, value: u64) -> Result<Value, E> {
+        Ok(value.into())
+    }
+
+    fn visit_i64<E: Error>(self, value: i64) -> Result<Value, E> {
+        Ok(value.into())
+    }
+
+    fn visit_f64<E: Error>(self, value: f64) -> Result<Value, E> {
+        Ok(value.into())
+    }
+
+    fn visit_str<E: Error>(self, value: &str) -> Result<Value, E> {
+        Ok(value.into())
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut items: A) -> Result<Value, A::Error> {
+        let mut list = Vec::new();
+        while let Some(UniqueMembers(item)) = items.next_element()? {
+            list.push(item);
+        }
+        Ok(list.into())
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, mut members: A) -> Result<Value, A::Error> {
+        let mut object = Map::new();
+        while let Some((name, UniqueMembers(value))) = members.next_entry::<String, _>()? {
+            if object.contains_key(&name) {
+                return Err(A::Error::custom(format!("duplicate field `{name}`")));
+            }
+            object.insert(name, value);
+        }
+        Ok(object.into())
     }
 }
 
@@ -92,7 +158,10 @@ mod tests {
             r#"{"preset": "paper", "regions": {"method": "tiles"}}"#,
             r#"{"categorisation": {}}"#,
             r#"{"categorization": 5}"#,
+            r#"{"seed": 1, "seed": 2}"#,
+            r#"{"categorization": {"k": 2, "k": 3}}"#,
             r#"{"seed": 1"#,
+            "[]",
         ]
         .iter()
         .map(|json| format!("{json} -> {}\n", read(json).unwrap_err()))
@@ -103,7 +172,10 @@ mod tests {
             {"preset": "paper", "regions": {"method": "tiles"}} -> regions.method: unknown variant `tiles`, expected one of `energy`, `single`, `gabor`
             {"categorisation": {}} -> categorisation: unknown field `categorisation`, expected one of `seed`, `grid`, `categorization`, `orientation`, `regions`, `decomposition`, `annotation`, `declutter`
             {"categorization": 5} -> categorization: invalid type: integer `5`, expected struct CategorizationOptions
+            {"seed": 1, "seed": 2} -> duplicate field `seed` at line 1 column 22
+            {"categorization": {"k": 2, "k": 3}} -> duplicate field `k` at line 1 column 35
             {"seed": 1 -> EOF while parsing an object at line 1 column 10
+            [] -> must be an object
         "#]].assert_eq(&errors);
     }
 }

@@ -4,7 +4,7 @@
 use std::collections::HashMap;
 
 use stillage_core::arrangement::FaceId;
-use stillage_core::geometry::Point;
+use stillage_core::geometry::{Point, polygon};
 use stillage_core::layout::Location;
 use stillage_core::semantics::{Cogency, SemanticMap};
 use stillage_core::{Analysis, OccupancyGrid};
@@ -73,7 +73,8 @@ fn drawing<'a>(
     let mut shapes = faces(analysis, semantic, locations, &frame);
     shapes.push(Shape::Cells { grid, scale });
     shapes.extend(edges(analysis, semantic, &frame, em / EM_PER_THICKNESS));
-    shapes.extend(locations.iter().filter_map(|location| code(location, &frame, em)).map(Shape::Text));
+    let codes = locations.iter().filter_map(|location| code(location, middle(analysis, location), &frame, em));
+    shapes.extend(codes.map(Shape::Text));
     let legend_height = legend.draw([width, map_height], &mut shapes);
     Drawing { width, height: map_height + legend_height, background: PAPER, shapes }
 }
@@ -126,8 +127,15 @@ fn edges<'a>(analysis: &Analysis, semantic: &SemanticMap, frame: &Frame, thickne
     })
 }
 
+/// Where the code of a location stands: in its centre, or at the node of its face where a bent face goes around its centre.
+fn middle(analysis: &Analysis, location: &Location) -> Point {
+    let rings = analysis.subdivision.rings(location.face);
+    let is_inside = polygon::contains(&rings, location.center);
+    if is_inside { location.center } else { analysis.graph.position(location.face) }
+}
+
 /// The code of a location, along the side where it is larger, if it can be read there.
-fn code(location: &Location, frame: &Frame, most: f64) -> Option<Text> {
+fn code(location: &Location, middle: Point, frame: &Frame, most: f64) -> Option<Text> {
     let Location { code, width, depth, heading, .. } = location;
     let letters = typeface::width(code).max(1.0);
     let along = |angle: f64, length: f64, across: f64| {
@@ -139,7 +147,7 @@ fn code(location: &Location, frame: &Frame, most: f64) -> Option<Text> {
     let (size, turn) = if ways[1].0 > ways[0].0 { ways[1] } else { ways[0] };
     (size >= SMALLEST_CODE).then(|| Text {
         content: code.clone(),
-        middle: frame.pixel(location.center),
+        middle: frame.pixel(middle),
         size,
         turn,
         colour: INK,
