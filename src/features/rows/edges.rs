@@ -2,6 +2,7 @@
 
 use stillage_core::arrangement::{EdgeId, EdgeSource, FaceId};
 
+use super::common::ORIENTATION;
 use super::words;
 use crate::features::geometry::{Geometry, GeometryType};
 use crate::features::property::{Kind, Property};
@@ -84,16 +85,7 @@ pub const TABLE: Table<EdgeRow> = Table {
         Column::new(Property::new("link", Kind::Integer, "Link", "Id of the link across it").nullable(), |edge| {
             edge.link.into()
         }),
-        Column::new(
-            Property::new(
-                "orientation",
-                Kind::Number,
-                "Orientation",
-                "Its direction, counter-clockwise from the map's x axis, from -90 to 90",
-            )
-            .unit("deg"),
-            |edge| edge.orientation.into(),
-        ),
+        Column::new(ORIENTATION, |edge| edge.orientation.into()),
         Column::new(Property::new("line", Kind::Integer, "Line", "Id of the line it lies on").nullable(), |edge| {
             edge.line.into()
         }),

@@ -4,12 +4,13 @@ use std::sync::Arc;
 
 use stillage_core::arrangement::{FaceId, Subdivision};
 
+use super::common::{FUNCTIONALITY, LABEL, LABEL_NAME};
 use super::words;
 use crate::features::geometry::{Geometry, GeometryType};
 use crate::features::property::{Kind, Property};
 use crate::features::shape;
 use crate::features::table::{Column, Table};
-use crate::features::view::{AnalysedMap, FUNCTIONALITIES, LabelWords, rounded};
+use crate::features::view::{AnalysedMap, LabelWords, rounded};
 
 /// A face.
 #[derive(Debug, Clone, PartialEq)]
@@ -70,21 +71,9 @@ pub const TABLE: Table<FaceRow> = Table {
             .nullable(),
             |face| face.membership.as_deref().into(),
         ),
-        Column::new(Property::new("label", Kind::Text, "Label", "Id of the label"), |face| {
-            face.label.id.as_str().into()
-        }),
-        Column::new(Property::new("labelName", Kind::Text, "Label name", "Name of the label for people"), |face| {
-            face.label.name.as_str().into()
-        }),
-        Column::new(
-            Property::new(
-                "functionality",
-                Kind::Words(FUNCTIONALITIES),
-                "Functionality",
-                "What places of this label are for",
-            ),
-            |face| face.label.functionality.as_slice().into(),
-        ),
+        Column::new(LABEL, |face| face.label.id.as_str().into()),
+        Column::new(LABEL_NAME, |face| face.label.name.as_str().into()),
+        Column::new(FUNCTIONALITY, |face| face.label.functionality.as_slice().into()),
         Column::new(Property::new("confidence", Kind::Number, "Confidence", "How sure the label is, 0 to 1"), |face| {
             face.confidence.into()
         }),

@@ -5,6 +5,7 @@ use stillage_core::line::Line;
 use stillage_core::segmentation::RegionMap;
 use stillage_core::{Point, Vector};
 
+use super::common::ORIENTATION;
 use crate::features::geometry::{Geometry, GeometryType};
 use crate::features::property::{Kind, Property};
 use crate::features::table::{Column, Table};
@@ -27,16 +28,7 @@ pub const TABLE: Table<LineRow> = Table {
     geometry: GeometryType::PATHS,
     columns: &[
         Column::new(Property::new("id", Kind::Integer, "Id", "Number of the line"), |line| line.id.into()),
-        Column::new(
-            Property::new(
-                "orientation",
-                Kind::Number,
-                "Orientation",
-                "Its direction, counter-clockwise from the map's x axis, from -90 to 90",
-            )
-            .unit("deg"),
-            |line| line.orientation.into(),
-        ),
+        Column::new(ORIENTATION, |line| line.orientation.into()),
         Column::new(
             Property::new(
                 "offset",

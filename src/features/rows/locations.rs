@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use stillage_core::layout::{ApproachPose, Location};
 
+use super::common::{LABEL, LABEL_NAME};
 use super::words;
 use crate::features::geometry::{Geometry, GeometryType};
 use crate::features::property::{Kind, Property};
@@ -55,12 +56,8 @@ pub const TABLE: Table<LocationRow> = Table {
             location.code.as_str().into()
         }),
         Column::new(Property::new("face", Kind::Integer, "Face", "Id of its face"), |location| location.face.into()),
-        Column::new(Property::new("label", Kind::Text, "Label", "Id of its label"), |location| {
-            location.label.id.as_str().into()
-        }),
-        Column::new(Property::new("labelName", Kind::Text, "Label name", "Name of the label for people"), |location| {
-            location.label.name.as_str().into()
-        }),
+        Column::new(LABEL, |location| location.label.id.as_str().into()),
+        Column::new(LABEL_NAME, |location| location.label.name.as_str().into()),
         Column::new(
             Property::new("aisle", Kind::Integer, "Aisle", "Number of its aisle; 0 without access"),
             |location| location.aisle.into(),

@@ -1,5 +1,6 @@
 //! One file for each collection: what a row of it is, which properties it has, and how it is read off a map.
 
+mod common;
 pub mod doors;
 pub mod edges;
 pub mod faces;

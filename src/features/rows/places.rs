@@ -4,11 +4,12 @@ use std::sync::Arc;
 
 use stillage_core::semantics::Place;
 
+use super::common::{FUNCTIONALITY, LABEL_NAME};
 use crate::features::geometry::{Geometry, GeometryType};
 use crate::features::property::{Kind, Property};
 use crate::features::shape;
 use crate::features::table::{Column, Table};
-use crate::features::view::{AnalysedMap, FUNCTIONALITIES, LabelWords, rounded};
+use crate::features::view::{AnalysedMap, LabelWords, rounded};
 
 /// A place.
 #[derive(Debug, Clone, PartialEq)]
@@ -31,18 +32,8 @@ pub const TABLE: Table<PlaceRow> = Table {
             Property::new("label", Kind::Text, "Label", "Id of the label; of a room that of most of its area"),
             |place| place.label.id.as_str().into(),
         ),
-        Column::new(Property::new("labelName", Kind::Text, "Label name", "Name of the label for people"), |place| {
-            place.label.name.as_str().into()
-        }),
-        Column::new(
-            Property::new(
-                "functionality",
-                Kind::Words(FUNCTIONALITIES),
-                "Functionality",
-                "What places of this label are for",
-            ),
-            |place| place.label.functionality.as_slice().into(),
-        ),
+        Column::new(LABEL_NAME, |place| place.label.name.as_str().into()),
+        Column::new(FUNCTIONALITY, |place| place.label.functionality.as_slice().into()),
         Column::new(Property::new("areaM2", Kind::Number, "Area", "Area").unit("m2"), |place| place.area.into()),
         Column::new(
             Property::new("room", Kind::Integer, "Room", "Number of the room it is, if walls bound it").nullable(),
