@@ -136,7 +136,7 @@ pub struct ProblemDocument {
 }
 
 impl IntoResponse for Problem {
-    /// The bare response: [`render`](super::render) gives it its body.
+    /// The bare response: [`render()`](super::render()) gives it its body.
     fn into_response(self) -> Response {
         let mut response = self.kind.status().into_response();
         if let Some(seconds) = self.retry_after_s {
