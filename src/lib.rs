@@ -1,9 +1,9 @@
 //! stillage: an occupancy map goes in, a semantic map comes out, over REST and GeoJSON.
 //!
 //! The straight line: [`ingest`] turns bytes into a grid, [`jobs`] runs [`stillage_core::analyze`] on it, [`store`]
-//! keeps the result, [`app`] holds the use cases, [`features`] reads the
-//! collections off it, [`formats`] and [`render`] write them, [`http`] and
-//! [`cli`] are the two edges. Dependencies point one way: `cli, http -> app -> jobs, store -> core`.
+//! keeps the result, [`app`] holds the use cases, [`features`] reads the collections off the result, [`formats`],
+//! [`views`] and [`render`] write what is answered, [`http`] and [`cli`] are the two edges. Dependencies point one way:
+//! `cli, http -> views -> app -> jobs, store -> core` and `formats -> features -> core`.
 
 pub mod config;
 pub mod ingest;
