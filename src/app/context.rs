@@ -1,7 +1,8 @@
 //! The analysed map in memory: built once, shared by all who ask, replaced when something about the map changes.
 //!
-//! A context is kept with the [`MapState`](crate::store::MapState) it answers for: version of the record, analysis, version of the semantics. Each
-//! question reads the state from the store first, so that it sees every change, another process's too.
+//! A context is kept with the [`MapState`](crate::store::MapState) it answers for: version of the record, analysis,
+//! version of the semantics. Each question reads the state from the store first, so that it sees every change, another
+//! process's too.
 
 use std::sync::Arc;
 

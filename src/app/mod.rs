@@ -7,7 +7,8 @@
 //! | `rule_sets` | the vocabulary of labels |
 //! | `semantics` | the human decision on a map |
 //! | `grid` | the cells of a map, before any analysis |
-//! | `context`, `map_context`, `context_cache` | the analysed map in memory with its collections, for every question about it |
+//! | `context`, `map_context`, `context_cache` | the analysed map in memory, with its collections |
+//! | `service` | what the use cases share, start and stop |
 //! | `evaluations` | how well it fits the truth of its site |
 //!
 //! Every use case takes its [`Caller`] first. What concerns the service itself (readiness, metrics, the orderly stop)

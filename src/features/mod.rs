@@ -5,12 +5,12 @@
 //! | `collection` | the collections by name |
 //! | `schema`, `property` | title, description, shapes and properties of a collection |
 //! | `rows` | a file for each collection: its columns, and how its rows are read off a map |
-//! | `feature`, `id`, `geometry`, `value` | one feature |
+//! | `feature`, `id`, `geometry`, `value`, `words` | one feature |
 //! | `query` | which features: by ids, by a box, in which order, page by page |
 //! | `view`, `shape`, `rings` | the map that is read; outlines of faces and of what they make up |
 //!
-//! A [`Feature`] carries its shape in map-frame metres. What all properties have in common: lengths are metres and areas
-//! square metres; orientations and headings are degrees counter-clockwise from the map's x axis (orientations of
+//! A [`Feature`] carries its shape in map-frame metres. What all properties have in common: lengths are metres and
+//! areas square metres; orientations and headings are degrees counter-clockwise from the map's x axis (orientations of
 //! undirected lines in [-90, 90), headings in [-180, 180)); positions among the properties are map-frame metres.
 //! Numbers are rounded to four decimals: a tenth of a millimetre.
 //!
@@ -29,6 +29,7 @@ mod shape;
 mod table;
 mod value;
 mod view;
+mod words;
 
 #[cfg(test)]
 pub(crate) mod tests;

@@ -10,7 +10,8 @@ use stillage_core::geometry::ring_area;
 
 use super::geometry::Ring;
 
-/// Groups rings into polygons: counter-clockwise ones are outer rings, clockwise ones holes of the smallest around them.
+/// Groups rings into polygons: counter-clockwise ones are outer rings, clockwise ones holes of the smallest around
+/// them.
 pub(super) fn polygons(rings: Vec<Ring>) -> Vec<Vec<Ring>> {
     let (outer, others): (Vec<Ring>, Vec<Ring>) = rings.into_iter().partition(|ring| ring_area(ring) > 0.0);
     let mut polygons: Vec<Vec<Ring>> = outer.into_iter().map(|ring| vec![ring]).collect();

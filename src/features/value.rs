@@ -64,8 +64,8 @@ impl Value<'_> {
         matches!(self, Self::Null)
     }
 
-    /// The order of two values of one scalar property: no value comes last, false before true, text by its bytes. Values
-    /// without an order are equal.
+    /// The order of two values of one scalar property: no value comes last, false before true, text by its bytes.
+    /// Values without an order are equal.
     #[must_use]
     pub fn compare(&self, other: &Self) -> Ordering {
         match (self, other) {

@@ -5,8 +5,10 @@ use std::sync::Arc;
 use stillage_core::arrangement::EdgeId;
 use stillage_core::geometry::fold_half_turn;
 use stillage_core::layout::Location;
-use stillage_core::semantics::{Functionality, LabelId, SemanticMap};
+use stillage_core::semantics::{LabelId, SemanticMap};
 use stillage_core::{Analysis, Point};
+
+use super::words;
 
 /// An analysed map with its labels and locations.
 #[derive(Debug, Clone, Copy)]
@@ -26,22 +28,8 @@ pub struct LabelWords {
     pub id: String,
     /// Its name for people.
     pub name: String,
-    /// What it is for, in the words of [`FUNCTIONALITIES`].
+    /// What it is for, in the words of [`words::FUNCTIONALITIES`].
     pub functionality: Vec<&'static str>,
-}
-
-/// The words for what a place is for.
-pub const FUNCTIONALITIES: &[&str] = &["drivable", "storage-access", "connection", "access", "storage", "work-place"];
-
-const fn functionality(functionality: Functionality) -> &'static str {
-    match functionality {
-        Functionality::Drivable => "drivable",
-        Functionality::StorageAccess => "storage-access",
-        Functionality::Connection => "connection",
-        Functionality::Access => "access",
-        Functionality::Storage => "storage",
-        Functionality::WorkPlace => "work-place",
-    }
 }
 
 impl AnalysedMap<'_> {
@@ -51,7 +39,7 @@ impl AnalysedMap<'_> {
             Arc::new(LabelWords {
                 id: label.id.clone(),
                 name: label.name.clone(),
-                functionality: label.functionality.iter().copied().map(functionality).collect(),
+                functionality: label.functionality.iter().copied().map(words::functionality).collect(),
             })
         };
         Labels(self.semantic.rule_set.labels().iter().map(words).collect())

@@ -46,8 +46,8 @@ pub struct VanishedFeature;
 impl FeatureQuery {
     /// The page of `features`, which are a whole collection by id, that answers the question.
     ///
-    /// Pages go on after an id, so that nothing is skipped or repeated when features come and go between them. O(n), and
-    /// O(n log n) where `sort` is not empty.
+    /// Pages go on after an id, so that nothing is skipped or repeated when features come and go between them. O(n),
+    /// and O(n log n) where `sort` is not empty.
     ///
     /// # Errors
     /// When the list is sorted and `after` is in the collection no more.

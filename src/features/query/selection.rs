@@ -10,8 +10,8 @@ use crate::features::geometry::Geometry;
 /// A box in the coordinates of a client, ready to be compared with features.
 ///
 /// Meridians and parallels are straight lines in every coordinate system of a map, so the box is a rectangle in metres
-/// eastwards and northwards of the map frame's origin. Features are turned into that frame when they are compared, which
-/// costs four multiplications for each point.
+/// eastwards and northwards of the map frame's origin. Features are turned into that frame when they are compared,
+/// which costs four multiplications for each point.
 #[derive(Debug)]
 pub struct BoxSelection {
     transform: Transform,

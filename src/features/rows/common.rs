@@ -1,7 +1,7 @@
 //! Properties that several collections have.
 
 use crate::features::property::{Kind, Property};
-use crate::features::view::FUNCTIONALITIES;
+use crate::features::words::FUNCTIONALITIES;
 
 /// Id of a label.
 pub const LABEL: Property = Property::new("label", Kind::Text, "Label", "Id of the label");

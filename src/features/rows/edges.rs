@@ -3,11 +3,11 @@
 use stillage_core::arrangement::{EdgeId, EdgeSource, FaceId};
 
 use super::common::ORIENTATION;
-use super::words;
 use crate::features::geometry::{Geometry, GeometryType};
 use crate::features::property::{Kind, Property};
 use crate::features::table::{Column, Table};
 use crate::features::view::{AnalysedMap, rounded};
+use crate::features::words;
 
 /// An edge.
 #[derive(Debug, Clone, PartialEq)]

@@ -5,12 +5,12 @@ use std::sync::Arc;
 use stillage_core::arrangement::{FaceId, Subdivision};
 
 use super::common::{FUNCTIONALITY, LABEL, LABEL_NAME};
-use super::words;
 use crate::features::geometry::{Geometry, GeometryType};
 use crate::features::property::{Kind, Property};
 use crate::features::shape;
 use crate::features::table::{Column, Table};
 use crate::features::view::{AnalysedMap, LabelWords, rounded};
+use crate::features::words;
 
 /// A face.
 #[derive(Debug, Clone, PartialEq)]

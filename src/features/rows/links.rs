@@ -2,11 +2,11 @@
 
 use stillage_core::arrangement::EdgeId;
 
-use super::words;
 use crate::features::geometry::{Geometry, GeometryType};
 use crate::features::property::{Kind, Property};
 use crate::features::table::{Column, Table};
 use crate::features::view::AnalysedMap;
+use crate::features::words;
 
 /// A link.
 #[derive(Debug, Clone, PartialEq)]

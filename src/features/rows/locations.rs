@@ -5,13 +5,13 @@ use std::sync::Arc;
 use stillage_core::layout::{ApproachPose, Location};
 
 use super::common::{LABEL, LABEL_NAME};
-use super::words;
 use crate::features::geometry::{Geometry, GeometryType};
 use crate::features::property::{Kind, Property};
 use crate::features::shape;
 use crate::features::table::{Column, Table};
 use crate::features::value::Pose;
 use crate::features::view::{AnalysedMap, LabelWords, rounded};
+use crate::features::words;
 
 /// A storage location. Positions and lengths in metres of the map frame.
 #[derive(Debug, Clone, PartialEq)]

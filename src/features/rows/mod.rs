@@ -11,4 +11,3 @@ pub mod nodes;
 pub mod places;
 pub mod regions;
 pub mod vertices;
-pub(super) mod words;

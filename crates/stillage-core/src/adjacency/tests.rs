@@ -6,16 +6,7 @@ use expect_test::expect;
 use proptest::prelude::*;
 
 use super::*;
-use crate::arrangement::{EdgeSource, SourceSegment, arrange};
-
-fn subdivide(ends: &[[f64; 4]]) -> Subdivision {
-    let segment = |&[x0, y0, x1, y1]: &[f64; 4]| SourceSegment {
-        start: Point::new(x0, y0),
-        end: Point::new(x1, y1),
-        source: EdgeSource::Boundary,
-    };
-    arrange(&ends.iter().map(segment).collect::<Vec<_>>(), &Watch::unwatched()).expect("nobody stops it")
-}
+use crate::test_maps::segments::subdivide;
 
 fn dual(subdivision: &Subdivision) -> AdjacencyGraph {
     AdjacencyGraph::dual(subdivision, &Watch::unwatched()).expect("nobody stops it")

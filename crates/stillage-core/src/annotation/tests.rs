@@ -4,29 +4,15 @@ use expect_test::expect;
 
 use super::*;
 use crate::adjacency::AdjacencyGraph;
-use crate::arrangement::{CellFaces, EdgeSource, SourceSegment, Subdivision, arrange};
+use crate::arrangement::{CellFaces, Subdivision};
 use crate::categorization::{Categorization, Category, CategoryMap};
 use crate::clustering::FitReport;
 use crate::geometry::{OrientedBox, Point};
 use crate::grid::OccupancyGrid;
 use crate::segmentation::{Region, RegionMap};
 use crate::spec::{AnnotationMethod, AnnotationOptions};
+use crate::test_maps::segments::{boxed, subdivide};
 use crate::watch::Watch;
-
-fn subdivide(ends: &[[f64; 4]]) -> Subdivision {
-    let segment = |&[x0, y0, x1, y1]: &[f64; 4]| SourceSegment {
-        start: Point::new(x0, y0),
-        end: Point::new(x1, y1),
-        source: EdgeSource::Boundary,
-    };
-    arrange(&ends.iter().map(segment).collect::<Vec<_>>(), &Watch::unwatched()).expect("nobody stops it")
-}
-
-/// The four sides of a box, and further segments.
-fn boxed([x0, y0, x1, y1]: [f64; 4], more: &[[f64; 4]]) -> Subdivision {
-    let sides = [[x0, y0, x1, y0], [x1, y0, x1, y1], [x0, y1, x1, y1], [x0, y0, x0, y1]];
-    subdivide(&[&sides, more].concat())
-}
 
 /// One region over the whole grid, in tiles of 4 cells.
 fn one_region(grid: &OccupancyGrid) -> RegionMap {

@@ -3,24 +3,9 @@
 use expect_test::expect;
 use proptest::prelude::*;
 
-use super::{CellFaces, EdgeSource, FaceId, SourceSegment, Subdivision, arrange};
+use super::{CellFaces, FaceId};
 use crate::geometry::{Point, polygon};
-use crate::watch::Watch;
-
-fn subdivide(ends: &[[f64; 4]]) -> Subdivision {
-    let segment = |&[x0, y0, x1, y1]: &[f64; 4]| SourceSegment {
-        start: Point::new(x0, y0),
-        end: Point::new(x1, y1),
-        source: EdgeSource::Boundary,
-    };
-    arrange(&ends.iter().map(segment).collect::<Vec<_>>(), &Watch::unwatched()).expect("nobody stops it")
-}
-
-/// The four sides of a box, and further segments.
-fn boxed([x0, y0, x1, y1]: [f64; 4], more: &[[f64; 4]]) -> Subdivision {
-    let sides = [[x0, y0, x1, y0], [x1, y0, x1, y1], [x0, y1, x1, y1], [x0, y0, x0, y1]];
-    subdivide(&[&sides, more].concat())
-}
+use crate::test_maps::segments::{boxed, subdivide};
 
 fn picture_of(cells: &CellFaces, width: usize) -> String {
     let rows = cells.as_slice().chunks(width).rev();

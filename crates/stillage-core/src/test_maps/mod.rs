@@ -1,6 +1,7 @@
-//! Maps for tests: drawn rack halls, and real maps that lie outside the repository.
+//! Maps for tests: drawn rack halls, real maps that lie outside the repository, and subdivisions of a few segments.
 
 pub(crate) mod real_maps;
+pub(crate) mod segments;
 
 use real_maps::Picture;
 
@@ -59,7 +60,8 @@ pub(crate) fn draw(halls: &[Hall], [width, height]: [f64; 2], resolution: f64) -
     OccupancyGrid::new(columns, rows, frame, cells)
 }
 
-/// A real map by the name of its folder, under the usual thresholds; `None`, with a printed line, where there are no maps.
+/// A real map by the name of its folder, under the usual thresholds; `None`, with a printed line, where there are no
+/// maps.
 ///
 /// # Panics
 /// Where there are no maps although `CI` is `true`.

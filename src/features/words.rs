@@ -2,7 +2,7 @@
 
 use stillage_core::annotation::Evidence;
 use stillage_core::layout::{LocationOccupancy, Side};
-use stillage_core::semantics::{Cogency, Connectivity};
+use stillage_core::semantics::{Cogency, Connectivity, Functionality};
 
 /// Words of [`evidence`].
 pub const EVIDENCE: &[&str] = &["observed", "interpolated"];
@@ -14,6 +14,9 @@ pub const CONNECTIVITY: &[&str] = &["disconnected", "storage-access", "connected
 pub const SIDES: &[&str] = &["left", "right"];
 /// Words of [`occupancy`].
 pub const OCCUPANCY: &[&str] = &["occupied", "empty", "unknown"];
+
+/// Words of [`functionality`].
+pub const FUNCTIONALITIES: &[&str] = &["drivable", "storage-access", "connection", "access", "storage", "work-place"];
 
 /// What the geometry of a face or edge rests on.
 pub const fn evidence(evidence: Evidence) -> &'static str {
@@ -55,5 +58,46 @@ pub const fn occupancy(occupancy: LocationOccupancy) -> &'static str {
         LocationOccupancy::Occupied => "occupied",
         LocationOccupancy::Empty => "empty",
         LocationOccupancy::Unknown => "unknown",
+    }
+}
+
+/// What a place is for.
+pub const fn functionality(functionality: Functionality) -> &'static str {
+    match functionality {
+        Functionality::Drivable => "drivable",
+        Functionality::StorageAccess => "storage-access",
+        Functionality::Connection => "connection",
+        Functionality::Access => "access",
+        Functionality::Storage => "storage",
+        Functionality::WorkPlace => "work-place",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fmt::Debug;
+
+    use serde::Serialize;
+    use serde::de::DeserializeOwned;
+    use serde_json::{from_value, json, to_value};
+
+    use super::*;
+
+    /// Every word is the name that the core gives to a value, and the value's word.
+    fn check<T: Debug + Copy + Serialize + DeserializeOwned>(words: &[&str], word: fn(T) -> &'static str) {
+        for &name in words {
+            let value: T = from_value(json!(name)).unwrap_or_else(|_| panic!("{name} is no word of the core"));
+            assert_eq!((word(value), to_value(value).unwrap()), (name, json!(name)));
+        }
+    }
+
+    #[test]
+    fn the_words_are_those_of_the_core() {
+        // Evidence has no words in the core.
+        check(COGENCY, cogency);
+        check(CONNECTIVITY, connectivity);
+        check(SIDES, side);
+        check(OCCUPANCY, occupancy);
+        check(FUNCTIONALITIES, functionality);
     }
 }
