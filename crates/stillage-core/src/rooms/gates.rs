@@ -88,7 +88,9 @@ fn gate_towards(ground: &RoomGround, middle: Point, inwards: Vector, shape: &Ori
         let place = middle + inwards * step as f64;
         let [left, right] = [across, -across].map(|way| wall(ground, place, way, most));
         let (left, right) = (left?, right?);
-        Some(([left, right], (right - left).norm()))
+        // A place that is no ground has both its walls at itself: the walk ends there, at the latest at the map's end.
+        let width = (right - left).norm();
+        (width > 0.0).then_some(([left, right], width))
     };
     let (first, width) = line(0)?;
     let narrow_side = usize::from(inwards.dot(&direction(shape.angle)).abs() > 0.5);

@@ -159,3 +159,16 @@ fn any_options() -> impl Strategy<Value = AnalysisOptions> {
         options
     })
 }
+
+/// A block between a room and a row, whose gate was once looked for beyond the end of the map, for ever.
+pub fn with_a_bay_that_meets_no_hall() -> Site {
+    let thing = |center, half, kind| Thing { center, half, angle: 0.0, kind };
+    let things = vec![
+        thing([3.67, 2.86], [5.25, 1.62], Kind::Room),
+        thing([2.6, 2.64], [2.56, 1.85], Kind::Row(0.97)),
+        thing([5.88, 2.65], [5.1, 1.42], Kind::Block),
+        thing([9.46, 0.48], [0.52, 0.64], Kind::Block),
+        thing([5.84, 5.15], [0.9, 0.68], Kind::Block),
+    ];
+    Site { size: [82, 79], resolution: 0.1, yaw: 0.0, ground: Occupancy::Unknown, things, speckle: 25 }
+}
