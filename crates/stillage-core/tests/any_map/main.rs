@@ -40,7 +40,7 @@ struct Watchdog(#[expect(dead_code, reason = "its end wakes the thread")] mpsc::
 
 impl Watchdog {
     /// Longest time of a case, as long as a hundred of them take.
-    const PATIENCE: Duration = Duration::from_secs(300);
+    const PATIENCE: Duration = Duration::from_mins(5);
 
     fn over(site: &sites::Site, spec: &AnalysisSpec) -> Self {
         let case = format!("{site:?}\n{spec:?}");
