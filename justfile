@@ -31,8 +31,12 @@ bless:
 ci:
     bash .ci/run
 
-# Fill the tables of docs/accuracy.md: sites of the zoo, turned sites, maps of generate.py in MAPS/{seen,unseen,paper}.
-accuracy MAPS SHARED="../shared":
-    cargo run --release --example accuracy -- --zoo seen=1..2 --zoo unseen=5..6 --rotation 1 \
-        --generated seen={{MAPS}}/seen --generated unseen={{MAPS}}/unseen --paper-size {{MAPS}}/paper \
-        --real {{SHARED}}/maps/dev
+# Print how well real maps, drawings and offices are read; `just measure drawings --seeds 21..28 --only pods` a part of it.
+measure *WHAT="real drawings offices":
+    cargo run --release --example accuracy -- {{WHAT}}
+
+# Fill all tables of docs/accuracy.md: those above, the zoo, turned sites, maps of generate.py in MAPS/{seen,unseen,paper}.
+accuracy MAPS:
+    cargo run --release --example accuracy -- real drawings offices steadiness --rooms --pictures --write \
+        --zoo seen=1..2 --zoo unseen=5..6 --rotation 1 \
+        --generated seen={{MAPS}}/seen --generated unseen={{MAPS}}/unseen --paper-size {{MAPS}}/paper

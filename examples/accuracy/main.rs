@@ -1,18 +1,25 @@
-//! How good the results are: fills the tables of `docs/accuracy.md` and draws its pictures.
+//! How good the results are: prints the tables of `docs/accuracy.md`, and with `--write` fills them in there.
 //!
 //! `just accuracy` runs it on all that the document tells. Every section is made from one argument, so each can be made
-//! again by itself; what a person wrote around the tables stays.
+//! again by itself; what a person wrote around the tables stays. Each map is told on standard error.
 //!
 //! ```text
+//! cargo run --release --example accuracy -- real drawings offices steadiness
+//! cargo run --release --example accuracy -- drawings --seeds 21..28 --only pods
 //! cargo run --release --example accuracy -- --zoo seen=1..2 --zoo unseen=5..6 --rotation 1
-//! cargo run --release --example accuracy -- --generated seen=DIR --real ../shared/maps/dev
+//! cargo run --release --example accuracy -- --generated seen=DIR --rooms --write
 //! ```
 
-#![allow(clippy::print_stderr, reason = "a tool of developers says what it does")]
+#![allow(clippy::print_stderr, clippy::print_stdout, reason = "a tool of developers says what it does")]
 
 mod document;
+mod drawings;
+mod drawn_truth;
+mod offices;
+mod real;
 mod rooms;
 mod rotation;
+mod scan;
 mod sites;
 mod tables;
 
@@ -20,16 +27,41 @@ use std::error::Error;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use clap::Parser;
+use clap::{Parser, ValueEnum};
 
 use document::Document;
 
 /// Anything may be wrong with a file that a developer names.
 type Outcome<T> = Result<T, Box<dyn Error + Send + Sync>>;
 
-/// Measures accuracy and writes it into a document.
+/// What is measured by its name alone.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Group {
+    /// Real maps against truth that a person drew (`truth` of the shared folder).
+    Real,
+    /// Drawings of the zoo, by style.
+    Drawings,
+    /// Offices, where nothing is storage (`maps/dev` of the shared folder).
+    Offices,
+}
+
+/// Measures accuracy, prints it and writes it into a document.
 #[derive(Debug, Parser)]
 struct Arguments {
+    /// What to measure.
+    groups: Vec<Group>,
+    /// Seeds of the drawings.
+    #[arg(long, value_name = "FIRST..LAST", default_value = "1..8")]
+    seeds: Seeds,
+    /// Of the groups only maps and styles whose names hold this text.
+    #[arg(long, value_name = "TEXT", default_value = "", conflicts_with = "write")]
+    only: String,
+    /// The folder of real maps and their truth.
+    #[arg(long, value_name = "DIR", env = "STILLAGE_SHARED", default_value = "../shared")]
+    shared: PathBuf,
+    /// Fills the tables into the document.
+    #[arg(long)]
+    write: bool,
     /// Maps of `generate.py`, as NAME=DIR: fills the section `generated-NAME` from all folders
     /// `<size>_<sensor>_<difficulty>_<seed>` in DIR.
     #[arg(long, value_name = "NAME=DIR", value_parser = named::<PathBuf>)]
@@ -43,9 +75,12 @@ struct Arguments {
     /// Seed of the zoo whose sites are turned: fills the section `rotation`.
     #[arg(long, value_name = "SEED")]
     rotation: Option<u64>,
-    /// Folder of real maps: fills the section `rooms`, and draws the pictures of those that the document shows.
-    #[arg(long, value_name = "DIR")]
-    real: Option<PathBuf>,
+    /// Real offices by rooms: fills the section `rooms`.
+    #[arg(long)]
+    rooms: bool,
+    /// Draws the real maps that the document shows.
+    #[arg(long)]
+    pictures: bool,
     /// The document.
     #[arg(long, value_name = "FILE", default_value = "docs/accuracy.md")]
     document: PathBuf,
@@ -75,25 +110,38 @@ fn main() -> Outcome<()> {
     let arguments = Arguments::parse();
     let mut document = Document::read(&arguments.document)?;
     let pictures = arguments.document.with_extension("");
-    for (name, folder) in &arguments.generated {
-        let scores = sites::generated(folder)?;
-        document.fill(&format!("generated-{name}"), &tables::generated(&scores))?;
+    let (shared, only) = (&arguments.shared, arguments.only.as_str());
+    let mut tell = |section: &str, table: &str| {
+        println!("{section}\n\n{table}");
+        if arguments.write { document.fill(section, table) } else { Ok(()) }
+    };
+    for group in &arguments.groups {
+        match group {
+            Group::Real => tell("real", &real::real(shared, only)?)?,
+            Group::Drawings => tell("drawings", &drawings::drawings(arguments.seeds, only)?)?,
+            Group::Offices => tell("offices", &offices::offices(shared, only)?)?,
+        }
     }
     for (name, seeds) in &arguments.zoo {
         let scores = sites::zoo(seeds.0..=seeds.1, &pictures)?;
-        document.fill(&format!("zoo-{name}"), &tables::zoo(&scores))?;
+        tell(&format!("zoo-{name}"), &tables::zoo(&scores))?;
+    }
+    for (name, folder) in &arguments.generated {
+        tell(&format!("generated-{name}"), &tables::generated(&sites::generated(folder)?))?;
     }
     if let Some(folder) = &arguments.paper_size {
-        document.fill("paper-size", &tables::regions(&sites::generated(folder)?))?;
+        tell("paper-size", &tables::regions(&sites::generated(folder)?))?;
     }
     if let Some(seed) = arguments.rotation {
-        document.fill("rotation", &rotation::table(seed)?)?;
+        tell("rotation", &rotation::table(seed)?)?;
     }
-    if let Some(folder) = &arguments.real {
-        document.fill("rooms", &rooms::table(folder)?)?;
-        draw_real_maps(folder, &pictures)?;
+    if arguments.rooms {
+        tell("rooms", &rooms::table(&shared.join("maps/dev"))?)?;
     }
-    document.write()
+    if arguments.pictures {
+        draw_real_maps(&shared.join("maps/dev"), &pictures)?;
+    }
+    if arguments.write { document.write() } else { Ok(()) }
 }
 
 /// Draws the real maps that the document shows: those that may be copied.

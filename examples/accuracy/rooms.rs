@@ -13,7 +13,6 @@ use std::path::Path;
 use rayon::prelude::*;
 use stillage_core::AnalysisSpec;
 use stillage_core::arrangement::CellFaces;
-use stillage_core::semantics::{self, Assignment, RuleSet};
 
 use crate::{Outcome, sites};
 
@@ -34,11 +33,8 @@ struct Scores {
 
 /// The table of all maps `bormann__*` in a folder.
 pub fn table(folder: &Path) -> Outcome<String> {
-    let mut names: Vec<String> = std::fs::read_dir(folder)?
-        .filter_map(|entry| entry.ok()?.file_name().into_string().ok())
-        .filter(|name| name.starts_with("bormann__"))
-        .collect();
-    names.sort();
+    let mut names = sites::names(folder, "")?;
+    names.retain(|name| name.starts_with("bormann__"));
     let jobs: Vec<(&String, &str)> = names.iter().flat_map(|name| SETS.map(|(_, image)| (name, image))).collect();
     let scores: Vec<Scores> =
         jobs.par_iter().map(|(name, image)| score(&folder.join(name), image)).collect::<Outcome<_>>()?;
@@ -68,9 +64,7 @@ pub fn table(folder: &Path) -> Outcome<String> {
 fn score(folder: &Path, image: &str) -> Outcome<Scores> {
     let site = sites::read_image(&folder.join(image), &folder.join("map.yaml"))?;
     let analysis = sites::analyzed(&site.grid, &AnalysisSpec::default())?;
-    let rules = RuleSet::warehouse();
-    let assignment = Assignment::suggested(&semantics::suggest(&analysis, &rules), &rules);
-    let semantic = semantics::apply(&analysis, &rules, &assignment).map_err(|problems| problems[0].to_string())?;
+    let semantic = sites::suggested(&analysis);
     let (width, height) = (analysis.width, analysis.height);
     let faces = CellFaces::rasterize(&analysis.subdivision, width, height, site.grid.resolution());
     let map = image::open(folder.join(image))?.into_luma8();

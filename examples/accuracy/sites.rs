@@ -8,10 +8,10 @@ use rayon::prelude::*;
 use stillage::ingest::{self, Limits, MapSource};
 use stillage::render;
 use stillage_core::evaluation::{self, Evaluation, GroundTruth};
-use stillage_core::semantics::{self, Assignment, RuleSet};
+use stillage_core::semantics::{self, Assignment, RuleSet, SemanticMap};
 use stillage_core::spec::{AnnotationMethod, DecompositionMethod, GridOptions, OrientationMethod, RegionMethod};
 use stillage_core::{Analysis, AnalysisOptions, AnalysisSpec, OccupancyGrid, Watch, analyze, layout};
-use stillage_zoo::{Kind, Options};
+use stillage_zoo::{Kind, Options, Sample};
 
 use crate::Outcome;
 
@@ -69,8 +69,22 @@ fn site(image: Vec<u8>, metadata: Vec<u8>, truth: Option<&[u8]>) -> Outcome<Site
 
 /// A site of the zoo.
 pub fn of_zoo(kind: Kind, seed: u64, options: &Options) -> Outcome<Site> {
-    let sample = stillage_zoo::generate(kind, seed, options);
+    of_sample(&stillage_zoo::generate(kind, seed, options))
+}
+
+/// A generated site or drawing, read from its files.
+pub fn of_sample<M>(sample: &Sample<M>) -> Outcome<Site> {
     site(sample.pgm(), sample.yaml().into_bytes(), Some(&serde_json::to_vec(&sample.truth)?))
+}
+
+/// What lies in a folder and ends like this, in order, without the ending.
+pub fn names(folder: &Path, ending: &str) -> Outcome<Vec<String>> {
+    let entries = fs::read_dir(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
+    let name =
+        |entry: std::io::Result<fs::DirEntry>| Some(entry.ok()?.file_name().to_str()?.strip_suffix(ending)?.to_owned());
+    let mut names: Vec<String> = entries.filter_map(name).collect();
+    names.sort();
+    Ok(names)
 }
 
 pub fn analyzed(grid: &OccupancyGrid, spec: &AnalysisSpec) -> Outcome<Analysis> {
@@ -81,7 +95,19 @@ pub fn analyzed(grid: &OccupancyGrid, spec: &AnalysisSpec) -> Outcome<Analysis> 
 pub fn scored(site: &Site, spec: &AnalysisSpec) -> Outcome<Evaluation> {
     let truth = site.truth.as_ref().ok_or("a map without truth.geojson cannot be scored")?;
     let analysis = analyzed(&site.grid, spec)?;
-    Ok(evaluation::evaluate(&analysis, &RuleSet::warehouse(), None, truth, &Watch::unwatched())?)
+    Ok(evaluation::evaluate(&analysis, &rules(), None, truth, &Watch::unwatched())?)
+}
+
+/// The rule set that everything is read under: the default of the service.
+fn rules() -> RuleSet {
+    RuleSet::warehouse()
+}
+
+/// An analysis under its suggested labels.
+pub fn suggested(analysis: &Analysis) -> SemanticMap {
+    let rules = rules();
+    let assignment = Assignment::suggested(&semantics::suggest(analysis, &rules), &rules);
+    semantics::apply(analysis, &rules, &assignment).expect("suggestions fit their own analysis")
 }
 
 /// The paper's own method in every stage that has one.
@@ -96,12 +122,8 @@ fn paper() -> Outcome<AnalysisSpec> {
 
 /// Scores every folder `<size>_<sensor>_<difficulty>_<seed>`.
 pub fn generated(folder: &Path) -> Outcome<Vec<Generated>> {
-    let mut names: Vec<String> = fs::read_dir(folder)
-        .map_err(|error| format!("{}: {error}", folder.display()))?
-        .filter_map(|entry| entry.ok()?.file_name().into_string().ok())
-        .filter(|name| folder.join(name).join("truth.geojson").is_file())
-        .collect();
-    names.sort();
+    let mut names = names(folder, "")?;
+    names.retain(|name| folder.join(name).join("truth.geojson").is_file());
     let paper = paper()?;
     let one = |name: &String| {
         let parts: Vec<&str> = name.split('_').collect();
@@ -137,11 +159,9 @@ pub fn zoo(seeds: RangeInclusive<u64>, pictures: &Path) -> Outcome<Vec<OfZoo>> {
     sites.par_iter().map(one).collect()
 }
 
-/// An analysis under its suggested labels.
+/// A picture of an analysis under its suggested labels.
 pub fn picture(grid: &OccupancyGrid, analysis: &Analysis) -> Vec<u8> {
-    let rules = RuleSet::warehouse();
-    let assignment = Assignment::suggested(&semantics::suggest(analysis, &rules), &rules);
-    let semantic = semantics::apply(analysis, &rules, &assignment).expect("suggestions fit their own analysis");
+    let semantic = suggested(analysis);
     let locations = layout::locations(analysis, &semantic);
     render::semantic_png(grid, analysis, &semantic, &locations)
 }

@@ -8,20 +8,21 @@ use stillage_zoo::Kind;
 
 use crate::sites::{Generated, OfZoo};
 
-fn percent(share: f64) -> String {
-    format!("{:.1}", 100.0 * share)
+pub fn percent(share: f64) -> String {
+    // Not -0, which a sum of nothing is.
+    format!("{:.1}", 100.0 * share + 0.0)
 }
 
-fn mean(values: impl Iterator<Item = f64>) -> f64 {
-    let (sum, count) = values.fold((0.0, 0), |(sum, count), value| (sum + value, count + 1));
+pub fn mean(values: impl Iterator<Item = f64>) -> f64 {
+    let (sum, count) = values.fold((0.0, 0_u32), |(sum, count), value| (sum + value, count + 1));
     sum / f64::from(count.max(1))
 }
 
-fn least(values: impl Iterator<Item = f64>) -> f64 {
+pub fn least(values: impl Iterator<Item = f64>) -> f64 {
     values.fold(f64::INFINITY, f64::min)
 }
 
-fn table(head: &[&str], rows: impl Iterator<Item = Vec<String>>) -> String {
+pub fn table(head: &[&str], rows: impl Iterator<Item = Vec<String>>) -> String {
     let mut text = format!("| {} |\n|{}\n", head.join(" | "), " --- |".repeat(head.len()));
     for row in rows {
         let _ = writeln!(text, "| {} |", row.join(" | "));

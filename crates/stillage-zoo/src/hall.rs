@@ -181,7 +181,7 @@ impl Hall {
             .flat_map(|floor| floor.shape().minus_all(self.taken()))
             .filter(|piece| piece.narrowest() > NARROWEST_JUNCTION)
             .collect();
-        let walls: Vec<Convex> = self.walls();
+        let walls = self.site.walls(WALL);
         for shape in junctions {
             self.site.state(shape, About::Junction);
         }
@@ -199,15 +199,5 @@ impl Hall {
             self.site.routes.extend(around(&back).iter().rev().map(|&[from, to]| [to, from]));
         }
         self.site
-    }
-
-    /// A stripe around the floor, without what is floor itself.
-    fn walls(&self) -> Vec<Convex> {
-        let mut walls: Vec<Convex> = Vec::new();
-        for floor in &self.site.floor {
-            let pieces = floor.grown(WALL).minus_all(self.site.floor.iter().chain(&walls));
-            walls.extend(pieces);
-        }
-        walls
     }
 }

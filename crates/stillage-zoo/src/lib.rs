@@ -11,10 +11,19 @@
 //!                                                   └─────────────── truth ────┘
 //! ```
 //!
+//! [`draw`] makes a second zoo, of plain drawings: what CAD exports, simulators and cleaned-up scans look like. Nothing is
+//! simulated there; a [`DrawingStyle`] says what is drawn of the storage.
+//!
+//! ```text
+//! style, seed ── plan ── Site ──┬── ink ── paint ── Sample
+//!                               └──────── truth ─────┘
+//! ```
+//!
 //! Cost: the scanner's, a second or so for a map of 50 m x 35 m. Limits: walls and columns are straight and square;
 //! nothing moves; no aisle is curved.
 
 mod compose;
+mod drawing;
 mod drive;
 mod hall;
 mod kind;
@@ -22,6 +31,7 @@ mod pallet;
 mod picture;
 mod random;
 mod raster;
+mod sample;
 mod scanner;
 mod shape;
 mod site;
@@ -34,9 +44,9 @@ mod tests;
 
 use std::f64::consts::{FRAC_PI_4, PI};
 
-use stillage_core::geometry::Point;
-
+pub use drawing::{DrawingMeta, DrawingOptions, DrawingStyle, Outside, draw};
 pub use kind::Kind;
+pub use sample::Sample;
 pub use truth::{Feature, Geometry, Meta, Properties, Truth};
 
 use drive::{Drift, STEP};
@@ -44,7 +54,7 @@ use random::{Purpose, Random};
 use raster::{Lattice, Obstacles};
 use scanner::{Scanner, grey};
 use shape::Pose;
-use site::{Fact, Site};
+use site::Site;
 
 /// Unknown room around a hall, metres.
 const MARGIN: f64 = 1.5;
@@ -68,18 +78,6 @@ impl Default for Options {
     fn default() -> Self {
         Self { resolution: 0.05, speckle: 0.0, rotation_deg: None, field_of_view: None, boxes: None }
     }
-}
-
-/// A generated map with its truth.
-#[derive(Debug, Clone)]
-pub struct Sample {
-    /// What it was made from.
-    pub meta: Meta,
-    /// What is true.
-    pub truth: Truth,
-    lattice: Lattice,
-    greys: Vec<u8>,
-    facts: Vec<Fact>,
 }
 
 /// Generates a map.
@@ -110,7 +108,7 @@ pub fn generate(kind: Kind, seed: u64, options: &Options) -> Sample {
     let scans = drive::drive(&site.routes, &obstacles, shut.as_ref(), drift, &mut random);
     let mut greys = scanner.map(&scans, &obstacles, &lattice, |pose| Random::new(kind, seed, Purpose::Beams(pose)));
 
-    let truth = Truth::new(&site.truth, &lattice, &greys);
+    let truth = Truth::new(&site.truth, |place| truth::known_rim(place, &lattice, &greys));
     let known = greys.iter().filter(|&&cell| cell != grey::UNKNOWN).count() as f64 / greys.len().max(1) as f64;
     let per_region = truth.places_by_region();
     speckle(&mut greys, options.speckle, &mut Random::new(kind, seed, Purpose::Speckle));
@@ -160,51 +158,5 @@ fn sensor(truth: &Truth) -> &'static str {
         (true, true) => "both",
         (true, false) => "articles",
         _ => "footprints",
-    }
-}
-
-impl Sample {
-    /// Columns and rows of the map.
-    #[must_use]
-    pub const fn size(&self) -> (usize, usize) {
-        (self.lattice.width, self.lattice.height)
-    }
-
-    /// Lower left corner of the map in the map frame, metres.
-    #[must_use]
-    pub const fn origin(&self) -> Point {
-        self.lattice.origin
-    }
-
-    /// Greys of the cells, lowest row first: 0 occupied, 205 unknown, 254 free.
-    #[must_use]
-    pub fn greys(&self) -> &[u8] {
-        &self.greys
-    }
-
-    /// The map as a portable grey map.
-    #[must_use]
-    pub fn pgm(&self) -> Vec<u8> {
-        let (width, height) = self.size();
-        let mut bytes = format!("P5\n{width} {height}\n255\n").into_bytes();
-        self.greys.chunks_exact(width.max(1)).rev().for_each(|row| bytes.extend(row));
-        bytes
-    }
-
-    /// The metadata of `map_server`.
-    #[must_use]
-    pub fn yaml(&self) -> String {
-        let origin = self.origin();
-        format!(
-            "image: map.pgm\nmode: trinary\nresolution: {:.6}\norigin: [{:.6}, {:.6}, 0.0]\nnegate: 0\n\
-             occupied_thresh: 0.65\nfree_thresh: 0.196\n",
-            self.lattice.resolution, origin.x, origin.y
-        )
-    }
-
-    /// The map with its truth over it: three bytes a pixel, highest row first.
-    #[must_use]
-    pub fn overlay(&self) -> Vec<u8> {
-        picture::overlay(&self.lattice, &self.greys, &self.facts)
     }
 }

@@ -2,6 +2,7 @@
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "the command line talks to people")]
 
 use std::error::Error;
+use std::fmt::Display;
 use std::fs::{self, File};
 use std::io::BufWriter;
 use std::ops::RangeInclusive;
@@ -10,23 +11,31 @@ use std::process::ExitCode;
 
 use clap::Parser;
 use rayon::prelude::*;
-use stillage_zoo::{Kind, Options, Sample, generate};
+use serde::Serialize;
+use stillage_zoo::{DrawingOptions, DrawingStyle, Kind, Options, Outside, Sample, draw, generate};
 
-/// Generates maps of warehouses with their truth.
+/// Generates maps of warehouses with their truth: sites as a robot maps them (kinds), and plain drawings (styles).
 ///
 /// Each map is a folder with map.pgm, map.yaml, truth.geojson (metres of the map frame) and meta.json.
 #[derive(Debug, Parser)]
 #[command(name = "stillage-zoo", version)]
+#[allow(clippy::struct_excessive_bools, reason = "flags of a command line")]
 struct Arguments {
-    /// Lists the kinds.
+    /// Lists the kinds and the styles.
     #[arg(long, exclusive = true)]
     list: bool,
-    /// Kind of the site.
-    #[arg(long, required_unless_present_any = ["list", "all"])]
+    /// Kind of a simulated site.
+    #[arg(long, required_unless_present_any = ["list", "all", "style", "all_styles"])]
     kind: Option<Kind>,
     /// All kinds, each in its folder OUT/<kind>_<seed>.
     #[arg(long, conflicts_with = "kind")]
     all: bool,
+    /// Style of a drawing.
+    #[arg(long, conflicts_with_all = ["kind", "all", "speckle", "fov", "boxes"])]
+    style: Option<DrawingStyle>,
+    /// Drawings in all styles, each in its folder OUT/<style>_<seed>.
+    #[arg(long, conflicts_with_all = ["kind", "all", "style", "speckle", "fov", "boxes"])]
+    all_styles: bool,
     /// Seed of one map.
     #[arg(long, default_value_t = 1)]
     seed: u64,
@@ -36,9 +45,9 @@ struct Arguments {
     /// Share of the cells turned to salt or pepper.
     #[arg(long, default_value_t = 0.0)]
     speckle: f64,
-    /// Side of a cell, metres.
-    #[arg(long, default_value_t = 0.05)]
-    resolution: f64,
+    /// Side of a cell, metres; when absent 0.05 for a site, drawn for a drawing.
+    #[arg(long)]
+    resolution: Option<f64>,
     /// Turn of the hall in the map, degrees; drawn when absent.
     #[arg(long, allow_negative_numbers = true)]
     rotation: Option<f64>,
@@ -48,6 +57,9 @@ struct Arguments {
     /// Share of the pallets that show a load instead of legs; drawn when absent.
     #[arg(long)]
     boxes: Option<f64>,
+    /// What a drawing shows beyond the walls: unknown, black or white; drawn when absent.
+    #[arg(long, conflicts_with_all = ["kind", "all"])]
+    outside: Option<Outside>,
     /// Also writes truth.png, the map with its truth over it.
     #[arg(long)]
     picture: bool,
@@ -70,10 +82,20 @@ fn main() -> ExitCode {
         for kind in Kind::ALL {
             println!("{:<16}{}", kind.name(), kind.description());
         }
+        for style in DrawingStyle::ALL {
+            println!("{:<16}drawing: {}", style.name(), style.description());
+        }
         return ExitCode::SUCCESS;
     }
-    match run(&arguments) {
-        Ok(()) => ExitCode::SUCCESS,
+    let written =
+        if arguments.style.is_some() || arguments.all_styles { drawings(&arguments) } else { sites(&arguments) };
+    match written {
+        Ok(lines) => {
+            for line in lines {
+                println!("{line}");
+            }
+            ExitCode::SUCCESS
+        }
         Err(message) => {
             eprintln!("error: {message}");
             ExitCode::from(2)
@@ -81,47 +103,89 @@ fn main() -> ExitCode {
     }
 }
 
-fn run(arguments: &Arguments) -> Result<(), String> {
+/// Writes simulated sites, and describes each in a line.
+fn sites(arguments: &Arguments) -> Result<Vec<String>, String> {
+    let defaults = Options::default();
     let options = Options {
-        resolution: arguments.resolution,
+        resolution: arguments.resolution.unwrap_or(defaults.resolution),
         speckle: arguments.speckle,
         rotation_deg: arguments.rotation,
         field_of_view: arguments.fov,
         boxes: arguments.boxes,
     };
     check(&options)?;
-    let out = arguments.out.as_deref().unwrap_or(Path::new("."));
     let kinds = arguments.kind.map_or_else(|| Kind::ALL.to_vec(), |kind| vec![kind]);
-    let seeds = arguments.seeds.clone().unwrap_or(arguments.seed..=arguments.seed);
-    let several = arguments.all || arguments.seeds.is_some();
-    let jobs: Vec<(Kind, u64)> = kinds.iter().flat_map(|&kind| seeds.clone().map(move |seed| (kind, seed))).collect();
-    let lines: Result<Vec<String>, String> = jobs
-        .par_iter()
-        .map(|&(kind, seed)| {
-            let folder = if several { out.join(format!("{kind}_{seed}")) } else { out.to_owned() };
-            let sample = generate(kind, seed, &options);
-            write(&folder, &sample, arguments.picture)
-                .map_err(|error| format!("{} cannot be written: {error}", folder.display()))?;
+    write_all(
+        arguments,
+        &kinds,
+        arguments.all,
+        |kind, seed| generate(kind, seed, &options),
+        |sample| {
             let meta = &sample.meta;
-            let [width, height] = [meta.width, meta.height].map(|cells| cells as f64 * meta.resolution);
-            Ok(format!(
-                "{}: {width:.0} m x {height:.0} m, {} places, {} degrees, {}, {} scans",
-                folder.display(),
-                meta.pallets,
-                meta.fov,
-                meta.sensor,
-                meta.poses
-            ))
-        })
-        .collect();
-    lines?.iter().for_each(|line| println!("{line}"));
-    Ok(())
+            format!("{} places, {} degrees, {}, {} scans", meta.pallets, meta.fov, meta.sensor, meta.poses)
+        },
+    )
+}
+
+/// Writes drawings, and describes each in a line.
+fn drawings(arguments: &Arguments) -> Result<Vec<String>, String> {
+    check_resolution(arguments.resolution)?;
+    let options = DrawingOptions {
+        resolution: arguments.resolution,
+        rotation_deg: arguments.rotation,
+        outside: arguments.outside,
+        ..DrawingOptions::default()
+    };
+    let styles = arguments.style.map_or_else(|| DrawingStyle::ALL.to_vec(), |style| vec![style]);
+    write_all(
+        arguments,
+        &styles,
+        arguments.all_styles,
+        |style, seed| draw(style, seed, &options),
+        |sample| {
+            let meta = &sample.meta;
+            format!(
+                "{} places, {} rows, aisles of {:.2} m, cells of {:.3} m",
+                meta.places, meta.rows, meta.aisle, meta.resolution
+            )
+        },
+    )
+}
+
+/// Writes a map for each subject and seed.
+fn write_all<S: Copy + Display + Sync, M: Serialize>(
+    arguments: &Arguments,
+    subjects: &[S],
+    all: bool,
+    make: impl Fn(S, u64) -> Sample<M> + Sync,
+    describe: impl Fn(&Sample<M>) -> String + Sync,
+) -> Result<Vec<String>, String> {
+    let out = arguments.out.as_deref().unwrap_or(Path::new("."));
+    let seeds = arguments.seeds.clone().unwrap_or(arguments.seed..=arguments.seed);
+    let several = all || arguments.seeds.is_some();
+    let jobs: Vec<(S, u64)> =
+        subjects.iter().flat_map(|&subject| seeds.clone().map(move |seed| (subject, seed))).collect();
+    let one = |&(subject, seed): &(S, u64)| {
+        let folder = if several { out.join(format!("{subject}_{seed}")) } else { out.to_owned() };
+        let sample = make(subject, seed);
+        write(&folder, &sample, arguments.picture)
+            .map_err(|error| format!("{} cannot be written: {error}", folder.display()))?;
+        let (width, height) = sample.size();
+        let [width, height] = [width, height].map(|cells| cells as f64 * sample.resolution());
+        Ok(format!("{}: {width:.0} m x {height:.0} m, {}", folder.display(), describe(&sample)))
+    };
+    jobs.par_iter().map(one).collect()
+}
+
+fn check_resolution(resolution: Option<f64>) -> Result<(), String> {
+    let fits = resolution.is_none_or(|resolution| (0.01..=0.5).contains(&resolution));
+    if fits { Ok(()) } else { Err("--resolution is between 0.01 and 0.5".into()) }
 }
 
 fn check(options: &Options) -> Result<(), String> {
+    check_resolution(Some(options.resolution))?;
     let share = |value: f64| (0.0..=1.0).contains(&value);
     match options {
-        options if !(0.01..=0.5).contains(&options.resolution) => Err("--resolution is between 0.01 and 0.5".into()),
         options if !share(options.speckle) => Err("--speckle is between 0 and 1".into()),
         options if !options.boxes.is_none_or(share) => Err("--boxes is between 0 and 1".into()),
         options if !options.field_of_view.is_none_or(|degrees| (1..=360).contains(&degrees)) => {
@@ -131,7 +195,7 @@ fn check(options: &Options) -> Result<(), String> {
     }
 }
 
-fn write(folder: &Path, sample: &Sample, picture: bool) -> Result<(), Box<dyn Error>> {
+fn write<M: Serialize>(folder: &Path, sample: &Sample<M>, picture: bool) -> Result<(), Box<dyn Error>> {
     fs::create_dir_all(folder)?;
     fs::write(folder.join("map.pgm"), sample.pgm())?;
     fs::write(folder.join("map.yaml"), sample.yaml())?;

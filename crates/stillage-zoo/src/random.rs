@@ -7,6 +7,7 @@ use std::ops::Range;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 
+use crate::drawing::DrawingStyle;
 use crate::kind::Kind;
 
 /// What numbers are drawn for; each purpose has its own stream.
@@ -34,8 +35,17 @@ impl Random {
             Purpose::Beams(pose) => (2, pose as u64),
             Purpose::Speckle => (3, 0),
         };
+        Self::keyed([seed, kind as u64, number, index])
+    }
+
+    /// The numbers of a drawing; no kind of site shares them.
+    pub(crate) fn of_drawing(style: DrawingStyle, seed: u64) -> Self {
+        Self::keyed([seed, style as u64, 4, 0])
+    }
+
+    fn keyed(words: [u64; 4]) -> Self {
         let mut key = [0; 32];
-        for (bytes, word) in key.chunks_exact_mut(8).zip([seed, kind as u64, number, index]) {
+        for (bytes, word) in key.chunks_exact_mut(8).zip(words) {
             bytes.copy_from_slice(&word.to_le_bytes());
         }
         Self(ChaCha8Rng::from_seed(key))

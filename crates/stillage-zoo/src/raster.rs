@@ -54,10 +54,14 @@ impl Lattice {
         let (low, high) = shape.bounds();
         let [low, high] = [self.in_cells(low), self.in_cells(high)];
         let rows = low.y.floor().max(0.0) as usize..(high.y.ceil().max(0.0) as usize).min(self.height);
-        let columns = low.x.floor().max(0.0) as usize..(high.x.ceil().max(0.0) as usize).min(self.width);
         let mut any = false;
         for row in rows {
-            for column in columns.clone() {
+            let (left, right) = shape.span(self.origin.y + (row as f64 + 0.5) * self.resolution);
+            // A cell more on both sides: whether its centre lies inside is asked below.
+            let [left, right] = [left, right].map(|x| (x - self.origin.x) / self.resolution);
+            let columns =
+                (left.floor() - 1.0).max(0.0) as usize..((right.ceil() + 1.0).max(0.0) as usize).min(self.width);
+            for column in columns {
                 let center = Vector::new(column as f64 + 0.5, row as f64 + 0.5) * self.resolution;
                 if shape.contains(self.origin + center) {
                     any = true;

@@ -91,6 +91,23 @@ impl Convex {
         self.0.iter().fold(start, |(low, high), point| (low.inf(point), high.sup(point)))
     }
 
+    /// From where to where it reaches along x at a height; at the nearest one that it has.
+    pub(crate) fn span(&self, y: f64) -> (f64, f64) {
+        let (low, high) = self.bounds();
+        let y = y.clamp(low.y, high.y);
+        let crossing = |(from, to): (Point, Point)| {
+            let meets = (from.y - y) * (to.y - y) <= 0.0;
+            let at = if from.y == to.y {
+                [from.x, to.x]
+            } else {
+                [from.x + (to.x - from.x) * (y - from.y) / (to.y - from.y); 2]
+            };
+            meets.then_some(at)
+        };
+        let crossings = self.sides().filter_map(crossing).flatten();
+        crossings.fold((f64::INFINITY, f64::NEG_INFINITY), |(left, right), x| (left.min(x), right.max(x)))
+    }
+
     /// Whether it holds a point, its border included.
     pub(crate) fn contains(&self, point: Point) -> bool {
         self.sides().all(|(from, to)| (to - from).perp(&(point - from)) >= -NO_AREA)

@@ -91,6 +91,16 @@ impl Site {
         self.routes.extend(part.routes.iter().map(|ends| ends.map(|end| pose.apply(end))));
     }
 
+    /// A stripe of a thickness (metres) around the floor, without what is floor itself.
+    pub(crate) fn walls(&self, thickness: f64) -> Vec<Convex> {
+        let mut walls: Vec<Convex> = Vec::new();
+        for floor in &self.floor {
+            let pieces = floor.grown(thickness).minus_all(self.floor.iter().chain(&walls));
+            walls.extend(pieces);
+        }
+        walls
+    }
+
     /// States a fact.
     pub(crate) fn state(&mut self, shape: Convex, about: About) {
         self.truth.push(Fact { shape, about });

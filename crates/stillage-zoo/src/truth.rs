@@ -145,10 +145,11 @@ pub struct Meta {
 }
 
 impl Truth {
-    pub(crate) fn new(facts: &[Fact], lattice: &Lattice, greys: &[u8]) -> Self {
+    /// The facts of a site; `observed` says which share of the surroundings of a place the map shows.
+    pub(crate) fn new(facts: &[Fact], observed: impl Fn(&Convex) -> f64) -> Self {
         let mut places = 0;
         let feature = |fact: &Fact| {
-            let properties = properties(fact, &mut places, lattice, greys);
+            let properties = properties(fact, &mut places, &observed);
             Feature { kind: "Feature", properties, geometry: geometry(&fact.shape) }
         };
         Self { kind: "FeatureCollection", features: facts.iter().map(feature).collect() }
@@ -167,7 +168,7 @@ impl Truth {
     }
 }
 
-fn properties(fact: &Fact, places: &mut usize, lattice: &Lattice, greys: &[u8]) -> Properties {
+fn properties(fact: &Fact, places: &mut usize, observed: impl Fn(&Convex) -> f64) -> Properties {
     match &fact.about {
         About::Place(place) => {
             let id = *places;
@@ -185,7 +186,7 @@ fn properties(fact: &Fact, places: &mut usize, lattice: &Lattice, greys: &[u8]) 
                 front: place.front,
                 facing: place.facing,
                 local: place.local.map(|value| rounded(value, 3)),
-                observed: rounded(observed(&fact.shape, lattice, greys), 3),
+                observed: rounded(observed(&fact.shape), 3),
             }
         }
         &About::Corridor { region, aisle, segment } => {
@@ -211,7 +212,7 @@ fn geometry(shape: &Convex) -> Geometry {
 }
 
 /// The known share of a rim around a place.
-fn observed(place: &Convex, lattice: &Lattice, greys: &[u8]) -> f64 {
+pub(crate) fn known_rim(place: &Convex, lattice: &Lattice, greys: &[u8]) -> f64 {
     let (mut known, mut all) = (0_usize, 0_usize);
     let around = place.grown(RIM);
     lattice.for_each_cell(&around, |cell| {
