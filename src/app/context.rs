@@ -13,7 +13,6 @@ use stillage_core::{Analysis, OccupancyGrid};
 use uuid::Uuid;
 
 use super::map_context::{FeatureCache, MapContext};
-use super::rule_sets::DEFAULT_RULE_SET;
 use super::{AnalysisRecord, App, AppError, Caller, MapRecord, SemanticsOrigin, SemanticsRecord};
 use crate::blocking::off_the_runtime;
 use crate::ingest::{self, Limits, MapSource};
@@ -78,10 +77,10 @@ impl GeometricLevel {
         analysis: &AnalysisRecord,
         decision: Option<SemanticsRecord>,
     ) -> Result<MapContext, AppError> {
-        let rule_set = decision.as_ref().map_or_else(|| Ok(RuleSet::warehouse()), |made| read_rule_set(&made.draft))?;
+        let rule_set = decision.as_ref().map_or_else(|| Ok(RuleSet::default()), |made| read_rule_set(&made.draft))?;
         let suggestions = semantics::suggest(&self.analysis, &rule_set);
         let semantics = decision.unwrap_or_else(|| SemanticsRecord {
-            rule_set: DEFAULT_RULE_SET.to_owned(),
+            rule_set: RuleSet::DEFAULT_ID.to_owned(),
             draft: rule_set.draft().clone(),
             assignment: Assignment::suggested(&suggestions, &rule_set),
             version: 0,

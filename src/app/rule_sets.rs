@@ -1,11 +1,8 @@
-//! Rule sets: two that are built in, and those that people write.
+//! Rule sets: those that are built in, and those that people write.
 
 use stillage_core::semantics::{RuleSet, RuleSetDraft};
 
 use super::{App, AppError, Caller, RuleSetRecord};
-
-/// The rule set of a map on which nobody has decided.
-pub(super) const DEFAULT_RULE_SET: &str = "warehouse";
 
 /// Longest id of a rule set.
 const MAX_ID: usize = 64;
@@ -13,7 +10,7 @@ const MAX_ID: usize = 64;
 impl App {
     /// All rule sets, the built-in ones first.
     pub async fn rule_sets(&self, caller: &Caller) -> Result<Vec<RuleSetRecord>, AppError> {
-        let mut all = Vec::from(built_in());
+        let mut all: Vec<RuleSetRecord> = built_in().collect();
         all.extend(self.store.rule_sets(caller.tenant()).await?);
         Ok(all)
     }
@@ -78,18 +75,18 @@ impl App {
     }
 }
 
-fn built_in() -> [RuleSetRecord; 2] {
-    let record = |id: &str, rule_set: &RuleSet| RuleSetRecord {
+fn built_in() -> impl Iterator<Item = RuleSetRecord> {
+    let record = |(id, rule_set): (&str, RuleSet)| RuleSetRecord {
         id: id.to_owned(),
         draft: rule_set.draft().clone(),
         built_in: true,
         version: 1,
     };
-    [record("warehouse", &RuleSet::warehouse()), record("office", &RuleSet::office())]
+    RuleSet::all_built_in().into_iter().map(record)
 }
 
 fn find_built_in(id: &str) -> Option<RuleSetRecord> {
-    built_in().into_iter().find(|record| record.id == id)
+    built_in().find(|record| record.id == id)
 }
 
 /// Ids stand in URLs: lower-case letters, digits and inner hyphens.

@@ -5,7 +5,7 @@ use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
 use stillage_core::evaluation::{self, Evaluation, GeometryScores, LabelScores, PlaceScores};
-use stillage_core::semantics;
+use stillage_core::semantics::{self, RuleSet};
 use stillage_core::watch::Watch;
 
 use super::failure::Failure;
@@ -26,8 +26,8 @@ pub(super) struct EvaluateArgs {
     /// Prints the figures as JSON, as the service answers them.
     #[arg(long)]
     json: bool,
-    /// Labels and their rules: `warehouse`, or a JSON file with labels `co`, `ju` and `pc`.
-    #[arg(long, value_name = "ID|FILE", default_value = "warehouse")]
+    /// Labels and their rules: `site`, `warehouse`, or a JSON file with labels `co`, `ju` and `pc`.
+    #[arg(long, value_name = "ID|FILE", default_value = RuleSet::DEFAULT_ID)]
     rule_set: String,
     /// JSON file with options of the analysis: a preset, and what differs from it or from the defaults.
     #[arg(long, value_name = "FILE")]

@@ -67,17 +67,16 @@ pub(super) fn options(path: Option<&Path>) -> Result<AnalysisSpec, Failure> {
 
 /// The rule set with a name, or in a file.
 pub(super) fn rule_set(name: &str) -> Result<RuleSet, Failure> {
-    match name {
-        "warehouse" => Ok(RuleSet::warehouse()),
-        "office" => Ok(RuleSet::office()),
-        file if Path::new(file).is_file() => {
-            let draft: RuleSetDraft = read_json(Path::new(file))?;
-            draft.check().map_err(|problems| Failure::Input(format!("{file}: {}", list(&problems))))
-        }
-        other => {
-            Err(Failure::Input(format!("there is no rule set {other}: name `warehouse`, `office`, or a JSON file")))
-        }
+    if let Some((_, built_in)) = RuleSet::all_built_in().into_iter().find(|(id, _)| *id == name) {
+        return Ok(built_in);
     }
+    let file = Path::new(name);
+    if !file.is_file() {
+        let message = format!("there is no rule set {name}: name `site`, `warehouse`, `office`, or a JSON file");
+        return Err(Failure::Input(message));
+    }
+    let draft: RuleSetDraft = read_json(file)?;
+    draft.check().map_err(|problems| Failure::Input(format!("{name}: {}", list(&problems))))
 }
 
 /// The assignment in a file.

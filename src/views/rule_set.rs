@@ -81,7 +81,7 @@ pub enum CogencyView {
 #[schema(as = RuleSet)]
 #[serde(rename_all = "camelCase")]
 pub struct RuleSetView {
-    #[schema(example = "warehouse")]
+    #[schema(example = "site")]
     id: String,
     /// Whether it is built in and cannot be changed.
     built_in: bool,

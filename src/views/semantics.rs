@@ -15,7 +15,7 @@ use crate::records::{SemanticsOrigin, SemanticsRecord};
 #[schema(as = Semantics)]
 #[serde(rename_all = "camelCase")]
 pub struct SemanticsView {
-    #[schema(example = "warehouse")]
+    #[schema(example = "site")]
     rule_set: String,
     /// Label by category.
     #[schema(value_type = BTreeMap<String, String>, example = json!({"0": "co", "1": "pc"}))]
@@ -73,7 +73,7 @@ impl From<SemanticsRecord> for SemanticsView {
 #[serde(deny_unknown_fields, rename_all = "camelCase")]
 pub struct SemanticsBody {
     /// The rule set; the one in force when absent.
-    #[schema(example = "warehouse")]
+    #[schema(example = "site")]
     pub rule_set: Option<String>,
     /// Label by category. Categories that are not named become the rule set's unidentified label.
     #[serde(default)]

@@ -84,7 +84,7 @@ async fn maps_analyses_and_labels_are_there() {
     let rule_sets = app.rule_sets(&me).await.expect("a list of rule sets");
     assert_eq!(
         rule_sets.iter().map(|record| record.id.as_str()).collect::<Vec<_>>(),
-        ["warehouse", "office", "clinic"]
+        ["site", "warehouse", "office", "clinic"]
     );
     let other = Caller::of(Tenant::new("other"));
     assert!(

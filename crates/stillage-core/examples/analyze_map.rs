@@ -1,7 +1,7 @@
 //! Analyses a map without the service: `cargo run --release -p stillage-core --example analyze_map -- map.yaml OUT`.
 //!
 //! Reads the `map_server` metadata beside its PGM or PNG image, writes `OUT/faces.geojson` and `OUT/edges.geojson`
-//! under the warehouse rule set with the suggested labels, and prints the time of every stage. With few beams on few
+//! under the default rule set with the suggested labels, and prints the time of every stage. With few beams on few
 //! cells, since it is about the decomposition; `stillage analyze` knows every option.
 
 #![allow(clippy::print_stdout, reason = "an example prints what it measured")]
@@ -30,7 +30,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let spec = options.check().map_err(|problems| problems[0].to_string())?;
     let (flag, clock) = (StopFlag::default(), Clock::default());
     let analysis = analyze(&grid, &spec, &Watch::new(&flag, &clock))?;
-    let rules = RuleSet::warehouse();
+    let rules = RuleSet::default();
     let assignment = semantics::suggest(&analysis, &rules)
         .into_iter()
         .map(|suggestion| (suggestion.category, rules.label(suggestion.label).id.clone()))

@@ -127,7 +127,7 @@ async fn a_decision_changes_the_answer_and_nothing_is_read_again() {
     );
 
     let made = decide(None, Some(0)).await.unwrap();
-    assert_eq!((made.version, made.rule_set.as_str(), made.origin), (1, "warehouse", SemanticsOrigin::Assigned));
+    assert_eq!((made.version, made.rule_set.as_str(), made.origin), (1, "site", SemanticsOrigin::Assigned));
     let after = service.context(&me(), map).await.unwrap();
     assert_eq!(after.semantics, made);
     assert!(Arc::ptr_eq(&before.analysis, &after.analysis) && Arc::ptr_eq(&before.grid, &after.grid));
@@ -237,8 +237,8 @@ async fn rule_sets_are_written_with_care_and_the_built_in_ones_not_at_all() {
     let service = service().await;
     let draft = RuleSet::office().draft().clone();
     let ids = async || service.rule_sets(&me()).await.unwrap().into_iter().map(|record| record.id).collect::<Vec<_>>();
-    assert_eq!(ids().await, ["warehouse", "office"]);
-    for taken in ["warehouse", "office"] {
+    assert_eq!(ids().await, ["site", "warehouse", "office"]);
+    for taken in ["site", "warehouse", "office"] {
         assert!(matches!(service.create_rule_set(&me(), taken, draft.clone()).await, Err(AppError::Conflict(_))));
         assert!(matches!(service.delete_rule_set(&me(), taken, Some(1)).await, Err(AppError::Conflict(_))));
     }

@@ -27,8 +27,8 @@ pub(super) struct AnalyzeArgs {
     /// Folder for the results; `<map name>.stillage` in the current folder when absent.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Labels and their rules: `warehouse`, `office`, or a JSON file.
-    #[arg(long, value_name = "ID|FILE", default_value = "warehouse")]
+    /// Labels and their rules: `site`, `warehouse`, `office`, or a JSON file.
+    #[arg(long, value_name = "ID|FILE", default_value = RuleSet::DEFAULT_ID)]
     rule_set: String,
     /// JSON file with options of the analysis: a preset, and what differs from it or from the defaults.
     #[arg(long, value_name = "FILE")]

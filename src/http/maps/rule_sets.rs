@@ -41,14 +41,15 @@ fn tag(record: &RuleSetRecord) -> EntityTag {
 #[into_params(parameter_in = Path)]
 #[serde(rename_all = "camelCase")]
 pub struct RuleSetPath {
-    /// The rule set: `warehouse` and `office` are built in.
-    #[param(example = "warehouse")]
+    /// The rule set: `site`, `warehouse` and `office` are built in.
+    #[param(example = "site")]
     rule_set_id: String,
 }
 
 /// List rule sets
 ///
-/// Built in: `warehouse` (Table II of the paper) and `office` (Table IV).
+/// Built in: `site`, the default, and of the two tables that it joins `warehouse` (Table II of the paper) and `office`
+/// (Table IV).
 #[utoipa::path(get, path = "/v1/rule-sets", tag = "semantics", operation_id = "listRuleSets",
     responses((status = 200, description = "The rule sets", body = RuleSetList)))]
 pub async fn list(State(app): State<Arc<App>>, caller: Caller, base: Base) -> Result<Json<RuleSetList>, Problem> {
@@ -160,7 +161,7 @@ mod tests {
 
     #[test]
     fn ids_of_rule_sets_are_plain() {
-        for id in ["warehouse", "hall-3", "7"] {
+        for id in ["site", "hall-3", "7"] {
             assert!(is_rule_set_id(id), "{id}");
         }
         for id in ["", "-a", "Hall", "a/b", "ä", &"a".repeat(65)] {

@@ -1,6 +1,7 @@
-//! Checked rule sets, and the two tables of the paper.
+//! Checked rule sets: the two tables of the paper, and both in one.
 //!
-//! Source: the paper, section II-C: Table II (warehouses), Table IV (offices) and the function C(e).
+//! Source: the paper, section II-C: Table II (warehouses), Table IV (offices) and the function C(e). A site is seldom
+//! one of the two alone: halls have offices, and offices store rooms. So the default joins them.
 //! Cost: O(labels^2 x rules) once per rule set, O(1) per edge. Limits: 32 labels, 1,024 explicit rules.
 
 use super::cogency::{Cogency, derived_cogency};
@@ -31,7 +32,36 @@ impl RuleSetDraft {
     }
 }
 
+/// The rule set that is built in for sites of any kind.
+impl Default for RuleSet {
+    fn default() -> Self {
+        Self::site()
+    }
+}
+
 impl RuleSet {
+    /// Id of the default among the rule sets that are built in.
+    pub const DEFAULT_ID: &str = "site";
+
+    /// The rule sets that are built in, with their ids: the default, Table II and Table IV of the paper.
+    #[must_use]
+    pub fn all_built_in() -> [(&'static str, Self); 3] {
+        [(Self::DEFAULT_ID, Self::site()), ("warehouse", Self::warehouse()), ("office", Self::office())]
+    }
+
+    /// Tables II and IV of the paper joined: for sites of any kind. A room is a work place as an office is.
+    #[must_use]
+    pub fn site() -> Self {
+        use Functionality::{Access, Connection, Drivable, Storage, StorageAccess, WorkPlace};
+        Self::built_in(vec![
+            label("co", "corridor", BLUE, &[Drivable, StorageAccess, Access], &["co", "ju", "pc", "ro"]),
+            label("ju", "junction", YELLOW, &[Drivable, Connection], &["co", "ju", "ro"]),
+            label("pc", "pallet cell", GREEN, &[Storage], &["co"]),
+            label("ro", "room", ORANGE, &[WorkPlace], &["co", "ju", "ro"]),
+            label("un", "unidentified", GREY, &[], &[]),
+        ])
+    }
+
     /// Table II of the paper.
     #[must_use]
     pub fn warehouse() -> Self {
@@ -57,7 +87,7 @@ impl RuleSet {
     }
 
     fn built_in(labels: Vec<Label>) -> Self {
-        RuleSetDraft { labels, cogency: None }.check().expect("the tables of the paper are valid")
+        RuleSetDraft { labels, cogency: None }.check().expect("the built-in tables are valid")
     }
 
     /// Tabulates the cogency of a valid draft.
@@ -189,10 +219,26 @@ mod tests {
     }
 
     #[test]
+    fn the_default_gives_both_tables_their_cogency() {
+        let (site, twins) =
+            (RuleSet::default(), [("warehouse", ["co", "ju", "pc", "un"]), ("office", ["co", "ju", "of", "un"])]);
+        for (id, labels) in twins {
+            let table = RuleSet::all_built_in().into_iter().find(|(built_in, _)| *built_in == id).unwrap().1;
+            let in_site = |label: &str| site.find(if label == "of" { "ro" } else { label }).unwrap();
+            for (first, second) in labels.iter().flat_map(|first| labels.map(|second| (*first, second))) {
+                let expected = table.cogency(table.find(first).unwrap(), table.find(second).unwrap());
+                assert_eq!(site.cogency(in_site(first), in_site(second)), expected, "{id}: {first} | {second}");
+            }
+        }
+        let [pallet_cell, room] = ["pc", "ro"].map(|label| site.find(label).unwrap());
+        assert_eq!(site.cogency(pallet_cell, room), Cogency::Cogent, "goods in a room are not reached from an aisle");
+    }
+
+    #[test]
     fn cogency_does_not_depend_on_the_order_of_the_faces() {
         let any_against_storage = CogencyRule { when: ["*".into(), "pc".into()], then: Cogency::Cogent };
         let listed = RuleSetDraft { cogency: Some(vec![any_against_storage]), ..RuleSet::warehouse().draft().clone() };
-        for rules in [RuleSet::warehouse(), RuleSet::office(), listed.check().unwrap()] {
+        for rules in [RuleSet::site(), RuleSet::warehouse(), RuleSet::office(), listed.check().unwrap()] {
             let ids = || (0..rules.labels().len() as u8).map(LabelId);
             for (first, second) in ids().flat_map(|first| ids().map(move |second| (first, second))) {
                 assert_eq!(rules.cogency(first, second), rules.cogency(second, first));

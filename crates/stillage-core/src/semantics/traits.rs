@@ -84,9 +84,17 @@ impl Traits {
         }
     }
 
-    /// A label is as likely as the least likely of its functionalities.
+    /// A label is as likely as the least likely of its functionalities. A way to storage and to rooms need be the way to
+    /// one of them only.
     pub(super) fn likelihood(&self, label: &Label) -> f64 {
-        let least = label.functionality.iter().map(|&function| self.suit(function)).fold(1.0, f64::min);
+        let suit = |function: &Functionality| match function {
+            Functionality::StorageAccess | Functionality::Access => {
+                let ways = [Functionality::StorageAccess, Functionality::Access].into_iter();
+                ways.filter(|&way| label.has(way)).map(|way| self.suit(way)).fold(0.0, f64::max)
+            }
+            &other => self.suit(other),
+        };
+        let least = label.functionality.iter().map(suit).fold(1.0, f64::min);
         match label.functionality.as_slice() {
             [] => 0.0,
             [Functionality::Drivable] => least * PLAIN_DRIVABLE,

@@ -66,7 +66,7 @@ fn analyzed(grid: &OccupancyGrid, spec: &AnalysisSpec, count: usize) -> Analysis
 
 /// The map as it is served before anyone has labelled it.
 fn labelled(analysis: &Analysis) -> SemanticMap {
-    let rules = RuleSet::warehouse();
+    let rules = RuleSet::default();
     let assignment = Assignment::suggested(&semantics::suggest(analysis, &rules), &rules);
     semantics::apply(analysis, &rules, &assignment).expect("suggestions can be applied")
 }
