@@ -5,6 +5,7 @@ use stillage_core::AnalysisSpec;
 use stillage_core::evaluation::{Evaluation, LabelScores};
 use stillage_zoo::{DrawingOptions, DrawingStyle};
 
+use crate::location_errors::{self, LocationError};
 use crate::tables::{least, mean, percent, table};
 use crate::{Outcome, Seeds, sites};
 
@@ -14,8 +15,7 @@ pub fn drawings(seeds: Seeds, wanted: &str) -> Outcome<String> {
         DrawingStyle::ALL.into_iter().filter(|style| style.name().contains(wanted)).collect();
     let jobs: Vec<(DrawingStyle, u64)> =
         styles.iter().flat_map(|&style| (seeds.0..=seeds.1).map(move |seed| (style, seed))).collect();
-    let evaluations: Vec<Evaluation> =
-        jobs.par_iter().map(|&(style, seed)| one(style, seed)).collect::<Outcome<_>>()?;
+    let drawings: Vec<Drawing> = jobs.par_iter().map(|&(style, seed)| one(style, seed)).collect::<Outcome<_>>()?;
     let head = [
         "style",
         "F1",
@@ -29,16 +29,19 @@ pub fn drawings(seeds: Seeds, wanted: &str) -> Outcome<String> {
         "junction IoU",
         "automatic",
         "drivable IoU",
+        "centre error, cm",
+        "95 % below",
+        "worst heading error, °",
     ];
     let per_style = (seeds.1 - seeds.0 + 1) as usize;
-    let groups = styles.iter().map(ToString::to_string).zip(evaluations.chunks(per_style));
-    let rows = groups.chain([("**all**".to_owned(), &evaluations[..])]).map(|(name, evaluations)| {
+    let groups = styles.iter().map(ToString::to_string).zip(drawings.chunks(per_style));
+    let rows = groups.chain([("**all**".to_owned(), &drawings[..])]).map(|(name, drawings)| {
         let decided =
-            |figure: fn(&LabelScores) -> f64| evaluations.iter().map(move |evaluation| figure(&evaluation.decided));
+            |figure: fn(&LabelScores) -> f64| drawings.iter().map(move |drawing| figure(&drawing.evaluation.decided));
         let automatic = |figure: fn(&LabelScores) -> f64| {
-            percent(mean(evaluations.iter().map(|evaluation| figure(&evaluation.automatic))))
+            percent(mean(drawings.iter().map(|drawing| figure(&drawing.evaluation.automatic))))
         };
-        vec![
+        let mut row = vec![
             name,
             percent(mean(decided(|scores| scores.f1))),
             percent(least(decided(|scores| scores.f1))),
@@ -51,14 +54,24 @@ pub fn drawings(seeds: Seeds, wanted: &str) -> Outcome<String> {
             percent(mean(decided(|scores| scores.overlap.junction))),
             automatic(|scores| scores.overlap.junction),
             percent(mean(decided(|scores| scores.overlap.drivable))),
-        ]
+        ];
+        row.extend(errors(drawings));
+        row
     });
     Ok(table(&head, rows))
 }
 
-fn one(style: DrawingStyle, seed: u64) -> Outcome<Evaluation> {
+/// A drawing, scored.
+struct Drawing {
+    evaluation: Evaluation,
+    errors: Vec<LocationError>,
+}
+
+fn one(style: DrawingStyle, seed: u64) -> Outcome<Drawing> {
     let sample = stillage_zoo::draw(style, seed, &DrawingOptions::default());
-    let evaluation = sites::scored(&sites::of_sample(&sample)?, &AnalysisSpec::default())?;
+    let site = sites::of_sample(&sample)?;
+    let analysis = sites::analyzed(&site.grid, &AnalysisSpec::default())?;
+    let evaluation = sites::evaluated(&site, &analysis)?;
     let meta = &sample.meta;
     let LabelScores { f1, overlap, .. } = &evaluation.decided;
     eprintln!(
@@ -79,5 +92,15 @@ fn one(style: DrawingStyle, seed: u64) -> Outcome<Evaluation> {
         if meta.soft { " soft" } else { "" },
         meta.empty,
     );
-    Ok(evaluation)
+    Ok(Drawing { evaluation, errors: location_errors::of(&analysis, &sample.truth) })
+}
+
+/// Mean and 95th percentile of the distances of centres, centimetres, and the largest error of a heading, degrees.
+fn errors(drawings: &[Drawing]) -> [String; 3] {
+    let errors = || drawings.iter().flat_map(|drawing| &drawing.errors);
+    let mut centers: Vec<f64> = errors().map(|error| 100.0 * error.center).collect();
+    centers.sort_by(f64::total_cmp);
+    let Some(&high) = centers.get(centers.len() * 95 / 100) else { return ["-"; 3].map(str::to_owned) };
+    let heading = errors().map(|error| error.heading).fold(0.0, f64::max).to_degrees();
+    [format!("{:.1}", mean(centers.iter().copied())), format!("{high:.1}"), format!("{heading:.2}")]
 }

@@ -15,12 +15,15 @@
 mod document;
 mod drawings;
 mod drawn_truth;
+mod location_errors;
+mod moved;
 mod offices;
 mod real;
 mod rooms;
 mod rotation;
 mod scan;
 mod sites;
+mod steadiness;
 mod tables;
 
 use std::error::Error;
@@ -43,6 +46,8 @@ enum Group {
     Drawings,
     /// Offices, where nothing is storage (`maps/dev` of the shared folder).
     Offices,
+    /// Real maps and drawings turned and moved under the cells.
+    Steadiness,
 }
 
 /// Measures accuracy, prints it and writes it into a document.
@@ -120,6 +125,7 @@ fn main() -> Outcome<()> {
             Group::Real => tell("real", &real::real(shared, only)?)?,
             Group::Drawings => tell("drawings", &drawings::drawings(arguments.seeds, only)?)?,
             Group::Offices => tell("offices", &offices::offices(shared, only)?)?,
+            Group::Steadiness => tell("steadiness", &steadiness::steadiness(shared, arguments.seeds, only)?)?,
         }
     }
     for (name, seeds) in &arguments.zoo {

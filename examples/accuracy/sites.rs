@@ -93,9 +93,13 @@ pub fn analyzed(grid: &OccupancyGrid, spec: &AnalysisSpec) -> Outcome<Analysis> 
 
 /// Scores a site.
 pub fn scored(site: &Site, spec: &AnalysisSpec) -> Outcome<Evaluation> {
+    evaluated(site, &analyzed(&site.grid, spec)?)
+}
+
+/// Scores the analysis of a site.
+pub fn evaluated(site: &Site, analysis: &Analysis) -> Outcome<Evaluation> {
     let truth = site.truth.as_ref().ok_or("a map without truth.geojson cannot be scored")?;
-    let analysis = analyzed(&site.grid, spec)?;
-    Ok(evaluation::evaluate(&analysis, &rules(), None, truth, &Watch::unwatched())?)
+    Ok(evaluation::evaluate(analysis, &rules(), None, truth, &Watch::unwatched())?)
 }
 
 /// The rule set that everything is read under: the default of the service.

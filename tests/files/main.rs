@@ -13,6 +13,7 @@
 
 mod analyze;
 mod authors_categories;
+mod drawings;
 mod evaluate;
 mod maps;
 mod wild_metadata;

@@ -32,6 +32,12 @@ impl Lattice {
         Self { width: self.width * 2, height: self.height * 2, resolution: self.resolution / 2.0, origin: self.origin }
     }
 
+    /// Its lower left and upper right corner.
+    #[cfg(test)]
+    pub(crate) fn bounds(&self) -> (Point, Point) {
+        (self.origin, self.origin + Vector::new(self.width as f64, self.height as f64) * self.resolution)
+    }
+
     /// A point in cells from the lower left corner.
     pub(crate) fn in_cells(&self, point: Point) -> Point {
         Point::from((point - self.origin) / self.resolution)

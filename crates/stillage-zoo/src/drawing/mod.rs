@@ -8,10 +8,14 @@
 
 mod build;
 mod ink;
+mod options;
 mod outside;
 mod paint;
 mod plan;
 mod style;
+
+#[cfg(test)]
+mod tests;
 
 use serde::Serialize;
 
@@ -22,23 +26,9 @@ use crate::site::Site;
 use crate::truth::{Truth, rounded};
 use plan::Plan;
 
+pub use options::DrawingOptions;
 pub use outside::Outside;
 pub use style::DrawingStyle;
-
-/// How a drawing departs from what its seed decides.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct DrawingOptions {
-    /// Side of a cell, metres; drawn by the seed when absent.
-    pub resolution: Option<f64>,
-    /// Turn of the hall in the map, degrees; drawn by the seed when absent.
-    pub rotation_deg: Option<f64>,
-    /// Added to the turn, degrees.
-    pub turned_deg: f64,
-    /// How far the cells are moved under the hall, along x and along y, in cells.
-    pub shifted_cells: f64,
-    /// What lies beyond the walls; drawn by the seed when absent.
-    pub outside: Option<Outside>,
-}
 
 /// What a drawing was made from.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -91,12 +81,9 @@ pub struct DrawingMeta {
 #[must_use]
 pub fn draw(style: DrawingStyle, seed: u64, options: &DrawingOptions) -> Sample<DrawingMeta> {
     let mut random = Random::of_drawing(style, seed);
-    let mut plan = Plan::new(style, &mut random);
-    plan.resolution = options.resolution.unwrap_or(plan.resolution);
-    plan.outside = options.outside.unwrap_or(plan.outside);
-    let turn = options.rotation_deg.map_or(plan.turn, f64::to_radians) + options.turned_deg.to_radians();
+    let plan = Plan::new(style, options, &mut random);
     let mut site = Site::default();
-    site.add(&build::build(&plan, &mut random), &Pose::new(turn, 0.0, 0.0));
+    site.add(&build::build(&plan, &mut random), &Pose::new(plan.turn, 0.0, 0.0));
     let lattice = paint::lattice(&site, &plan, options.shifted_cells);
     let greys = paint::greys(&site, &plan, &lattice);
     // A drawing shows everything.
@@ -118,7 +105,7 @@ pub fn draw(style: DrawingStyle, seed: u64, options: &DrawingOptions) -> Sample<
         offices: plan.offices,
         outside: plan.outside,
         margin: rounded(plan.margin, 3),
-        turn: rounded(turn.to_degrees(), 3),
+        turn: rounded(plan.turn.to_degrees(), 3),
         soft: plan.soft,
         wall: plan.wall,
         places: truth.places_by_region().values().sum(),

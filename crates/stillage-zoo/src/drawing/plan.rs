@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use super::options::DrawingOptions;
 use super::outside::Outside;
 use super::style::DrawingStyle;
 use crate::random::Random;
@@ -79,11 +80,13 @@ pub(super) enum StripeKind {
 }
 
 impl Plan {
-    pub(super) fn new(style: DrawingStyle, random: &mut Random) -> Self {
+    /// Decides everything that the options leave open; the numbers drawn are the same under all options.
+    pub(super) fn new(style: DrawingStyle, options: &DrawingOptions, random: &mut Random) -> Self {
         let pitch = random.within(style.pitch());
         let resolution: f64 = random.pick([0.02, 0.025, 0.03, 0.04, 0.05, 0.05, 0.05, 0.07, 0.1]);
         // Where places are to be told apart, cells are small enough for it.
         let resolution = if style.is_whole() { resolution } else { resolution.min(pitch / CELLS_PER_PLACE) };
+        let resolution = options.resolution.unwrap_or(resolution);
         let depth = random.within(0.8..1.4);
         let aisle: f64 = random.within(1.0..4.0);
         // Where nothing but the distance of two faces tells a row from an aisle, the distances differ.
@@ -97,9 +100,9 @@ impl Plan {
             style,
             resolution,
             soft: random.chance(0.35),
-            outside: random.pick(Outside::ALL),
+            outside: options.outside.unwrap_or(random.pick(Outside::ALL)),
             margin: random.pick([0.0, 0.3, 1.0, 2.0, 3.0]),
-            turn: f64::to_radians(turn),
+            turn: (options.rotation_deg.unwrap_or(turn) + options.turned_deg).to_radians(),
             wall: random.pick([0.1, 0.15, 0.2, 0.3, 0.4]),
             pitch,
             depth,
@@ -119,7 +122,8 @@ impl Plan {
             columns: random.chance(0.25),
             offices: random.pick([0, 0, 1, 2, 3]),
         };
-        plan.lay_out(HALL.map(|range| random.within(range)));
+        let hall = HALL.map(|range| random.within(range));
+        plan.lay_out(options.hall.unwrap_or(hall));
         plan
     }
 
