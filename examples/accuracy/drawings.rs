@@ -1,5 +1,7 @@
 //! Plain drawings of warehouses (`stillage_zoo::draw`), by style.
 
+use std::fs;
+
 use rayon::prelude::*;
 use stillage_core::AnalysisSpec;
 use stillage_core::evaluation::{Evaluation, LabelScores};
@@ -7,15 +9,17 @@ use stillage_zoo::{DrawingOptions, DrawingStyle};
 
 use crate::location_errors::{self, LocationError};
 use crate::tables::{least, mean, percent, table};
-use crate::{Outcome, Seeds, sites};
+use crate::{Arguments, Outcome, sites};
 
 /// Scores drawings of the styles whose names hold a text, and tells each on standard error.
-pub fn drawings(seeds: Seeds, wanted: &str) -> Outcome<String> {
+pub fn drawings(arguments: &Arguments) -> Outcome<String> {
+    let seeds = arguments.seeds;
     let styles: Vec<DrawingStyle> =
-        DrawingStyle::ALL.into_iter().filter(|style| style.name().contains(wanted)).collect();
+        DrawingStyle::ALL.into_iter().filter(|style| style.name().contains(&arguments.only)).collect();
     let jobs: Vec<(DrawingStyle, u64)> =
         styles.iter().flat_map(|&style| (seeds.0..=seeds.1).map(move |seed| (style, seed))).collect();
-    let drawings: Vec<Drawing> = jobs.par_iter().map(|&(style, seed)| one(style, seed)).collect::<Outcome<_>>()?;
+    let drawings: Vec<Drawing> =
+        jobs.par_iter().map(|&(style, seed)| one(style, seed, arguments)).collect::<Outcome<_>>()?;
     let head = [
         "style",
         "F1",
@@ -58,6 +62,16 @@ pub fn drawings(seeds: Seeds, wanted: &str) -> Outcome<String> {
         row.extend(errors(drawings));
         row
     });
+    if let Some(folder) = arguments.shown() {
+        for (style, drawings) in styles.iter().zip(drawings.chunks(per_style)) {
+            let f1 = |index: &usize| drawings[*index].evaluation.decided.f1;
+            let worst = (0..drawings.len()).min_by(|one, other| f1(one).total_cmp(&f1(other))).unwrap_or(0);
+            let sample = stillage_zoo::draw(*style, seeds.0 + worst as u64, &DrawingOptions::default());
+            let grid = sites::of_sample(&sample)?.grid;
+            let analysis = sites::analyzed(&grid, &AnalysisSpec::default())?;
+            fs::write(folder.join(format!("drawing-{style}.png")), sites::small_picture(&grid, &analysis)?)?;
+        }
+    }
     Ok(table(&head, rows))
 }
 
@@ -67,10 +81,11 @@ struct Drawing {
     errors: Vec<LocationError>,
 }
 
-fn one(style: DrawingStyle, seed: u64) -> Outcome<Drawing> {
+fn one(style: DrawingStyle, seed: u64, arguments: &Arguments) -> Outcome<Drawing> {
     let sample = stillage_zoo::draw(style, seed, &DrawingOptions::default());
     let site = sites::of_sample(&sample)?;
     let analysis = sites::analyzed(&site.grid, &AnalysisSpec::default())?;
+    arguments.draw(&format!("{style}_{seed}"), &site.grid, &analysis)?;
     let evaluation = sites::evaluated(&site, &analysis)?;
     let meta = &sample.meta;
     let LabelScores { f1, overlap, .. } = &evaluation.decided;

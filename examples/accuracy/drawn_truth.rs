@@ -23,7 +23,7 @@ use stillage_core::{Analysis, Vector};
 use crate::{Outcome, scan};
 
 /// The labels that are scored: storage, aisle, open floor.
-pub const LABELS: [&str; 3] = ["pc", "co", "ju"];
+const LABELS: [&str; 3] = ["pc", "co", "ju"];
 /// What is unsure is masked with so much around it, metres.
 const UNSURE: f64 = 0.05;
 /// Faces below this area are none, square metres.

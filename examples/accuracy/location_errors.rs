@@ -1,8 +1,8 @@
 //! How far locations lie from the places that they stand for.
 
-use std::f64::consts::FRAC_PI_2;
+use std::f64::consts::{FRAC_PI_2, PI};
 
-use stillage_core::geometry::{Point, Vector, line_angle_between, ring_area};
+use stillage_core::geometry::{OrientedBox, Point, Vector, line_angle_between, ring_area};
 use stillage_core::{Analysis, layout};
 use stillage_zoo::{Properties, Truth};
 
@@ -10,6 +10,8 @@ use crate::sites;
 
 /// A location stands for a place whose area is at most so many times smaller or larger.
 const ALIKE: f64 = 2.0;
+/// Angle above which one sees that a heading is wrong, radians.
+const ASLANT: f64 = 5.0 * PI / 180.0;
 
 /// One location beside its place.
 #[derive(Debug, Clone, Copy)]
@@ -19,6 +21,18 @@ pub struct LocationError {
     /// Angle between the direction into the location and that across the row, radians. Which of the two sides is the front
     /// is not asked: a row may have an aisle on both.
     pub heading: f64,
+}
+
+/// How many locations of a map head aslant to their own oriented box, by more than [`ASLANT`], and how many there are.
+pub fn aslant(analysis: &Analysis) -> [usize; 2] {
+    let locations = layout::locations(analysis, &sites::suggested(analysis));
+    let is_aslant = |location: &&layout::Location| {
+        let corners: Vec<Point> = analysis.subdivision.rings(location.face).concat();
+        let along = OrientedBox::smallest_around(&corners).angle;
+        let error = line_angle_between(location.heading, along);
+        error.min(FRAC_PI_2 - error) > ASLANT
+    };
+    [locations.iter().filter(is_aslant).count(), locations.len()]
 }
 
 /// The errors of all locations that stand for a place.

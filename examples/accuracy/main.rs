@@ -28,11 +28,12 @@ mod tables;
 
 use std::error::Error;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::{Parser, ValueEnum};
 
 use document::Document;
+use stillage_core::{Analysis, OccupancyGrid};
 
 /// Anything may be wrong with a file that a developer names.
 type Outcome<T> = Result<T, Box<dyn Error + Send + Sync>>;
@@ -64,7 +65,10 @@ struct Arguments {
     /// The folder of real maps and their truth.
     #[arg(long, value_name = "DIR", env = "STILLAGE_SHARED", default_value = "../shared")]
     shared: PathBuf,
-    /// Fills the tables into the document.
+    /// Draws every map of the groups into a folder.
+    #[arg(long, value_name = "DIR")]
+    pictures: Option<PathBuf>,
+    /// Fills the tables into the document, and draws the pictures that it shows.
     #[arg(long)]
     write: bool,
     /// Maps of `generate.py`, as NAME=DIR: fills the section `generated-NAME` from all folders
@@ -83,12 +87,22 @@ struct Arguments {
     /// Real offices by rooms: fills the section `rooms`.
     #[arg(long)]
     rooms: bool,
-    /// Draws the real maps that the document shows.
-    #[arg(long)]
-    pictures: bool,
     /// The document.
     #[arg(long, value_name = "FILE", default_value = "docs/accuracy.md")]
     document: PathBuf,
+}
+
+impl Arguments {
+    /// The folder of the pictures that the document shows, where it is written.
+    fn shown(&self) -> Option<PathBuf> {
+        self.write.then(|| self.document.with_extension(""))
+    }
+
+    /// Draws an analysed map where every map is drawn.
+    fn draw(&self, name: &str, grid: &OccupancyGrid, analysis: &Analysis) -> Outcome<()> {
+        let Some(folder) = &self.pictures else { return Ok(()) };
+        Ok(fs::write(folder.join(format!("{name}.png")), sites::picture(grid, analysis))?)
+    }
 }
 
 /// Seeds from the first to the last.
@@ -114,22 +128,23 @@ fn named<T: std::str::FromStr>(text: &str) -> Result<(String, T), String> {
 fn main() -> Outcome<()> {
     let arguments = Arguments::parse();
     let mut document = Document::read(&arguments.document)?;
-    let pictures = arguments.document.with_extension("");
-    let (shared, only) = (&arguments.shared, arguments.only.as_str());
+    if let Some(folder) = &arguments.pictures {
+        fs::create_dir_all(folder)?;
+    }
     let mut tell = |section: &str, table: &str| {
         println!("{section}\n\n{table}");
         if arguments.write { document.fill(section, table) } else { Ok(()) }
     };
     for group in &arguments.groups {
         match group {
-            Group::Real => tell("real", &real::real(shared, only)?)?,
-            Group::Drawings => tell("drawings", &drawings::drawings(arguments.seeds, only)?)?,
-            Group::Offices => tell("offices", &offices::offices(shared, only)?)?,
-            Group::Steadiness => tell("steadiness", &steadiness::steadiness(shared, arguments.seeds, only)?)?,
+            Group::Real => tell("real", &real::real(&arguments)?)?,
+            Group::Drawings => tell("drawings", &drawings::drawings(&arguments)?)?,
+            Group::Offices => tell("offices", &offices::offices(&arguments)?)?,
+            Group::Steadiness => tell("steadiness", &steadiness::steadiness(&arguments)?)?,
         }
     }
     for (name, seeds) in &arguments.zoo {
-        let scores = sites::zoo(seeds.0..=seeds.1, &pictures)?;
+        let scores = sites::zoo(seeds.0..=seeds.1, arguments.shown().as_deref())?;
         tell(&format!("zoo-{name}"), &tables::zoo(&scores))?;
     }
     for (name, folder) in &arguments.generated {
@@ -142,28 +157,7 @@ fn main() -> Outcome<()> {
         tell("rotation", &rotation::table(seed)?)?;
     }
     if arguments.rooms {
-        tell("rooms", &rooms::table(&shared.join("maps/dev"))?)?;
-    }
-    if arguments.pictures {
-        draw_real_maps(&shared.join("maps/dev"), &pictures)?;
+        tell("rooms", &rooms::table(&arguments.shared.join("maps/dev"))?)?;
     }
     if arguments.write { document.write() } else { Ok(()) }
-}
-
-/// Draws the real maps that the document shows: those that may be copied.
-fn draw_real_maps(folder: &Path, pictures: &Path) -> Outcome<()> {
-    const SHOWN: [&str; 6] = [
-        "warehouse__svl_warehouse_dt_pallets",
-        "warehouse__nav2_depot",
-        "warehouse__isaac_iw_hub_warehouse",
-        "warehouse__aws_small_005_rotated",
-        "warehouse__aws_bookstore",
-        "warehouse__tuw_warehouse_grid",
-    ];
-    for name in SHOWN {
-        let site = sites::read(&folder.join(name).join("map.yaml"))?;
-        let result = sites::analyzed(&site.grid, &stillage_core::AnalysisSpec::default())?;
-        fs::write(pictures.join(format!("{name}.png")), sites::picture(&site.grid, &result))?;
-    }
-    Ok(())
 }

@@ -1,13 +1,13 @@
 //! Offices: where a person sees no storage, there is none; doors are counted.
 
-use std::path::Path;
+use std::path::PathBuf;
 
 use rayon::prelude::*;
 use stillage_core::geometry::polygon;
 use stillage_core::{AnalysisSpec, Occupancy};
 
 use crate::tables::{mean, percent, table};
-use crate::{Outcome, sites};
+use crate::{Arguments, Outcome, sites};
 
 /// Maps of offices, by the beginnings of their names.
 const OFFICES: [&str; 2] = ["bormann__", "office__"];
@@ -22,10 +22,11 @@ struct Office {
 }
 
 /// The table of the offices whose names hold a text.
-pub fn offices(shared: &Path, wanted: &str) -> Outcome<String> {
-    let folder = shared.join("maps/dev");
+pub fn offices(arguments: &Arguments) -> Outcome<String> {
+    let folder = arguments.shared.join("maps/dev");
     let names = sites::names(&folder, "")?;
-    let is_office = |name: &&String| OFFICES.iter().any(|sort| name.starts_with(sort)) && name.contains(wanted);
+    let is_office =
+        |name: &&String| OFFICES.iter().any(|sort| name.starts_with(sort)) && name.contains(&arguments.only);
     let mut paths = Vec::new();
     for name in names.iter().filter(is_office) {
         let folder = folder.join(name);
@@ -34,13 +35,14 @@ pub fn offices(shared: &Path, wanted: &str) -> Outcome<String> {
             paths.push((format!("{name}, furnished"), Some(folder.join("map_furnished.png"))));
         }
     }
-    let read = |(name, image): &(String, Option<std::path::PathBuf>)| -> Outcome<Office> {
+    let read = |(name, image): &(String, Option<PathBuf>)| -> Outcome<Office> {
         let metadata = folder.join(name.trim_end_matches(", furnished")).join("map.yaml");
         let site = match image {
             Some(image) => sites::read_image(image, &metadata)?,
             None => sites::read(&metadata)?,
         };
         let analysis = sites::analyzed(&site.grid, &AnalysisSpec::default())?;
+        arguments.draw(name, &site.grid, &analysis)?;
         let semantic = sites::suggested(&analysis);
         let storage = analysis.subdivision.faces().filter(|&face| semantic.label(face).is_storage());
         let storage: f64 = storage.map(|face| polygon::area(&analysis.subdivision.rings(face))).sum();

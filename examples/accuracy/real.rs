@@ -5,9 +5,19 @@ use std::path::Path;
 use rayon::prelude::*;
 use stillage_core::{AnalysisSpec, OccupancyGrid};
 
-use crate::drawn_truth::{DrawnTruth, LABELS, LabelScore, MapScore};
+use crate::drawn_truth::{DrawnTruth, LabelScore, MapScore};
 use crate::tables::{mean, percent, table};
-use crate::{Outcome, sites};
+use crate::{Arguments, Outcome, location_errors, sites};
+
+/// Maps that the document shows: their licences allow it.
+const SHOWN: [&str; 6] = [
+    "warehouse__svl_warehouse_dt_pallets",
+    "warehouse__nav2_depot",
+    "warehouse__isaac_iw_hub_warehouse",
+    "warehouse__aws_small_005_rotated",
+    "warehouse__aws_bookstore",
+    "warehouse__tuw_warehouse_grid",
+];
 
 /// A real map, by name, with what a person drew.
 pub struct RealMap {
@@ -41,9 +51,18 @@ impl RealMap {
 }
 
 /// The table of all real maps.
-pub fn real(shared: &Path, wanted: &str) -> Outcome<String> {
-    let maps = maps(shared, wanted)?;
-    let scores: Vec<MapScore> = maps.par_iter().map(|map| map.score(&map.grid)).collect::<Outcome<_>>()?;
+pub fn real(arguments: &Arguments) -> Outcome<String> {
+    let maps = maps(&arguments.shared, &arguments.only)?;
+    let one = |map: &RealMap| {
+        let analysis = sites::analyzed(&map.grid, &AnalysisSpec::default())?;
+        arguments.draw(&map.name, &map.grid, &analysis)?;
+        if let Some(folder) = arguments.shown().filter(|_| SHOWN.contains(&map.name.as_str())) {
+            std::fs::write(folder.join(format!("{}.png", map.name)), sites::small_picture(&map.grid, &analysis)?)?;
+        }
+        Ok((map.truth.score(&analysis, &sites::suggested(&analysis)), location_errors::aslant(&analysis)))
+    };
+    let measured: Vec<(MapScore, [usize; 2])> = maps.par_iter().map(one).collect::<Outcome<_>>()?;
+    let (scores, aslant): (Vec<MapScore>, Vec<[usize; 2]>) = measured.into_iter().unzip();
     let head = [
         "map",
         "score",
@@ -56,8 +75,9 @@ pub fn real(shared: &Path, wanted: &str) -> Outcome<String> {
         "open floor found",
         "precision",
         "drivable IoU",
+        "headings aslant",
     ];
-    let rows = maps.iter().zip(&scores).map(|(map, score)| {
+    let rows = maps.iter().zip(&scores).zip(&aslant).map(|((map, score), [aslant, locations])| {
         let [storage, aisles, floor] = score.labels;
         let precision = |label: Option<LabelScore>| label.map_or("-".to_owned(), |label| percent(label.precision));
         let met = |label: Option<LabelScore>| {
@@ -75,12 +95,15 @@ pub fn real(shared: &Path, wanted: &str) -> Outcome<String> {
             floor.map_or("-".to_owned(), |label| percent(label.recall)),
             precision(floor),
             percent(score.drivable),
+            format!("{aslant} of {locations}"),
         ]
     });
-    Ok(table(&head, rows.chain([total(&scores)])))
+    let sum = |index: usize| aslant.iter().map(|counts| counts[index]).sum::<usize>();
+    let total = [total(&scores), vec![format!("{} of {}", sum(0), sum(1))]].concat();
+    Ok(table(&head, rows.chain([total])))
 }
 
-/// All maps together: means of shares, sums of counts.
+/// All maps together: means of shares, sums of counts; storage, aisles and open floor in the order of the labels.
 fn total(scores: &[MapScore]) -> Vec<String> {
     let of = |label: usize, figure: fn(&LabelScore) -> f64| {
         percent(mean(scores.iter().filter_map(|score| score.labels[label].as_ref()).map(figure)))
@@ -93,7 +116,6 @@ fn total(scores: &[MapScore]) -> Vec<String> {
     };
     let faces: [usize; 2] =
         [scores.iter().map(|score| score.false_faces).sum(), scores.iter().map(|score| score.storage_faces).sum()];
-    debug_assert_eq!(LABELS, ["pc", "co", "ju"]);
     vec![
         "**all**".to_owned(),
         percent(mean(scores.iter().map(MapScore::score))),

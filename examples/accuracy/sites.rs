@@ -104,7 +104,7 @@ pub fn evaluated(site: &Site, analysis: &Analysis) -> Outcome<Evaluation> {
 
 /// The rule set that everything is read under: the default of the service.
 fn rules() -> RuleSet {
-    RuleSet::warehouse()
+    RuleSet::default()
 }
 
 /// An analysis under its suggested labels.
@@ -144,8 +144,8 @@ pub fn generated(folder: &Path) -> Outcome<Vec<Generated>> {
     names.par_iter().map(one).collect()
 }
 
-/// Scores every kind of site, and draws the first seed of some.
-pub fn zoo(seeds: RangeInclusive<u64>, pictures: &Path) -> Outcome<Vec<OfZoo>> {
+/// Scores every kind of site, and draws the first seed of some into a folder.
+pub fn zoo(seeds: RangeInclusive<u64>, pictures: Option<&Path>) -> Outcome<Vec<OfZoo>> {
     let sites: Vec<(Kind, u64)> =
         Kind::ALL.iter().flat_map(|&kind| seeds.clone().map(move |seed| (kind, seed))).collect();
     let one = |&(kind, seed): &(Kind, u64)| {
@@ -154,9 +154,9 @@ pub fn zoo(seeds: RangeInclusive<u64>, pictures: &Path) -> Outcome<Vec<OfZoo>> {
         let speckled = of_zoo(kind, seed, &Options { speckle: SPECKLE, ..Options::default() })?;
         let speckled = scored(&speckled, &AnalysisSpec::default())?;
         eprintln!("{kind:<16}{seed:>4}{:>7.3} {:>7.3}", clean.decided.f1, clean.automatic.f1);
-        if seed == 1 && SHOWN.contains(&kind) {
+        if let Some(pictures) = pictures.filter(|_| seed == 1 && SHOWN.contains(&kind)) {
             let analysis = analyzed(&clean_site.grid, &AnalysisSpec::default())?;
-            fs::write(pictures.join(format!("zoo-{kind}.png")), picture(&clean_site.grid, &analysis))?;
+            fs::write(pictures.join(format!("zoo-{kind}.png")), small_picture(&clean_site.grid, &analysis)?)?;
         }
         Ok(OfZoo { kind, clean, speckled })
     };
@@ -168,4 +168,15 @@ pub fn picture(grid: &OccupancyGrid, analysis: &Analysis) -> Vec<u8> {
     let semantic = suggested(analysis);
     let locations = layout::locations(analysis, &semantic);
     render::semantic_png(grid, analysis, &semantic, &locations)
+}
+
+/// The same picture for a page of text, at most so large.
+pub fn small_picture(grid: &OccupancyGrid, analysis: &Analysis) -> Outcome<Vec<u8>> {
+    /// Width and height, pixels.
+    const LARGEST: u32 = 900;
+    let whole = image::load_from_memory(&picture(grid, analysis))?;
+    let small = if whole.width().max(whole.height()) > LARGEST { whole.thumbnail(LARGEST, LARGEST) } else { whole };
+    let mut bytes = std::io::Cursor::new(Vec::new());
+    small.write_to(&mut bytes, image::ImageFormat::Png)?;
+    Ok(bytes.into_inner())
 }

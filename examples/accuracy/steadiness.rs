@@ -1,14 +1,12 @@
 //! Whether results hang on how cells fall: maps turned and moved under the cells, against the same truth.
 
-use std::path::Path;
-
 use rayon::prelude::*;
 use stillage_core::{AnalysisSpec, OccupancyGrid};
 use stillage_zoo::{DrawingOptions, DrawingStyle};
 
 use crate::real::{self, RealMap};
 use crate::tables::{least, mean, percent, table};
-use crate::{Outcome, Seeds, moved, sites};
+use crate::{Arguments, Outcome, Seeds, moved, sites};
 
 /// Turns, degrees: almost with the cells, and anywhere in between.
 const TURNS: [f64; 4] = [2.0, 10.0, 17.0, 45.0];
@@ -20,8 +18,9 @@ const PART_OF_A_CELL: f64 = 0.25;
 const SEEDS: u64 = 3;
 
 /// Scores of real maps and F1 of drawings, as they are and moved.
-pub fn steadiness(shared: &Path, seeds: Seeds, wanted: &str) -> Outcome<String> {
-    Ok(format!("{}\n{}", real_maps(&real::maps(shared, wanted)?)?, drawings(seeds, wanted)?))
+pub fn steadiness(arguments: &Arguments) -> Outcome<String> {
+    let maps = real::maps(&arguments.shared, &arguments.only)?;
+    Ok(format!("{}\n{}", real_maps(&maps)?, drawings(arguments.seeds, &arguments.only)?))
 }
 
 fn real_maps(maps: &[RealMap]) -> Outcome<String> {
