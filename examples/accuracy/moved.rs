@@ -1,5 +1,5 @@
-//! The same map on other cells: turned, or with unknown ground before it. Its place in the map frame stays, and so does
-//! its truth.
+//! The same map on other cells: turned, with unknown ground before it, or painted outside. Its place in the map frame stays,
+//! and so does its truth.
 
 use stillage_core::geometry::{Vector, direction, normal};
 use stillage_core::{GridFrame, Occupancy, OccupancyGrid, Point};
@@ -56,4 +56,27 @@ pub fn padded(grid: &OccupancyGrid, cells: usize) -> OccupancyGrid {
         padded[start..start + grid.width()].copy_from_slice(grid.row(row));
     }
     OccupancyGrid::new(width, height, frame, padded)
+}
+
+/// A map whose unknown ground outside, from its border inwards, is painted.
+pub fn painted(grid: &OccupancyGrid, outside: Occupancy) -> OccupancyGrid {
+    let (width, height) = (grid.width(), grid.height());
+    let mut cells = grid.cells().to_vec();
+    let is_border = |cell: usize| {
+        let (column, row) = (cell % width, cell / width);
+        column == 0 || row == 0 || column + 1 == width || row + 1 == height
+    };
+    let mut open: Vec<usize> = (0..cells.len()).filter(|&cell| is_border(cell)).collect();
+    while let Some(cell) = open.pop() {
+        if cells[cell] != Occupancy::Unknown {
+            continue;
+        }
+        cells[cell] = outside;
+        let (column, row) = (cell % width, cell / width);
+        open.extend((column > 0).then(|| cell - 1));
+        open.extend((column + 1 < width).then(|| cell + 1));
+        open.extend((row > 0).then(|| cell - width));
+        open.extend((row + 1 < height).then(|| cell + width));
+    }
+    OccupancyGrid::new(width, height, *grid.frame(), cells)
 }

@@ -77,6 +77,14 @@ pub fn of_sample<M>(sample: &Sample<M>) -> Outcome<Site> {
     site(sample.pgm(), sample.yaml().into_bytes(), Some(&serde_json::to_vec(&sample.truth)?))
 }
 
+/// The same, after its picture has been a JPEG of a quality of 100.
+pub fn of_jpeg<M>(sample: &Sample<M>, quality: u8) -> Outcome<Site> {
+    let picture = image::load_from_memory(&sample.pgm())?.into_luma8();
+    let mut bytes = Vec::new();
+    image::codecs::jpeg::JpegEncoder::new_with_quality(&mut bytes, quality).encode_image(&picture)?;
+    site(bytes, sample.yaml().into_bytes(), Some(&serde_json::to_vec(&sample.truth)?))
+}
+
 /// What lies in a folder and ends like this, in order, without the ending.
 pub fn names(folder: &Path, ending: &str) -> Outcome<Vec<String>> {
     let entries = fs::read_dir(folder).map_err(|error| format!("{}: {error}", folder.display()))?;

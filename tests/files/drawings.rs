@@ -14,11 +14,11 @@ use stillage_zoo::{DrawingOptions, DrawingStyle, draw};
 const FLOORS: [(DrawingStyle, f64, f64); 9] = [
     (DrawingStyle::Solid, 0.1, 0.0),
     (DrawingStyle::Racks, 1.0, 0.6),
-    (DrawingStyle::Outlined, 0.0, 0.9),
+    (DrawingStyle::Outlined, 0.0, 0.3),
     (DrawingStyle::Lined, 1.0, 0.6),
     (DrawingStyle::Uprights, 0.0, 0.0),
     (DrawingStyle::Pods, 0.0, 0.0),
-    (DrawingStyle::Ticks, 0.6, 0.8),
+    (DrawingStyle::Ticks, 0.0, 0.0),
     (DrawingStyle::Hatched, 0.0, 0.4),
     (DrawingStyle::Dashed, 0.0, 0.9),
 ];

@@ -43,7 +43,7 @@ pub(super) struct Pen {
     line: f64,
     /// Sides of posts and legs, thickness of frames and dashes.
     post: f64,
-    /// Between two solid places.
+    /// Between two solid places, and between two frames back to back.
     gap: f64,
     /// Legs from the border of their place.
     inset: f64,
@@ -54,10 +54,9 @@ pub(super) struct Pen {
 }
 
 impl Pen {
-    /// Widths of a drawing: what a cell can show at least, two where edges are grey, for a line between two columns of cells
-    /// would leave neither of them black.
+    /// The widths of a drawing: what its cells can show at least.
     pub(super) fn new(plan: &Plan, random: &mut Random) -> Self {
-        let visible = if plan.soft { 2.0 } else { 1.0 } * plan.resolution;
+        let visible = plan.visible();
         let line = random.within(0.02..0.06).max(visible);
         Self {
             line,
@@ -90,8 +89,11 @@ impl Pen {
             }
             DrawingStyle::Pods => full().flat_map(|(x, y)| self.legs(x, y)).collect(),
             DrawingStyle::Ticks => {
-                let ticks =
-                    |row: &Row| borders(row).map(|x| rectangle(&about(x, self.post), &row.y)).collect::<Vec<_>>();
+                // Shorter than the row is deep, so that two rows back to back are seen to be two.
+                let ticks = |row: &Row| {
+                    let y = within(&row.y, self.gap / 2.0);
+                    borders(row).map(|x| rectangle(&about(x, self.post), &y)).collect::<Vec<_>>()
+                };
                 rack.rows.iter().flat_map(ticks).collect()
             }
             DrawingStyle::Hatched => self.hatched(rack),

@@ -7,6 +7,8 @@ use super::outside::Outside;
 pub struct DrawingOptions {
     /// Side of a cell, metres; drawn by the seed when absent.
     pub resolution: Option<f64>,
+    /// Factor of the side of a cell, the hall staying as it is; 1 when absent.
+    pub scale: Option<f64>,
     /// Turn of the hall in the map, degrees; drawn by the seed when absent.
     pub rotation_deg: Option<f64>,
     /// Added to the turn, degrees.
@@ -17,4 +19,6 @@ pub struct DrawingOptions {
     pub hall: Option<[f64; 2]>,
     /// What lies beyond the walls; drawn by the seed when absent.
     pub outside: Option<Outside>,
+    /// Distance of the walls to the border of the picture, metres; drawn by the seed when absent.
+    pub margin: Option<f64>,
 }

@@ -101,9 +101,9 @@ impl Plan {
             resolution,
             soft: random.chance(0.35),
             outside: options.outside.unwrap_or(random.pick(Outside::ALL)),
-            margin: random.pick([0.0, 0.3, 1.0, 2.0, 3.0]),
+            margin: options.margin.unwrap_or(random.pick([0.0, 0.3, 1.0, 2.0, 3.0])),
             turn: (options.rotation_deg.unwrap_or(turn) + options.turned_deg).to_radians(),
-            wall: random.pick([0.1, 0.15, 0.2, 0.3, 0.4]),
+            wall: random.pick([0.05, 0.1, 0.15, 0.2, 0.3, 0.4]),
             pitch,
             depth,
             layers: if style.shows_empty_places() && random.chance(0.15) { 2 } else { 1 },
@@ -124,7 +124,16 @@ impl Plan {
         };
         let hall = HALL.map(|range| random.within(range));
         plan.lay_out(options.hall.unwrap_or(hall));
+        plan.resolution *= options.scale.unwrap_or(1.0);
+        // Half a cell more: a wall may cross the cells aslant.
+        plan.wall = plan.wall.max(plan.visible() + 0.5 * plan.resolution);
         plan
+    }
+
+    /// Width of the finest line that shows, metres: two cells where edges are grey, for a line between two columns of cells
+    /// would leave neither of them black.
+    pub(super) fn visible(&self) -> f64 {
+        if self.soft { 2.0 * self.resolution } else { self.resolution }
     }
 
     /// Chooses how many racks and places fit into a hall of a length and depth.
