@@ -89,8 +89,7 @@ fn decompose_region(
         return Ok(Decomposition::default());
     };
     let mut frame = RegionFrame::new(grid, regions, region, angle, site, watch)?;
-    let vehicle = frame.cells_of(options.vehicle_width_m);
-    drivable::mark(&mut frame, vehicle, watch)?;
+    drivable::mark(&mut frame, options.vehicle_width_m, watch)?;
     let cut = aisles::cut(&frame, watch)?;
     let parcels = rows::lay_out(&frame, cut, &SizeHints::of(options), watch)?;
     let parcels = trim::trimmed(&frame, parcels, watch)?;

@@ -137,7 +137,7 @@ mod tests {
         };
         let picture: String = floor.into_iter().chain(within).chain(below).map(scaled).collect();
         let (mut frame, whole) = RegionFrame::of_picture(&picture, 0.05);
-        drivable::mark(&mut frame, 20, &Watch::unwatched()).expect("nobody stops it");
+        drivable::mark(&mut frame, 1.0, &Watch::unwatched()).expect("nobody stops it");
         let side = |start: usize, low: usize, length: usize| start + low * CELLS..start + (low + length) * CELLS;
         let rect = Rect { u: side(whole.u.start, floor_width, width), v: side(whole.v.start, low, rows.len()) };
         Body::of(&frame, &BodyArea { rect, axis: Some(axis), fronts: [false; 2] })

@@ -4,9 +4,10 @@ use super::frame::RegionFrame;
 use crate::morphology;
 use crate::watch::{Stopped, Watch};
 
-/// Marks the drivable cells of a frame for a vehicle of `width` cells.
-pub(crate) fn mark(frame: &mut RegionFrame, width: usize, watch: &Watch<'_>) -> Result<(), Stopped> {
-    let size = [frame.columns, frame.rows];
+/// Marks the drivable cells of a frame for a vehicle of some width, metres.
+pub(crate) fn mark(frame: &mut RegionFrame, vehicle_m: f64, watch: &Watch<'_>) -> Result<(), Stopped> {
+    frame.vehicle_m = vehicle_m;
+    let (size, width) = ([frame.columns, frame.rows], frame.cells_of(vehicle_m));
     let squares = morphology::fitting_squares(size, width, |cell| frame.cells[cell].is_free(), watch)?;
     morphology::mark_covered(&squares, frame.columns, width, |cell| frame.cells[cell].mark_drivable(), watch)
 }

@@ -32,6 +32,8 @@ pub(crate) struct RegionFrame {
     pub columns: usize,
     pub rows: usize,
     pub cells: Vec<Cell>,
+    /// Width of the vehicle that drivable cells have room for, metres; 0 until they are marked.
+    pub vehicle_m: f64,
 }
 
 impl RegionFrame {
@@ -103,7 +105,15 @@ impl RegionFrame {
             if extent.is_finite() { (extent / cell).ceil().max(0.0) as usize } else { 0 }
         });
         let cells = vec![Cell::new(Occupancy::Unknown, false); size[0] * size[1]];
-        Self { angle, cell, start: low.map(|low| low - MARGIN_M), columns: size[0], rows: size[1], cells }
+        Self {
+            angle,
+            cell,
+            start: low.map(|low| low - MARGIN_M),
+            columns: size[0],
+            rows: size[1],
+            cells,
+            vehicle_m: 0.0,
+        }
     }
 
     /// Marks the cells that occupied cells of the grid have their centre in.

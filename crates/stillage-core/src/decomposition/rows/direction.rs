@@ -1,6 +1,7 @@
 //! The rows of one direction of a region: found, judged periodic or not, and cut into places.
 
 use super::body_rows::BodyRows;
+use super::dividers::{self, Dividers};
 use super::evidence::RowEvidence;
 use super::periodicity::{Periodicity, Threshold};
 use super::pieces;
@@ -28,6 +29,8 @@ pub(super) struct DirectionRows<'a> {
     rows: Vec<RackRow>,
     /// The evidence of each row.
     evidence: Vec<RowEvidence>,
+    /// The rows that show dividers between their places; `rows` are the others.
+    divided: Vec<(RackRow, Dividers)>,
     /// What is left beside the rows.
     others: Vec<Parcel>,
     /// Rectangles of the rows that reach into the aisles before their body.
@@ -51,9 +54,10 @@ impl<'a> DirectionRows<'a> {
         let layers = layers::cut(frame, &bodies, depth, hints.depth, watch)?;
         let BodyRows { rows, others, reaching } = BodyRows::of(frame, &bodies, layers, watch)?;
         let (rows, evidence) = with_shared_lanes(frame, rows, hints, watch)?;
+        let (divided, rows, evidence) = dividers::parted(frame, rows, evidence);
         let (model, periodicity) = (None, Periodicity::default());
         let mut found =
-            Self { frame, hints, watch, axis, bodies, rows, evidence, others, reaching, model, periodicity };
+            Self { frame, hints, watch, axis, bodies, rows, evidence, divided, others, reaching, model, periodicity };
         found.model = found.row_set().common_model(watch)?;
         if let Some(model) = &found.model {
             let pitches = row_model::pitches(hints.pitch);
@@ -65,7 +69,7 @@ impl<'a> DirectionRows<'a> {
 
     /// Whether its rows are periodic, with the model that all have in common or each with its own.
     pub fn is_periodic(&self) -> bool {
-        self.periodicity.is_certain()
+        self.periodicity.is_certain() || !self.divided.is_empty()
     }
 
     /// Whether its rows are more clearly periodic than any furniture, so that the building is a storage.
@@ -109,13 +113,20 @@ impl<'a> DirectionRows<'a> {
     /// evidence to be cut into places.
     pub fn lay_out(self, parcels: Vec<Parcel>, is_storage: bool) -> Result<Vec<Parcel>, Stopped> {
         let is_cut = self.periodicity.is_certain() || is_storage && self.periodicity.is_likely();
-        let Some(common) = self.model.as_ref().filter(|_| is_cut) else {
+        let common = self.model.as_ref().filter(|_| is_cut);
+        if common.is_none() && self.divided.is_empty() {
             let whole = |body: &&Body| Parcel::new(body.rect.clone(), PlotKind::Other, Some(self.axis));
             return Ok(parcels.into_iter().chain(self.bodies.iter().map(whole)).collect());
+        }
+        let models = match common {
+            Some(common) => self.row_set().models(common.clone(), self.watch)?,
+            None => vec![None; self.rows.len()],
         };
-        let models = self.row_set().models(common.clone(), self.watch)?;
         let mut parcels = without(parcels, self.reaching, self.axis, self.watch)?;
         parcels.extend(self.others);
+        for (row, dividers) in &self.divided {
+            parcels.extend(pieces::parcels(row, dividers.pieces(row.rect.range(row.axis).len())));
+        }
         for ((row, evidence), model) in self.rows.iter().zip(&self.evidence).zip(models) {
             self.watch.check()?;
             match model {

@@ -3,6 +3,7 @@
 //! | step | module |
 //! | --- | --- |
 //! | rows of the layers of each body | [`body_rows`], [`rack_row`] |
+//! | rows that show what divides their places | [`dividers`] |
 //! | evidence for borders between places, along each row | [`evidence`] |
 //! | layers that share their storage lanes are one row | [`storage_lanes`] |
 //! | pitch and load template that all rows of a direction have in common, and those of single rows | [`row_set`], [`row_model`], [`load_template`] |
@@ -15,6 +16,7 @@
 mod body_rows;
 mod comb;
 mod direction;
+mod dividers;
 mod evidence;
 mod load_template;
 mod periodicity;
