@@ -38,7 +38,11 @@ use crate::spec::DecompositionOptions;
 use crate::watch::{Stage, Stopped, Watch};
 
 use ground::{RegionFrame, drivable};
-use rows::SizeHints;
+use rows::{RowLayout, SizeHints};
+
+/// Widths of vehicles that are tried, metres: counterbalanced and reach trucks, narrow-aisle trucks, pallet jacks and carts,
+/// robots that carry pods.
+const VEHICLES_M: [f64; 4] = [1.7, 1.25, 1.0, 0.8];
 
 /// Lines, and what they enclose.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -89,11 +93,26 @@ fn decompose_region(
         return Ok(Decomposition::default());
     };
     let mut frame = RegionFrame::new(grid, regions, region, angle, site, watch)?;
-    drivable::mark(&mut frame, options.vehicle_width_m, watch)?;
-    let cut = aisles::cut(&frame, watch)?;
-    let parcels = rows::lay_out(&frame, cut, &SizeHints::of(options), watch)?;
-    let parcels = trim::trimmed(&frame, parcels, watch)?;
+    let hints = SizeHints::of(options);
+    let layout = layout(&mut frame, &hints, options.vehicle_width_m, watch)?;
+    let parcels = trim::trimmed(&frame, layout.parcels, watch)?;
     let lines = lines::of_parcels(&frame, region, &parcels, watch)?;
     let plots = parcels.iter().map(|parcel| parcel::plot(&frame, region, parcel)).collect();
     Ok(Decomposition { lines, plots })
+}
+
+/// Lays a region out for the widest vehicle of [`VEHICLES_M`] that finds aisles between rows of places, or for the widest
+/// of all where none does.
+fn layout(frame: &mut RegionFrame, hints: &SizeHints, vehicle_m: f64, watch: &Watch<'_>) -> Result<RowLayout, Stopped> {
+    let mut widest = None;
+    let vehicles = std::iter::once(vehicle_m).chain(VEHICLES_M.into_iter().filter(|&narrower| narrower < vehicle_m));
+    for vehicle_m in vehicles {
+        drivable::mark(frame, vehicle_m, watch)?;
+        let layout = rows::lay_out(frame, aisles::cut(frame, watch)?, hints, watch)?;
+        if layout.has_places {
+            return Ok(layout);
+        }
+        widest.get_or_insert(layout);
+    }
+    Ok(widest.expect("one vehicle is tried at least"))
 }

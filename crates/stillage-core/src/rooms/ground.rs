@@ -4,7 +4,8 @@
 //! nothing else count as ground here. (The map keeps them.) All other cells that are not free bound the ground, whether
 //! occupied or unknown: drawings show walls in any grey, and scanners see one side of them. An obstacle that stands
 //! alone, is larger than furniture and as thick as goods is a *stack*: a shelf or a pile of goods. It is no ground, and
-//! no wall either. Cost: O(cells), and O(n log n) for the n cells of each large obstacle.
+//! no wall either. Small ground that it encloses is part of it: drawings show goods by their outlines.
+//! Cost: O(cells), and O(n log n) for the n cells of each large obstacle.
 
 use super::stacks;
 use crate::components::{Components, Neighbours};
@@ -13,6 +14,10 @@ use crate::watch::{Stopped, Watch};
 
 /// Largest diagonal of furniture, metres: a chair has 0.7, a bin 0.4; a piece of wall between two doors is longer.
 const FURNITURE_M: f64 = 1.0;
+
+/// Largest ground that is the inside of a stack, square metres: a place of the largest pitch and depth, 3.2 by 1.8 m.
+/// Nobody enters it, since nothing opens.
+const COMPARTMENT_M2: f64 = 5.8;
 
 /// Which cells are ground.
 pub(super) struct RoomGround {
@@ -61,10 +66,12 @@ impl RoomGround {
         [below - 1, below, below + 1, cell - 1, cell + 1, above - 1, above, above + 1]
     }
 
-    /// Turns small obstacles that stand alone into ground, and marks larger ones that are stacks.
+    /// Turns small obstacles that stand alone into ground, and marks larger ones that are stacks, with what they enclose.
     fn sort_obstacles(&mut self, watch: &Watch<'_>) -> Result<(), Stopped> {
         let size = [self.width, self.is_free.len()];
-        let obstacles = Components::of(size, Neighbours::Eight, |cell| !self.is_free[cell], watch)?;
+        let compartments = self.compartments(watch)?;
+        let is_closed = |cell: usize| !self.is_free[cell] || compartments[cell];
+        let obstacles = Components::of(size, Neighbours::Eight, is_closed, watch)?;
         for obstacle in obstacles.iter() {
             let [columns, rows] = obstacle.bounds();
             if columns.start == 0 || rows.start == 0 || columns.end == self.width || rows.end == self.height {
@@ -73,9 +80,20 @@ impl RoomGround {
             if obstacle.diagonal() * self.cell < FURNITURE_M {
                 obstacle.cells().for_each(|cell| self.is_free[cell] = true);
             } else if stacks::footprint(obstacle, obstacle.len(), self.cell).is_some() {
-                obstacle.cells().for_each(|cell| self.is_stack[cell] = true);
+                obstacle.cells().for_each(|cell| (self.is_stack[cell], self.is_free[cell]) = (true, false));
             }
         }
         Ok(())
+    }
+
+    /// Which cells are ground without an opening and too small for a room.
+    fn compartments(&self, watch: &Watch<'_>) -> Result<Vec<bool>, Stopped> {
+        let mut is_inside = vec![false; self.is_free.len()];
+        let size = [self.width, self.is_free.len()];
+        let grounds = Components::of(size, Neighbours::Four, |cell| self.is_free[cell], watch)?;
+        for ground in grounds.iter().filter(|ground| ground.len() as f64 * self.cell.powi(2) <= COMPARTMENT_M2) {
+            ground.cells().for_each(|cell| is_inside[cell] = true);
+        }
+        Ok(is_inside)
     }
 }

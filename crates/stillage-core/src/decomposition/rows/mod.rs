@@ -31,11 +31,19 @@ use crate::decomposition::aisles::AisleCut;
 use crate::decomposition::bodies::{Body, depth};
 use crate::decomposition::ground::{Axis, RegionFrame};
 use crate::decomposition::parcel::Parcel;
+use crate::plot::PlotKind;
 use crate::watch::{Stopped, Watch};
 
 use direction::DirectionRows;
 
 pub(crate) use size_hints::SizeHints;
+
+/// The bands and bodies of a region as parcels.
+pub(crate) struct RowLayout {
+    pub parcels: Vec<Parcel>,
+    /// Whether rows were cut into places.
+    pub has_places: bool,
+}
 
 /// Lays the bands and bodies of a region out as parcels.
 pub(crate) fn lay_out(
@@ -43,7 +51,7 @@ pub(crate) fn lay_out(
     cut: AisleCut,
     hints: &SizeHints,
     watch: &Watch<'_>,
-) -> Result<Vec<Parcel>, Stopped> {
+) -> Result<RowLayout, Stopped> {
     let mut bodies = Vec::with_capacity(cut.bodies.len());
     for area in &cut.bodies {
         watch.check()?;
@@ -62,5 +70,6 @@ pub(crate) fn lay_out(
     for direction in directions {
         parcels = direction.lay_out(parcels, is_storage)?;
     }
-    Ok(parcels)
+    let has_places = parcels.iter().any(|parcel| parcel.kind == PlotKind::Place);
+    Ok(RowLayout { parcels, has_places })
 }
