@@ -105,17 +105,18 @@ pub fn analyze(grid: &OccupancyGrid, spec: &AnalysisSpec, watch: &Watch<'_>) -> 
     let subdivision = watch.stage(Stage::Arrangement, || {
         let segments = arrangement::source_segments(grid, &regions, &lines, &rooms.cells, watch)?;
         let subdivision = arrangement::arrange(&segments, watch)?;
-        let room_of_faces = if rooms.count == 0 {
+        let grounds = if rooms.count == 0 {
             Vec::new()
         } else {
             rooms.of_faces(subdivision.face_count(), &CellFaces::of_grid(&subdivision, grid), watch)?
         };
-        let planned = annotation::PlannedGround { plots: &plots, rooms: &room_of_faces };
+        let planned = annotation::PlannedGround { plots: &plots, grounds: &grounds };
         annotation::merge_alike(grid, &regions, subdivision, planned, &options.annotation, watch)
     })?;
     let graph = AdjacencyGraph::dual(&subdivision, watch)?;
     let cells = CellFaces::of_grid(&subdivision, grid);
-    let rooms = RoomMap::of(&rooms, &subdivision, &cells, watch)?;
+    let grounds = rooms.of_faces(subdivision.face_count(), &cells, watch)?;
+    let rooms = RoomMap::of(&rooms, &subdivision, &grounds);
     let annotations = watch.stage(Stage::Annotation, || {
         let subject = annotation::Subject {
             grid,
@@ -125,7 +126,7 @@ pub fn analyze(grid: &OccupancyGrid, spec: &AnalysisSpec, watch: &Watch<'_>) -> 
             graph: &graph,
             cells: &cells,
             plots: &plots,
-            rooms: &rooms.faces,
+            grounds: &grounds,
         };
         annotation::annotate(&subject, &options.annotation, options.seed, watch)
     })?;

@@ -64,6 +64,7 @@ pub mod radiography;
 pub mod rooms;
 
 pub mod decomposition;
+mod floor;
 
 pub mod site_plan;
 

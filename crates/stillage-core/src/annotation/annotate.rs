@@ -10,6 +10,7 @@ use crate::categorization::Categorization;
 use crate::grid::OccupancyGrid;
 use crate::plot::Plot;
 use crate::relaxation::RelaxationReport;
+use crate::rooms::FaceGround;
 use crate::segmentation::RegionMap;
 use crate::spec::{AnnotationMethod, AnnotationOptions};
 use crate::watch::{Stopped, Watch};
@@ -44,8 +45,8 @@ pub struct Subject<'a> {
     pub cells: &'a CellFaces,
     /// What the faces were cut out for.
     pub plots: &'a [Plot],
-    /// Room of each face, by face id; empty without rooms.
-    pub rooms: &'a [Option<u32>],
+    /// Room of each face or part of one, by face id; empty without rooms.
+    pub grounds: &'a [FaceGround],
 }
 
 /// Gives faces their categories and measures faces and edges.
@@ -58,10 +59,10 @@ pub fn annotate(
     seed: u64,
     watch: &Watch<'_>,
 ) -> Result<Annotations, Stopped> {
-    let Subject { grid, categorization, regions, subdivision, graph, cells, plots, rooms } = *subject;
+    let Subject { grid, categorization, regions, subdivision, graph, cells, plots, grounds } = *subject;
     let categories = &categorization.map;
     let mut faces = faces::annotate_faces(grid, categories, regions, subdivision, cells, watch)?;
-    let kinds = plot_kinds::of_faces(graph, &faces, plots, rooms);
+    let kinds = plot_kinds::of_faces(graph, &faces, plots, grounds);
     faces.iter_mut().zip(kinds).for_each(|(face, kind)| face.kind = kind);
     let votes = FaceCategories::from(categories);
     outside::mark_outside(&mut faces, subdivision, votes);

@@ -21,6 +21,7 @@ use crate::arrangement::{EdgeId, FaceId, Subdivision};
 use crate::geometry::{DisjointSets, line_angle_between};
 use crate::grid::OccupancyGrid;
 use crate::plot::{Plot, PlotKind};
+use crate::rooms::FaceGround;
 use crate::segmentation::RegionMap;
 use crate::spec::AnnotationOptions;
 use crate::watch::{Stopped, Watch};
@@ -40,8 +41,8 @@ const LEAST_WIDTH_M: f64 = 0.15;
 pub struct PlannedGround<'a> {
     /// The plots of rows, and the stacks in rooms.
     pub plots: &'a [Plot],
-    /// Room of each face, by face id; empty without rooms.
-    pub rooms: &'a [Option<u32>],
+    /// Room of each face or part of one, by face id; empty without rooms.
+    pub grounds: &'a [FaceGround],
 }
 
 /// Joins the faces of a decomposition that nothing divides.
@@ -56,7 +57,7 @@ pub fn merge_alike(
     options: &AnnotationOptions,
     watch: &Watch<'_>,
 ) -> Result<Subdivision, Stopped> {
-    if planned.plots.is_empty() && planned.rooms.is_empty() {
+    if planned.plots.is_empty() && planned.grounds.is_empty() {
         return Ok(subdivision);
     }
     let faces = purposes(grid, regions, &subdivision, planned, watch)?;
@@ -72,8 +73,8 @@ pub fn merge_alike(
     let open: Vec<Option<EdgeId>> = open.collect::<Result<_, Stopped>>()?;
     let mut sets = DisjointSets::new(subdivision.face_count());
     let is_in_room = |&edge: &EdgeId| {
-        let [left, right] = subdivision.sides(edge).map(|face| faces[face.index()].room);
-        left.is_some() && left == right
+        let [left, right] = subdivision.sides(edge).map(|face| faces[face.index()].ground);
+        left.is_planned() && left == right
     };
     for edge in subdivision.edges().filter(is_in_room).chain(open.into_iter().flatten()) {
         let [left, right] = subdivision.sides(edge).map(FaceId::index);
@@ -91,7 +92,7 @@ pub fn merge_alike(
 /// What a face was cut out for, and where it lies.
 #[derive(Debug, Clone, Copy)]
 struct Purpose {
-    room: Option<u32>,
+    ground: FaceGround,
     region: u8,
     plot: Option<Plot>,
 }
@@ -107,12 +108,12 @@ fn purposes(
     let graph = AdjacencyGraph::dual(subdivision, watch)?;
     let purpose = |face: FaceId| {
         if face == FaceId::OUTER {
-            return Purpose { room: None, region: RegionMap::NONE, plot: None };
+            return Purpose { ground: FaceGround::default(), region: RegionMap::NONE, plot: None };
         }
         let inside = graph.position(face);
         let region = region_at(grid, regions, inside);
-        let room = planned.rooms.get(face.index()).copied().flatten();
-        Purpose { room, region, plot: index.at(inside, region) }
+        let ground = planned.grounds.get(face.index()).copied().unwrap_or_default();
+        Purpose { ground, region, plot: index.at(inside, region) }
     };
     Ok((0..subdivision.face_count() as u32).map(|face| purpose(FaceId(face))).collect())
 }
@@ -134,7 +135,7 @@ fn is_alike(faces: &[Purpose], [left, right]: [FaceId; 2]) -> bool {
         },
         _ => false,
     };
-    let is_hall = left.room.is_none() && right.room.is_none();
+    let is_hall = !left.ground.is_planned() && !right.ground.is_planned();
     is_hall && left.region == right.region && same_purpose
 }
 
@@ -207,7 +208,7 @@ mod tests {
             &grid,
             &regions,
             subdivision,
-            PlannedGround { plots: &plots, rooms: &[] },
+            PlannedGround { plots: &plots, grounds: &[] },
             &options,
             &Watch::unwatched(),
         );

@@ -7,6 +7,7 @@ use crate::adjacency::AdjacencyGraph;
 use crate::arrangement::FaceId;
 use crate::geometry::Point;
 use crate::plot::{Plot, PlotKind};
+use crate::rooms::FaceGround;
 
 /// Least share of free cells in a face that keeps a drivable kind, the majority: plots reach beyond the walls of a
 /// region, where nothing is drivable.
@@ -19,17 +20,22 @@ pub(super) fn of_faces(
     graph: &AdjacencyGraph,
     faces: &[FaceAnnotation],
     plots: &[Plot],
-    rooms: &[Option<u32>],
+    grounds: &[FaceGround],
 ) -> Vec<Option<PlotKind>> {
     let index = PlotIndex::new(plots);
     // On a site of rooms alone, rooms get no kind: some of them are corridors.
-    let has_rows = plots.iter().any(|plot| plot.kind != PlotKind::Place);
+    let is_floor = |ground: &FaceGround| ground.part.is_some_and(|(_, kind)| kind == PlotKind::OpenFloor);
+    let has_rows = plots.iter().any(|plot| plot.kind != PlotKind::Place) || grounds.iter().any(is_floor);
     let kind = |face: u32| {
-        if has_rows && rooms.get(face as usize).copied().flatten().is_some() {
+        let ground = grounds.get(face as usize).copied().unwrap_or_default();
+        if has_rows && ground.room.is_some() {
             return Some(PlotKind::Room);
         }
         let annotation = &faces[face as usize];
-        let kind = index.at(graph.position(FaceId(face)), annotation.region)?.kind;
+        let kind = match ground.part {
+            Some((_, kind)) => kind,
+            None => index.at(graph.position(FaceId(face)), annotation.region)?.kind,
+        };
         let is_open = matches!(kind, PlotKind::Aisle | PlotKind::OpenFloor | PlotKind::Passage);
         (!is_open || annotation.free_fraction >= OPEN_SHARE).then_some(kind)
     };

@@ -51,7 +51,7 @@ fn annotated_with(picture: &str, subdivision: &Subdivision, options: &Annotation
         graph: &AdjacencyGraph::dual(subdivision, &watch).expect("nobody stops it"),
         cells: &cells,
         plots: &[],
-        rooms: &[],
+        grounds: &[],
     };
     annotate(&subject, options, 1, &watch).expect("nobody stops it")
 }

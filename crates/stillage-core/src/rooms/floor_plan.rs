@@ -79,6 +79,7 @@ impl FloorPlan {
         RoomCells {
             count: count as usize,
             cells: partition.rooms.iter().map(|&room| numbers[room as usize]).collect(),
+            parts: Vec::new(),
             doorways: openings.map(|doorway| doorway.ends.map(point)).collect(),
         }
     }

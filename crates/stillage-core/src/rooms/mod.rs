@@ -34,8 +34,9 @@ mod stacks;
 mod zones;
 
 pub use doors::Door;
-pub use room_cells::RoomCells;
+pub use room_cells::{FaceGround, RoomCells};
 pub use room_map::RoomMap;
 
 pub(crate) use floor_plan::FloorPlan;
+pub(crate) use stacks::Stacks;
 pub(crate) use zones::Zones;

@@ -6,6 +6,7 @@ use std::collections::BTreeMap;
 
 use crate::arrangement::{CellFaces, FaceId};
 use crate::geometry::Point;
+use crate::plot::PlotKind;
 use crate::runs::runs_of_equal;
 use crate::watch::{Stopped, Watch};
 
@@ -17,16 +18,41 @@ const CHECK_EVERY: usize = 1 << 18;
 pub struct RoomCells {
     /// Number of rooms.
     pub count: usize,
-    /// Room of each cell, row-major: 1 to `count`, larger numbers for the stacks that stand in them, 0 for neither.
-    /// Empty without rooms.
+    /// Room of each cell, row-major: 1 to `count`, larger numbers for the parts of rooms, 0 for neither. Empty without
+    /// rooms.
     pub cells: Vec<u32>,
+    /// What the parts of rooms are, which are no part of their room any more: stacks, aisles, open floor. The first one has
+    /// the number `count + 1`.
+    pub parts: Vec<PlotKind>,
     /// Lines from jamb to jamb of the doorways between two rooms, or a room and a hall; metres of the grid frame.
     pub doorways: Vec<[Point; 2]>,
 }
 
+/// The room that a face lies in, or the part of one.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct FaceGround {
+    /// Number of the room.
+    pub room: Option<u32>,
+    /// Number of the part, and what it is.
+    pub part: Option<(u32, PlotKind)>,
+}
+
+impl FaceGround {
+    /// Whether it is a room or a part of one.
+    pub(crate) const fn is_planned(&self) -> bool {
+        self.room.is_some() || self.part.is_some()
+    }
+}
+
 impl RoomCells {
-    /// The room that most cells of each face lie in, by face id; rooms are numbered anew by their first face. Empty
-    /// without rooms.
+    /// Adds a part that has no cells yet, and gives its number.
+    pub(crate) fn add_part(&mut self, kind: PlotKind) -> u32 {
+        self.parts.push(kind);
+        (self.count + self.parts.len()) as u32
+    }
+
+    /// The room, or part of one, that most cells of each face lie in, by face id; rooms are numbered anew by their first
+    /// face. Empty without rooms.
     ///
     /// # Errors
     /// [`Stopped`] when the watch says so.
@@ -35,7 +61,7 @@ impl RoomCells {
         face_count: usize,
         cells: &CellFaces,
         watch: &Watch<'_>,
-    ) -> Result<Vec<Option<u32>>, Stopped> {
+    ) -> Result<Vec<FaceGround>, Stopped> {
         if self.count == 0 {
             return Ok(Vec::new());
         }
@@ -55,16 +81,19 @@ impl RoomCells {
         }
         let mut numbers = vec![None; self.count + 1];
         let mut next = 0;
-        let number = |room: u32| {
-            if room == 0 || room as usize > self.count {
-                return None;
+        let ground = |number: u32| {
+            if number == 0 {
+                return FaceGround::default();
             }
-            let number = numbers[room as usize].get_or_insert_with(|| {
+            if let Some(part) = (number as usize).checked_sub(self.count + 1) {
+                return FaceGround { room: None, part: self.parts.get(part).map(|&kind| (number, kind)) };
+            }
+            let room = numbers[number as usize].get_or_insert_with(|| {
                 next += 1;
                 next - 1
             });
-            Some(*number)
+            FaceGround { room: Some(*room), part: None }
         };
-        Ok(room_of.into_iter().map(number).collect())
+        Ok(room_of.into_iter().map(ground).collect())
     }
 }

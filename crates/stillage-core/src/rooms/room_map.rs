@@ -3,9 +3,8 @@
 use serde::{Deserialize, Serialize};
 
 use super::doors::{self, Door};
-use super::room_cells::RoomCells;
-use crate::arrangement::{CellFaces, FaceId, Subdivision};
-use crate::watch::{Stopped, Watch};
+use super::room_cells::{FaceGround, RoomCells};
+use crate::arrangement::{FaceId, Subdivision};
 
 /// The rooms and doors of a subdivision.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
@@ -17,19 +16,12 @@ pub struct RoomMap {
 }
 
 impl RoomMap {
-    /// Finds the faces of each room and the edges of each door; `cells` are those of the subdivision.
-    ///
-    /// # Errors
-    /// [`Stopped`] when the watch says so.
-    pub fn of(
-        rooms: &RoomCells,
-        subdivision: &Subdivision,
-        cells: &CellFaces,
-        watch: &Watch<'_>,
-    ) -> Result<Self, Stopped> {
-        let faces = rooms.of_faces(subdivision.face_count(), cells, watch)?;
+    /// Finds the edges of each door; `grounds` are the rooms of the faces of the subdivision.
+    #[must_use]
+    pub fn of(rooms: &RoomCells, subdivision: &Subdivision, grounds: &[FaceGround]) -> Self {
+        let faces: Vec<Option<u32>> = grounds.iter().map(|ground| ground.room).collect();
         let doors = doors::find(&rooms.doorways, subdivision, &faces);
-        Ok(Self { faces, doors })
+        Self { faces, doors }
     }
 
     /// Room of a face.

@@ -38,6 +38,8 @@ pub(crate) struct Stacks {
     pub cells: Vec<u32>,
     /// The smallest box around each stack, metres of the grid frame.
     pub footprints: Vec<OrientedBox>,
+    /// The room that each stack stands in: most cells around it are of this room; 0 for none.
+    pub rooms: Vec<u32>,
 }
 
 impl Stacks {
@@ -68,16 +70,30 @@ impl Stacks {
         }
         let parts =
             Components::of([width, cells.len()], Neighbours::Four, |cell| is_thick[cell] || stands_alone(cell), watch)?;
-        let mut stacks = Self { cells: vec![0; cells.len()], footprints: Vec::new() };
+        let mut stacks = Self { cells: vec![0; cells.len()], footprints: Vec::new(), rooms: Vec::new() };
         for part in parts.iter() {
             let closed = part.cells().filter(|&cell| cells[cell] != Occupancy::Free).count();
             if let Some(footprint) = footprint(part, closed, cell) {
                 stacks.footprints.push(footprint);
+                stacks.rooms.push(room_around(part, rooms, width));
                 part.cells().for_each(|cell| stacks.cells[cell] = stacks.footprints.len() as u32);
             }
         }
         Ok(stacks)
     }
+}
+
+/// The room that most cells beside the runs of a component are of; 0 for none.
+fn room_around(part: Component<'_>, rooms: &[u32], width: usize) -> u32 {
+    let mut counts: BTreeMap<u32, usize> = BTreeMap::new();
+    for run in part.runs() {
+        let row = run.row as usize * width;
+        let beside = [(row + run.columns.start as usize).checked_sub(1), Some(row + run.columns.end as usize)];
+        for &room in beside.into_iter().flatten().filter_map(|cell| rooms.get(cell)).filter(|&&room| room != 0) {
+            *counts.entry(room).or_default() += 1;
+        }
+    }
+    counts.into_iter().max_by_key(|&(room, count)| (count, std::cmp::Reverse(room))).map_or(0, |(room, _)| room)
 }
 
 /// A rectangle of the map.

@@ -10,11 +10,13 @@
 //! | --- | --- |
 //! | [`mod@plan`] | the lines of rows and rooms, what they enclose, and the rooms |
 //! | [`halls`] | which rooms are halls, and the rows in them |
+//! | [`storage`] | which of the other rooms hold storage |
 //!
 //! Cost: that of the rooms, and that of the rows once for each time that a zone turns out to be no hall.
 
 mod halls;
 mod plan;
+mod storage;
 
 #[cfg(test)]
 mod tests;

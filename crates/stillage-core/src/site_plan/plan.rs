@@ -1,11 +1,13 @@
 //! The plan of a whole site: rows, rooms and the stacks in them, put together.
 
 use super::halls::Halls;
+use super::storage;
 use crate::decomposition::Decomposition;
-use crate::geometry::{OrientedBox, Point, direction, fold_half_turn, normal};
+use crate::floor;
+use crate::geometry::{Point, direction, fold_half_turn, normal};
 use crate::grid::{Occupancy, OccupancyGrid};
 use crate::line::Line;
-use crate::plot::{Plot, PlotKind};
+use crate::plot::Plot;
 use crate::rooms::{FloorPlan, RoomCells};
 use crate::segmentation::RegionMap;
 use crate::spec::DecompositionOptions;
@@ -16,9 +18,9 @@ use crate::watch::{Stage, Stopped, Watch};
 pub struct SitePlan {
     /// Lines of rows, and borders of rooms; the latter belong to no region and may run in any direction.
     pub lines: Vec<Line>,
-    /// The plots of rows, and the stacks in rooms.
+    /// The plots of rows.
     pub plots: Vec<Plot>,
-    /// The rooms.
+    /// The rooms and their parts.
     pub rooms: RoomCells,
 }
 
@@ -45,14 +47,16 @@ fn assemble(
     halls: Halls,
     watch: &Watch<'_>,
 ) -> Result<SitePlan, Stopped> {
-    let Halls { rows: Decomposition { mut lines, mut plots }, mut rooms } = halls;
+    let Halls { rows: Decomposition { mut lines, plots }, mut rooms } = halls;
     if rooms.count == 0 {
         return Ok(SitePlan { lines, plots, rooms });
     }
-    let stacks = floor_plan.stacks(grid, &rooms, main_direction(regions), watch)?;
-    plots.extend(stacks.footprints.iter().map(|&bounds| plot_of_stack(grid, regions, bounds)));
-    for (room, stack) in rooms.cells.iter_mut().zip(stacks.cells).filter(|&(_, stack)| stack != 0) {
-        *room = rooms.count as u32 + stack;
+    let main = main_direction(regions);
+    let stacks = floor_plan.stacks(grid, &rooms, main, watch)?;
+    let halls = storage::halls(grid, &rooms, &stacks);
+    storage::add_stacks(&mut rooms, &stacks, &halls);
+    for (room, bodies) in &halls {
+        floor::divide(grid, &mut rooms, *room, bodies, main, watch)?;
     }
     let borders = floor_plan.borders(&rooms, watch)?;
     lines.extend(borders.into_iter().map(|ends| border_line(grid, ends)));
@@ -63,12 +67,6 @@ fn assemble(
 fn main_direction(regions: &RegionMap) -> f64 {
     let largest = regions.regions.iter().max_by(|one, other| one.share.total_cmp(&other.share));
     largest.and_then(|region| region.orientations.first().copied()).unwrap_or(0.0)
-}
-
-/// The plot under a stack: one place, or a block of them.
-fn plot_of_stack(grid: &OccupancyGrid, regions: &RegionMap, bounds: OrientedBox) -> Plot {
-    let region = grid.cell_at(bounds.center).and_then(|(column, row)| regions.region_of_cell(column, row));
-    Plot { bounds, kind: PlotKind::Place, region: region.unwrap_or(RegionMap::NONE) }
 }
 
 /// A border as a line of no region, supported by the occupied cells under it.

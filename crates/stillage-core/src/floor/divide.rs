@@ -1,0 +1,93 @@
+//! The ground of halls with storage, divided into aisles, crossings and open floor.
+
+use super::chains;
+use super::fronts::{self, Ground};
+use super::strip::{self, Strip};
+use crate::geometry::{OrientedBox, Point, line_angle_between};
+use crate::grid::OccupancyGrid;
+use crate::plot::PlotKind;
+use crate::rooms::RoomCells;
+use crate::watch::{Stopped, Watch};
+
+/// An aisle reaches this far into the rough front of what stands beside it, metres.
+const CONTACT_M: f64 = 0.15;
+/// Aisles that cross differ in direction by more than this, radians.
+const CROSSING: f64 = 0.5;
+
+/// Divides the ground of a room, `room` from 1, in which `bodies` stand, and adds its parts to the rooms; `main` is the
+/// direction of the site, radians.
+///
+/// # Errors
+/// [`Stopped`] when the watch says so.
+pub(crate) fn divide(
+    grid: &OccupancyGrid,
+    rooms: &mut RoomCells,
+    room: u32,
+    bodies: &[OrientedBox],
+    main: f64,
+    watch: &Watch<'_>,
+) -> Result<(), Stopped> {
+    let ground = |point: Point| match grid.cell_at(point) {
+        Some((column, row)) if rooms.cells[row * grid.width() + column] == room => Ground::Free,
+        _ => Ground::Closed,
+    };
+    let mut strips = Vec::new();
+    for chain in chains::of_bodies(bodies, main) {
+        watch.check()?;
+        strips.extend(fronts::strips(&chain, grid.resolution(), ground).into_iter().filter(fronts::is_aisle));
+    }
+    let mut strips = strip::joined(strips);
+    strips.retain(fronts::is_aisle);
+    paint(grid, rooms, room, &strips, watch)
+}
+
+/// Gives the cells of a room the numbers of new parts: each aisle, all crossings, and what is left as open floor.
+fn paint(
+    grid: &OccupancyGrid,
+    rooms: &mut RoomCells,
+    room: u32,
+    strips: &[Strip],
+    watch: &Watch<'_>,
+) -> Result<(), Stopped> {
+    let floor = rooms.add_part(PlotKind::OpenFloor);
+    let crossing = rooms.add_part(PlotKind::OpenFloor);
+    let aisles: Vec<(u32, f64)> = strips.iter().map(|strip| (rooms.add_part(PlotKind::Aisle), strip.angle)).collect();
+    let first = floor;
+    let angle_of = |part: u32| aisles.iter().find(|(aisle, _)| *aisle == part).map(|(_, angle)| *angle);
+    for cell in rooms.cells.iter_mut().filter(|cell| **cell == room) {
+        *cell = floor;
+    }
+    for (strip, &(part, angle)) in strips.iter().zip(&aisles) {
+        watch.check()?;
+        let wider = Strip { across: [strip.across[0] - CONTACT_M, strip.across[1] + CONTACT_M], ..strip.clone() };
+        let bounds = wider.bounds();
+        for (column, row) in cells_of(grid, &bounds) {
+            let cell = &mut rooms.cells[row * grid.width() + column];
+            if *cell == floor {
+                *cell = part;
+            } else if *cell > first && *cell != crossing {
+                if let Some(other) = angle_of(*cell).filter(|&other| line_angle_between(other, angle) > CROSSING) {
+                    let _ = other;
+                    *cell = crossing;
+                }
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Columns and rows of the cells with their centre in a box.
+fn cells_of(grid: &OccupancyGrid, bounds: &OrientedBox) -> impl Iterator<Item = (usize, usize)> {
+    let corners = bounds.corners();
+    let cell = grid.resolution();
+    let range = |axis: usize, count: usize| {
+        let places = corners.iter().map(|corner| corner.coords[axis] / cell);
+        let low = places.clone().fold(f64::INFINITY, f64::min).floor().max(0.0) as usize;
+        let high = places.fold(f64::NEG_INFINITY, f64::max).ceil().clamp(0.0, count as f64) as usize;
+        low.min(count)..high
+    };
+    let (columns, rows) = (range(0, grid.width()), range(1, grid.height()));
+    let bounds = *bounds;
+    rows.flat_map(move |row| columns.clone().map(move |column| (column, row)))
+        .filter(move |&(column, row)| bounds.contains(Point::new(column as f64 + 0.5, row as f64 + 0.5) * cell))
+}
