@@ -38,7 +38,7 @@ use crate::spec::DecompositionOptions;
 use crate::watch::{Stage, Stopped, Watch};
 
 use ground::{RegionFrame, drivable};
-use rows::{RowLayout, SizeHints};
+use rows::{Reading, RowLayout, SizeHints};
 
 /// Widths of vehicles that are tried, metres: counterbalanced and reach trucks, narrow-aisle trucks, pallet jacks and carts,
 /// robots that carry pods.
@@ -102,17 +102,22 @@ fn decompose_region(
 }
 
 /// Lays a region out for the widest vehicle of [`VEHICLES_M`] that finds aisles between rows of places, or for the widest
-/// of all where none does.
+/// of all where none does. Narrower vehicles find aisles everywhere, so there only what divides
+/// places is evidence for them.
 fn layout(frame: &mut RegionFrame, hints: &SizeHints, vehicle_m: f64, watch: &Watch<'_>) -> Result<RowLayout, Stopped> {
-    let mut widest = None;
-    let vehicles = std::iter::once(vehicle_m).chain(VEHICLES_M.into_iter().filter(|&narrower| narrower < vehicle_m));
-    for vehicle_m in vehicles {
-        drivable::mark(frame, vehicle_m, watch)?;
-        let layout = rows::lay_out(frame, aisles::cut(frame, watch)?, hints, watch)?;
+    drivable::mark(frame, vehicle_m, watch)?;
+    let widest = rows::lay_out(frame, aisles::cut(frame, watch)?, hints, Reading::Goods, watch)?;
+    if widest.has_places {
+        return Ok(widest);
+    }
+    let narrower = VEHICLES_M.into_iter().filter(|&narrower_m| narrower_m < vehicle_m);
+    for width_m in std::iter::once(vehicle_m).chain(narrower) {
+        drivable::mark(frame, width_m, watch)?;
+        let layout = rows::lay_out(frame, aisles::cut(frame, watch)?, hints, Reading::Dividers, watch)?;
         if layout.has_places {
             return Ok(layout);
         }
-        widest.get_or_insert(layout);
     }
-    Ok(widest.expect("one vehicle is tried at least"))
+    drivable::mark(frame, vehicle_m, watch)?;
+    Ok(widest)
 }

@@ -15,8 +15,8 @@ const ALIGNED: f64 = 0.14;
 /// Bodies stand in one line when they share this much of the depth of the shallower one.
 const SHARED_DEPTH: f64 = 0.6;
 /// Longest gap in a row: a share of the shorter body beside it, and metres.
-const GAP_SHARE: f64 = 1.25;
-const GAP_M: f64 = 2.0;
+const GAP_SHARE: f64 = 1.5;
+pub(super) const GAP_M: f64 = 2.0;
 
 /// Bodies in one line, as ranges along its direction and across it, metres of the grid frame.
 #[derive(Debug, Clone, PartialEq)]

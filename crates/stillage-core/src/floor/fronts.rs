@@ -18,8 +18,8 @@ const ROUGH_M: f64 = 0.4;
 /// Lines of a strip differ from its width by at most this: metres, and a share of the width.
 const LEVEL_M: f64 = 0.25;
 const LEVEL_SHARE: f64 = 0.1;
-/// Longest gap in a strip, metres: a column, a post, a truck that stood there.
-const GAP_M: f64 = 1.0;
+/// Longest gap in a strip, metres: that of the rows beside it.
+const GAP_M: f64 = super::chains::GAP_M;
 
 /// What lies at a point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

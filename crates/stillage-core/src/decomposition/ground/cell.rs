@@ -41,6 +41,10 @@ impl Cell {
         self.0 = self.0 & !OCCUPANCY | Occupancy::Occupied as u8;
     }
 
+    pub fn clear_drivable(&mut self) {
+        self.0 &= !DRIVABLE;
+    }
+
     pub fn mark_drivable(&mut self) {
         self.0 |= DRIVABLE;
     }

@@ -1,5 +1,6 @@
 //! The rows of one direction of a region: found, judged periodic or not, and cut into places.
 
+use super::Reading;
 use super::body_rows::BodyRows;
 use super::dividers::{self, Dividers};
 use super::evidence::RowEvidence;
@@ -48,16 +49,20 @@ impl<'a> DirectionRows<'a> {
         axis: Axis,
         depth: f64,
         hints: &'a SizeHints,
+        reading: Reading,
         watch: &'a Watch<'a>,
     ) -> Result<Self, Stopped> {
         let bodies: Vec<&Body> = bodies.iter().filter(|body| body.axis == axis).collect();
         let layers = layers::cut(frame, &bodies, depth, hints.depth, watch)?;
         let BodyRows { rows, others, reaching } = BodyRows::of(frame, &bodies, layers, watch)?;
         let (rows, evidence) = with_shared_lanes(frame, rows, hints, watch)?;
-        let (divided, rows, evidence) = dividers::parted(frame, rows, evidence);
+        let (divided, rows, evidence) = dividers::parted(frame, rows, evidence, reading);
         let (model, periodicity) = (None, Periodicity::default());
         let mut found =
             Self { frame, hints, watch, axis, bodies, rows, evidence, divided, others, reaching, model, periodicity };
+        if reading == Reading::Dividers {
+            return Ok(found);
+        }
         found.model = found.row_set().common_model(watch)?;
         if let Some(model) = &found.model {
             let pitches = row_model::pitches(hints.pitch);

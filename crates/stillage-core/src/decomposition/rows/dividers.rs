@@ -17,6 +17,7 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
+use super::Reading;
 use super::evidence::RowEvidence;
 use super::rack_row::RackRow;
 use crate::decomposition::ground::{Patch, RegionFrame};
@@ -35,6 +36,10 @@ const JOINED_SHARE: f64 = 0.4;
 const WIDEST_SHARE: f64 = 0.45;
 /// Greatest share of a row that goods and columns wider than dividers may take.
 const WIDE_SHARE: f64 = 0.2;
+/// Widest gap between the goods of two places, metres: a wider one is floor.
+const WIDEST_GAP_M: f64 = 0.3;
+/// Least share of the depth that goods fill.
+const GOODS_SHARE: f64 = 0.5;
 /// Pitches that dividers may have, metres: narrower are the stringers of pallets.
 const PITCHES_M: [f64; 2] = [0.7, 3.2];
 /// Tolerance of a place on the lattice: a share of the pitch, and metres for the cells at both ends.
@@ -81,21 +86,14 @@ pub(super) fn parted(
     frame: &RegionFrame,
     rows: Vec<RackRow>,
     evidence: Vec<RowEvidence>,
+    reading: Reading,
 ) -> (Vec<(RackRow, Dividers)>, Vec<RackRow>, Vec<RowEvidence>) {
-    let marks: Vec<Option<Vec<f64>>> = rows.iter().map(|row| marks(frame, row)).collect();
+    let marks: Vec<Option<Vec<f64>>> = rows.iter().map(|row| marks(frame, row, reading)).collect();
     let mut lattices: Vec<Option<Lattice>> =
         marks.iter().map(|marks| Lattice::of(marks.as_ref()?, frame.cell)).collect();
     if let Some(pitch) = usual_pitch(&lattices) {
         for (lattice, marks) in lattices.iter_mut().zip(&marks).filter(|(lattice, _)| lattice.is_none()) {
             *lattice = marks.as_ref().and_then(|marks| Lattice::at(marks, pitch, frame.cell));
-        }
-    }
-    if std::env::var_os("DIVIDERS").is_some() {
-        for ((row, marks), lattice) in rows.iter().zip(&marks).zip(&lattices) {
-            eprintln!(
-                "vehicle {} row {:?} {:?} marks {:?} lattice {:?}",
-                frame.vehicle_m, row.axis, row.rect, marks, lattice
-            );
         }
     }
     let along = |row: &RackRow| row.rect.range(row.axis).clone();
@@ -229,14 +227,43 @@ fn fitted(numbered: &[(f64, f64)], first: f64, pitch: f64) -> (f64, f64) {
     (places - numbers * pitch, pitch)
 }
 
-/// The middles of the dividers of a row, cells from its start; `None` where it shows goods.
-fn marks(frame: &RegionFrame, row: &RackRow) -> Option<Vec<f64>> {
-    let mut is_clear = vec![true; row.rect.range(row.axis).len()];
+/// The middles of the dividers of a row, or of the gaps between its goods, cells from its start; `None` where it shows
+/// neither.
+fn marks(frame: &RegionFrame, row: &RackRow, reading: Reading) -> Option<Vec<f64>> {
+    let length = row.rect.range(row.axis).len();
+    let mut is_clear = vec![true; length];
+    let mut is_solid = false;
     for layer in row.patches(frame) {
-        mark_lumps(&layer, &mut is_clear)?;
+        is_solid |= mark_lumps(&layer, &mut is_clear).is_none();
     }
-    let lumps: Vec<Range<usize>> = runs_where(is_clear.len(), |column| !is_clear[column]).collect();
-    dividers(&lumps, is_clear.len())
+    if !is_solid {
+        let lumps: Vec<Range<usize>> = runs_where(length, |column| !is_clear[column]).collect();
+        return dividers(&lumps, length);
+    }
+    if reading == Reading::Goods {
+        return None;
+    }
+    let mut is_clear = vec![true; length];
+    for layer in row.patches(frame) {
+        mark_goods(&layer, &mut is_clear);
+    }
+    gaps(&is_clear, frame.cells_of(WIDEST_GAP_M))
+}
+
+/// Marks the columns of a layer that hold goods.
+fn mark_goods(layer: &Patch, is_clear: &mut [bool]) {
+    for (column, is_clear) in is_clear.iter_mut().enumerate() {
+        let filled = (0..layer.height).filter(|&line| !layer.row(line)[column].is_free()).count();
+        *is_clear &= (filled as f64) < GOODS_SHARE * layer.height as f64;
+    }
+}
+
+/// The middles of gaps between goods; `None` where there are none.
+fn gaps(is_clear: &[bool], widest: usize) -> Option<Vec<f64>> {
+    let gaps = runs_where(is_clear.len(), |column| is_clear[column]);
+    let is_inside = |gap: &Range<usize>| gap.start > 0 && gap.end < is_clear.len() && gap.len() <= widest;
+    let middles: Vec<f64> = gaps.filter(is_inside).map(|gap| f64::midpoint(gap.start as f64, gap.end as f64)).collect();
+    (!middles.is_empty()).then_some(middles)
 }
 
 /// Marks the columns of a layer that are not clear beside its front and its back; `None` for solid goods.

@@ -38,6 +38,15 @@ use direction::DirectionRows;
 
 pub(crate) use size_hints::SizeHints;
 
+/// What rows are cut into places by.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Reading {
+    /// What divides the places: dividers, and gaps between goods.
+    Dividers,
+    /// Dividers, and the shape of the goods in the places.
+    Goods,
+}
+
 /// The bands and bodies of a region as parcels.
 pub(crate) struct RowLayout {
     pub parcels: Vec<Parcel>,
@@ -50,6 +59,7 @@ pub(crate) fn lay_out(
     frame: &RegionFrame,
     cut: AisleCut,
     hints: &SizeHints,
+    reading: Reading,
     watch: &Watch<'_>,
 ) -> Result<RowLayout, Stopped> {
     let mut bodies = Vec::with_capacity(cut.bodies.len());
@@ -58,7 +68,7 @@ pub(crate) fn lay_out(
         bodies.push(Body::of(frame, area));
     }
     let depth = depth::usual(frame, &bodies, hints.depth);
-    let [along, across] = Axis::BOTH.map(|axis| DirectionRows::of(frame, &bodies, axis, depth, hints, watch));
+    let [along, across] = Axis::BOTH.map(|axis| DirectionRows::of(frame, &bodies, axis, depth, hints, reading, watch));
     let mut directions = [along?, across?];
     if !directions.iter().any(DirectionRows::is_periodic) {
         for direction in &mut directions {
