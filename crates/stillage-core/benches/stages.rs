@@ -116,7 +116,7 @@ fn votes(bencher: Bencher<'_, '_>) {
             graph: &analysis.graph,
             cells: &faces,
             plots: &[],
-            rooms: &analysis.rooms.faces,
+            grounds: &[],
         };
         annotation::annotate(&subject, options, 1, &watch)
     });

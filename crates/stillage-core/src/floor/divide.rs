@@ -51,25 +51,23 @@ fn paint(
 ) -> Result<(), Stopped> {
     let floor = rooms.add_part(PlotKind::OpenFloor);
     let crossing = rooms.add_part(PlotKind::OpenFloor);
-    let aisles: Vec<(u32, f64)> = strips.iter().map(|strip| (rooms.add_part(PlotKind::Aisle), strip.angle)).collect();
-    let first = floor;
-    let angle_of = |part: u32| aisles.iter().find(|(aisle, _)| *aisle == part).map(|(_, angle)| *angle);
+    let aisles: Vec<u32> = strips.iter().map(|_| rooms.add_part(PlotKind::Aisle)).collect();
     for cell in rooms.cells.iter_mut().filter(|cell| **cell == room) {
         *cell = floor;
     }
-    for (strip, &(part, angle)) in strips.iter().zip(&aisles) {
+    for (strip, &aisle) in strips.iter().zip(&aisles) {
         watch.check()?;
-        let wider = Strip { across: [strip.across[0] - CONTACT_M, strip.across[1] + CONTACT_M], ..strip.clone() };
-        let bounds = wider.bounds();
-        for (column, row) in cells_of(grid, &bounds) {
-            let cell = &mut rooms.cells[row * grid.width() + column];
-            if *cell == floor {
-                *cell = part;
-            } else if *cell > first && *cell != crossing {
-                if let Some(other) = angle_of(*cell).filter(|&other| line_angle_between(other, angle) > CROSSING) {
-                    let _ = other;
-                    *cell = crossing;
-                }
+        let is_crossed = |part: u32| {
+            let other = part.checked_sub(aisles[0]).and_then(|number| strips.get(number as usize));
+            other.is_some_and(|other| line_angle_between(other.angle, strip.angle) > CROSSING)
+        };
+        let reaching = Strip { across: [strip.across[0] - CONTACT_M, strip.across[1] + CONTACT_M], ..strip.clone() };
+        for (column, row) in cells_of(grid, &reaching.bounds()) {
+            let part = &mut rooms.cells[row * grid.width() + column];
+            if *part == floor {
+                *part = aisle;
+            } else if is_crossed(*part) {
+                *part = crossing;
             }
         }
     }

@@ -3,6 +3,8 @@
 //! From every cell of a front a line leads away from the row to where the free ground ends. Neighbouring lines of about one
 //! length are a strip. Cost: O(cells of the strips).
 
+use std::ops::Range;
+
 use super::chains::Chain;
 use super::strip::Strip;
 use crate::geometry::{Point, direction, normal};
@@ -66,9 +68,10 @@ pub(super) fn is_aisle(strip: &Strip) -> bool {
 }
 
 /// Runs of lines of about one length, with that length: the longest run first, then those beside it.
-fn level_runs(reaches: &[Option<f64>], step: f64) -> Vec<(std::ops::Range<usize>, f64)> {
+fn level_runs(reaches: &[Option<f64>], step: f64) -> Vec<(Range<usize>, f64)> {
     let mut found = Vec::new();
-    let mut open = vec![0..reaches.len()];
+    let mut open: Vec<Range<usize>> = Vec::new();
+    open.push(0..reaches.len());
     let gap = (GAP_M / step) as usize;
     while let Some(range) = open.pop() {
         let mut lengths: Vec<f64> =
@@ -82,7 +85,7 @@ fn level_runs(reaches: &[Option<f64>], step: f64) -> Vec<(std::ops::Range<usize>
             reaches[*index].is_some_and(|length| (length - usual).abs() <= LEVEL_M + LEVEL_SHARE * usual)
         };
         let mut best = range.start..range.start;
-        let mut run: Option<std::ops::Range<usize>> = None;
+        let mut run: Option<Range<usize>> = None;
         for index in range.clone().filter(is_level) {
             let next = match run.take() {
                 Some(run) if index - run.end <= gap => run.start..index + 1,

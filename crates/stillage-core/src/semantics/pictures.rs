@@ -72,7 +72,7 @@ impl DrawnMap {
             graph: &graph,
             cells: &cells,
             plots: &[],
-            rooms: &[],
+            grounds: &[],
         };
         let annotations =
             annotation::annotate(&subject, &options.annotation, options.seed, &Watch::unwatched()).unwrap();

@@ -53,9 +53,9 @@ fn assemble(
     }
     let main = main_direction(regions);
     let stacks = floor_plan.stacks(grid, &rooms, main, watch)?;
-    let halls = storage::halls(grid, &rooms, &stacks);
-    storage::add_stacks(&mut rooms, &stacks, &halls);
-    for (room, bodies) in &halls {
+    let storage = storage::find(grid, &rooms, &stacks);
+    storage::add_stacks(&mut rooms, &stacks, &storage);
+    for (room, bodies) in &storage {
         floor::divide(grid, &mut rooms, *room, bodies, main, watch)?;
     }
     let borders = floor_plan.borders(&rooms, watch)?;

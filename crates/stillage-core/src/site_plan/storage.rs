@@ -16,16 +16,16 @@ const STACKS_SHARE: f64 = 0.02;
 /// Least number of stacks.
 const LEAST_STACKS: usize = 3;
 
-/// The halls by their room, each with the boxes around its stacks.
-pub(super) type Halls = BTreeMap<u32, Vec<OrientedBox>>;
+/// The rooms with storage, each with the boxes around its stacks.
+pub(super) type StorageRooms = BTreeMap<u32, Vec<OrientedBox>>;
 
 /// The rooms with storage.
-pub(super) fn halls(grid: &OccupancyGrid, rooms: &RoomCells, stacks: &Stacks) -> Halls {
+pub(super) fn find(grid: &OccupancyGrid, rooms: &RoomCells, stacks: &Stacks) -> StorageRooms {
     let mut areas = vec![0_usize; rooms.count + 1];
     for &room in &rooms.cells {
         areas[room as usize] += 1;
     }
-    let mut found = Halls::new();
+    let mut found = StorageRooms::new();
     for (&room, &bounds) in stacks.rooms.iter().zip(&stacks.footprints).filter(|(room, _)| **room != 0) {
         found.entry(room).or_default().push(bounds);
     }
@@ -38,8 +38,8 @@ pub(super) fn halls(grid: &OccupancyGrid, rooms: &RoomCells, stacks: &Stacks) ->
 }
 
 /// Makes the stacks parts of the rooms: places in halls, furniture elsewhere.
-pub(super) fn add_stacks(rooms: &mut RoomCells, stacks: &Stacks, halls: &Halls) {
-    let kind = |room: &u32| if halls.contains_key(room) { PlotKind::Place } else { PlotKind::Other };
+pub(super) fn add_stacks(rooms: &mut RoomCells, stacks: &Stacks, storage: &StorageRooms) {
+    let kind = |room: &u32| if storage.contains_key(room) { PlotKind::Place } else { PlotKind::Other };
     let numbers: Vec<u32> = stacks.rooms.iter().map(|room| rooms.add_part(kind(room))).collect();
     for (cell, stack) in rooms.cells.iter_mut().zip(&stacks.cells) {
         if let Some(stack) = stack.checked_sub(1) {

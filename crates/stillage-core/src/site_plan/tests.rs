@@ -54,12 +54,13 @@ fn planned(grid: &OccupancyGrid) -> (SitePlan, RoomMap, Subdivision) {
     let subdivision = arrangement::arrange(&segments.expect("nobody stops it"), &watch).expect("nobody stops it");
     subdivision.check_invariants().expect("it is sound");
     let cells = CellFaces::of_grid(&subdivision, grid);
-    let rooms = plan.rooms.of_faces(subdivision.face_count(), &cells, &watch).expect("nobody stops it");
-    let planned = PlannedGround { plots: &plan.plots, rooms: &rooms };
+    let grounds = plan.rooms.of_faces(subdivision.face_count(), &cells, &watch).expect("nobody stops it");
+    let planned = PlannedGround { plots: &plan.plots, grounds: &grounds };
     let options = AnalysisOptions::default().annotation;
     let subdivision = annotation::merge_alike(grid, &regions, subdivision, planned, &options, &watch).expect("no stop");
     let cells = CellFaces::of_grid(&subdivision, grid);
-    let rooms = RoomMap::of(&plan.rooms, &subdivision, &cells, &watch).expect("nobody stops it");
+    let grounds = plan.rooms.of_faces(subdivision.face_count(), &cells, &watch).expect("nobody stops it");
+    let rooms = RoomMap::of(&plan.rooms, &subdivision, &grounds);
     (plan, rooms, subdivision)
 }
 

@@ -1,12 +1,12 @@
 //! The rows of one direction of a region: found, judged periodic or not, and cut into places.
 
-use super::Reading;
 use super::body_rows::BodyRows;
-use super::dividers::{self, Dividers};
+use super::dividers::{self, DividedRow};
 use super::evidence::RowEvidence;
 use super::periodicity::{Periodicity, Threshold};
 use super::pieces;
 use super::rack_row::RackRow;
+use super::reading::Reading;
 use super::row_model::{self, Fit, RowModel};
 use super::row_set::RowSet;
 use super::size_hints::SizeHints;
@@ -31,7 +31,7 @@ pub(super) struct DirectionRows<'a> {
     /// The evidence of each row.
     evidence: Vec<RowEvidence>,
     /// The rows that show dividers between their places; `rows` are the others.
-    divided: Vec<(RackRow, Dividers)>,
+    divided: Vec<DividedRow>,
     /// What is left beside the rows.
     others: Vec<Parcel>,
     /// Rectangles of the rows that reach into the aisles before their body.
@@ -129,8 +129,9 @@ impl<'a> DirectionRows<'a> {
         };
         let mut parcels = without(parcels, self.reaching, self.axis, self.watch)?;
         parcels.extend(self.others);
-        for (row, dividers) in &self.divided {
-            parcels.extend(pieces::parcels(row, dividers.pieces(row.rect.range(row.axis).len())));
+        for DividedRow { row, borders } in &self.divided {
+            let length = row.rect.range(row.axis).len();
+            parcels.extend(pieces::parcels(row, pieces::of_borders(borders, length, self.frame)));
         }
         for ((row, evidence), model) in self.rows.iter().zip(&self.evidence).zip(models) {
             self.watch.check()?;

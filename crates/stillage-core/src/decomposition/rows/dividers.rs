@@ -11,17 +11,17 @@
 //! shows dividers. Rows that show too little take the pitch of the others, and rows between the same two cross aisles begin
 //! and end together.
 //!
-//! Cost: O(cells of the row + dividers^3). Limits: a row of fewer than [`LEAST_PLACES`] places shows no pitch of its own;
-//! rows whose bays are parted by uprights of some width have no lattice.
+//! Cost: O(cells of the row + dividers^2). Limits: a row of two places shows no pitch of its own; rows whose bays are parted
+//! by uprights of some width have no lattice.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use super::Reading;
+use super::divider_lattice::DividerLattice;
 use super::evidence::RowEvidence;
 use super::rack_row::RackRow;
+use super::reading::Reading;
 use crate::decomposition::ground::{Patch, RegionFrame};
-use crate::plot::PlotKind;
 use crate::runs::runs_where;
 
 /// A line with at least this share of its length filled is a front or a back. Half of the places of a row may be empty.
@@ -40,44 +40,14 @@ const WIDE_SHARE: f64 = 0.2;
 const WIDEST_GAP_M: f64 = 0.3;
 /// Least share of the depth that goods fill.
 const GOODS_SHARE: f64 = 0.5;
-/// Pitches that dividers may have, metres: narrower are the stringers of pallets.
-const PITCHES_M: [f64; 2] = [0.7, 3.2];
-/// Tolerance of a place on the lattice: a share of the pitch, and metres for the cells at both ends.
-const TOLERANCE_SHARE: f64 = 0.06;
-const TOLERANCE_M: f64 = 0.05;
-/// What a border of the lattice without a divider costs, and a divider off the lattice; a divider on it gains 1.
-const MISSING_COST: f64 = 0.35;
-const STRAY_COST: f64 = 0.7;
-/// Least share of the borders that show dividers, and of the dividers that are borders.
-const SEEN_SHARE: f64 = 0.6;
-const EXPLAINED_SHARE: f64 = 0.75;
-/// Least number of places that show a pitch of their own, and that show a phase.
-const LEAST_PLACES: usize = 3;
-const LEAST_PLACES_OF_PITCH: usize = 2;
-/// Most dividers that a pair which tells the pitch is apart.
-const APART: usize = 3;
 /// Least number of places of all divided rows of a direction, and least share of the length of its rows.
 const LEAST_PLACES_OF_ALL: usize = 8;
 const LEAST_SHARE_OF_ALL: f64 = 0.5;
 
-/// The borders between the places of a row.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct Dividers {
-    /// Where the dividers are, and those that are missing beside empty places: cells from the start of the row.
-    borders: Vec<usize>,
-}
-
-impl Dividers {
-    /// The pieces of its row of some length, cells.
-    pub(super) fn pieces(&self, length: usize) -> Vec<(Range<usize>, PlotKind)> {
-        let borders = [&[0], self.borders.as_slice(), &[length]].concat();
-        let kind = |index: usize| {
-            let is_inside = index > 0 && index + 2 < borders.len();
-            if is_inside { PlotKind::Place } else { PlotKind::Other }
-        };
-        let pieces = borders.windows(2).enumerate().map(|(index, pair)| (pair[0]..pair[1], kind(index)));
-        pieces.filter(|(range, _)| !range.is_empty()).collect()
-    }
+/// A row with the borders between its places, cells from its start.
+pub(super) struct DividedRow {
+    pub row: RackRow,
+    pub borders: Vec<usize>,
 }
 
 /// Parts the rows of one direction in those that show dividers and the others, with their evidence; none is divided unless
@@ -87,17 +57,17 @@ pub(super) fn parted(
     rows: Vec<RackRow>,
     evidence: Vec<RowEvidence>,
     reading: Reading,
-) -> (Vec<(RackRow, Dividers)>, Vec<RackRow>, Vec<RowEvidence>) {
+) -> (Vec<DividedRow>, Vec<RackRow>, Vec<RowEvidence>) {
     let marks: Vec<Option<Vec<f64>>> = rows.iter().map(|row| marks(frame, row, reading)).collect();
-    let mut lattices: Vec<Option<Lattice>> =
-        marks.iter().map(|marks| Lattice::of(marks.as_ref()?, frame.cell)).collect();
+    let mut lattices: Vec<Option<DividerLattice>> =
+        marks.iter().map(|marks| DividerLattice::of(marks.as_ref()?, frame.cell)).collect();
     if let Some(pitch) = usual_pitch(&lattices) {
         for (lattice, marks) in lattices.iter_mut().zip(&marks).filter(|(lattice, _)| lattice.is_none()) {
-            *lattice = marks.as_ref().and_then(|marks| Lattice::at(marks, pitch, frame.cell));
+            *lattice = marks.as_ref().and_then(|marks| DividerLattice::at(marks, pitch, frame.cell));
         }
     }
     let along = |row: &RackRow| row.rect.range(row.axis).clone();
-    let is_divided = |(_, lattice): &(&RackRow, &Option<Lattice>)| lattice.is_some();
+    let is_divided = |(_, lattice): &(&RackRow, &Option<DividerLattice>)| lattice.is_some();
     let whole: usize = rows.iter().map(|row| along(row).len()).sum();
     let divided: usize = rows.iter().zip(&lattices).filter(is_divided).map(|(row, _)| along(row).len()).sum();
     let places: usize = lattices.iter().flatten().map(|lattice| lattice.count).sum();
@@ -108,9 +78,9 @@ pub(super) fn parted(
     let mut found = (Vec::new(), Vec::new(), Vec::new());
     for ((row, evidence), lattice) in rows.into_iter().zip(evidence).zip(lattices) {
         if let Some(lattice) = lattice {
-            let dividers =
-                Dividers { borders: lattice.borders(ends[&along(&row).start], along(&row).len(), frame.cell) };
-            found.0.push((row, dividers));
+            let along = along(&row);
+            let borders = lattice.borders(ends[&along.start], along.len(), frame.cell);
+            found.0.push(DividedRow { row, borders });
         } else {
             found.1.push(row);
             found.2.push(evidence);
@@ -120,12 +90,14 @@ pub(super) fn parted(
 }
 
 /// The pitch of most places, cells.
-fn usual_pitch(lattices: &[Option<Lattice>]) -> Option<f64> {
+fn usual_pitch(lattices: &[Option<DividerLattice>]) -> Option<f64> {
     lattices.iter().flatten().max_by_key(|lattice| lattice.count).map(|lattice| lattice.pitch)
 }
 
 /// First and last border of the rows that begin at the same line, by that line.
-fn shared_ends<'a>(rows: impl Iterator<Item = (Range<usize>, &'a Option<Lattice>)>) -> BTreeMap<usize, [f64; 2]> {
+fn shared_ends<'a>(
+    rows: impl Iterator<Item = (Range<usize>, &'a Option<DividerLattice>)>,
+) -> BTreeMap<usize, [f64; 2]> {
     let mut ends: BTreeMap<usize, [f64; 2]> = BTreeMap::new();
     for (along, lattice) in rows {
         let Some(lattice) = lattice else { continue };
@@ -134,97 +106,6 @@ fn shared_ends<'a>(rows: impl Iterator<Item = (Range<usize>, &'a Option<Lattice>
         (*low, *high) = (low.min(lattice.first), high.max(last));
     }
     ends
-}
-
-/// Borders at regular distances along a row, cells.
-#[derive(Debug, Clone, PartialEq)]
-struct Lattice {
-    /// The first border that shows a divider.
-    first: f64,
-    pitch: f64,
-    /// Number of places up to the last border that shows one.
-    count: usize,
-    score: f64,
-}
-
-impl Lattice {
-    /// The lattice that explains the dividers of a row best.
-    fn of(marks: &[f64], cell: f64) -> Option<Self> {
-        let mut best: Option<Self> = None;
-        for (index, &mark) in marks.iter().enumerate() {
-            for (&next, apart) in marks[index + 1..].iter().zip(0..APART) {
-                for places in 1..=apart + 1 {
-                    let pitch = (next - mark) / places as f64;
-                    if !(PITCHES_M[0]..=PITCHES_M[1]).contains(&(pitch * cell)) {
-                        continue;
-                    }
-                    let found = Self::through(marks, mark, pitch, cell, LEAST_PLACES);
-                    best = better(best, found);
-                }
-            }
-        }
-        best
-    }
-
-    /// The same at a pitch, cells.
-    fn at(marks: &[f64], pitch: f64, cell: f64) -> Option<Self> {
-        let found = marks.iter().map(|&mark| Self::through(marks, mark, pitch, cell, LEAST_PLACES_OF_PITCH));
-        found.fold(None, better)
-    }
-
-    /// The lattice through a mark, moved and stretched to fit the marks on it.
-    fn through(marks: &[f64], mark: f64, pitch: f64, cell: f64, least: usize) -> Option<Self> {
-        let tolerance = TOLERANCE_SHARE * pitch + TOLERANCE_M / cell;
-        // Number of the border nearest to each mark that lies on the lattice.
-        let on = |first: f64, pitch: f64| -> Vec<(f64, f64)> {
-            let number = |&place: &f64| (((place - first) / pitch).round(), place);
-            let is_near = |&(number, place): &(f64, f64)| (place - first - number * pitch).abs() <= tolerance;
-            marks.iter().map(number).filter(is_near).collect()
-        };
-        let (first, pitch) = fitted(&on(mark, pitch), mark, pitch);
-        let met = on(first, pitch);
-        let mut numbers: Vec<i64> = met.iter().map(|&(number, _)| number as i64).collect();
-        numbers.dedup();
-        let (low, high) = (*numbers.first()?, *numbers.last()?);
-        let (seen, borders) = (numbers.len() as f64, (high - low + 1) as f64);
-        let is_regular = numbers.len() > least
-            && seen >= SEEN_SHARE * borders
-            && met.len() as f64 >= EXPLAINED_SHARE * marks.len() as f64;
-        let score = seen - MISSING_COST * (borders - seen) - STRAY_COST * (marks.len() - met.len()) as f64;
-        is_regular.then(|| Self { first: first + low as f64 * pitch, pitch, count: (high - low) as usize, score })
-    }
-
-    /// The borders of a row of some length that begins and ends like its neighbours, cells.
-    fn borders(&self, [low, high]: [f64; 2], length: usize, cell: f64) -> Vec<usize> {
-        let tolerance = TOLERANCE_SHARE * self.pitch + TOLERANCE_M / cell;
-        let before = ((self.first - low + tolerance) / self.pitch).floor().max(0.0) as i64;
-        let after = ((high + tolerance - self.first) / self.pitch).floor().max(self.count as f64) as i64;
-        let border = |number: i64| (self.first + number as f64 * self.pitch).round().clamp(0.0, length as f64) as usize;
-        let mut borders: Vec<usize> = (-before..=after).map(border).collect();
-        borders.dedup();
-        borders
-    }
-}
-
-fn better(one: Option<Lattice>, other: Option<Lattice>) -> Option<Lattice> {
-    match (one, other) {
-        (Some(one), Some(other)) => Some(if other.score > one.score { other } else { one }),
-        (one, other) => one.or(other),
-    }
-}
-
-/// First border and pitch by least squares from numbered borders; those given where a single one is known.
-fn fitted(numbered: &[(f64, f64)], first: f64, pitch: f64) -> (f64, f64) {
-    let count = numbered.len() as f64;
-    let [numbers, places] =
-        [0, 1].map(|part| numbered.iter().map(|pair| if part == 0 { pair.0 } else { pair.1 }).sum::<f64>() / count);
-    let square: f64 = numbered.iter().map(|(number, _)| (number - numbers).powi(2)).sum();
-    if square <= 0.0 {
-        return (first, pitch);
-    }
-    let product: f64 = numbered.iter().map(|(number, place)| (number - numbers) * (place - places)).sum();
-    let pitch = product / square;
-    (places - numbers * pitch, pitch)
 }
 
 /// The middles of the dividers of a row, or of the gaps between its goods, cells from its start; `None` where it shows

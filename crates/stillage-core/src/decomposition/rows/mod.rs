@@ -3,7 +3,7 @@
 //! | step | module |
 //! | --- | --- |
 //! | rows of the layers of each body | [`body_rows`], [`rack_row`] |
-//! | rows that show what divides their places | [`dividers`] |
+//! | rows that show what divides their places | [`dividers`], [`divider_lattice`] |
 //! | evidence for borders between places, along each row | [`evidence`] |
 //! | layers that share their storage lanes are one row | [`storage_lanes`] |
 //! | pitch and load template that all rows of a direction have in common, and those of single rows | [`row_set`], [`row_model`], [`load_template`] |
@@ -16,12 +16,14 @@
 mod body_rows;
 mod comb;
 mod direction;
+mod divider_lattice;
 mod dividers;
 mod evidence;
 mod load_template;
 mod periodicity;
 mod pieces;
 mod rack_row;
+mod reading;
 mod row_model;
 mod row_set;
 mod size_hints;
@@ -36,16 +38,8 @@ use crate::watch::{Stopped, Watch};
 
 use direction::DirectionRows;
 
+pub(crate) use reading::Reading;
 pub(crate) use size_hints::SizeHints;
-
-/// What rows are cut into places by.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Reading {
-    /// What divides the places: dividers, and gaps between goods.
-    Dividers,
-    /// Dividers, and the shape of the goods in the places.
-    Goods,
-}
 
 /// The bands and bodies of a region as parcels.
 pub(crate) struct RowLayout {

@@ -34,6 +34,16 @@ pub(super) fn of_comb(comb: &Comb, pitch: f64, frame: &RegionFrame) -> Vec<(Rang
     without_slivers(pieces, frame.cells_of(SLIVER_M))
 }
 
+/// The pieces of a row of some length by the borders of its places, cells; without slivers.
+pub(super) fn of_borders(borders: &[usize], length: usize, frame: &RegionFrame) -> Vec<(Range<usize>, PlotKind)> {
+    let [first, last] = [borders.first(), borders.last()].map(|border| border.copied().unwrap_or(0));
+    let ends = [(0..first, PlotKind::Other), (last..length, PlotKind::Other)];
+    let places = borders.windows(2).map(|pair| (pair[0]..pair[1], PlotKind::Place));
+    let [before, after] = ends;
+    let pieces = std::iter::once(before).chain(places).chain([after]).filter(|(range, _)| !range.is_empty());
+    without_slivers(pieces.collect(), frame.cells_of(SLIVER_M))
+}
+
 /// The pieces of a row as parcels.
 pub(super) fn parcels(row: &RackRow, pieces: Vec<(Range<usize>, PlotKind)>) -> impl Iterator<Item = Parcel> {
     let start = row.rect.range(row.axis).start;

@@ -155,8 +155,7 @@ mod tests {
             (symbols + "\n").repeat(CHARACTER)
         };
         let (mut frame, whole) = RegionFrame::of_picture(&lines.iter().map(wide).collect::<String>(), 0.05);
-        let vehicle = frame.cells_of(1.0);
-        drivable::mark(&mut frame, vehicle, &Watch::unwatched()).expect("nobody stops it");
+        drivable::mark(&mut frame, 1.0, &Watch::unwatched()).expect("nobody stops it");
         let rect = |columns: Range<usize>, rows: Range<usize>| {
             let (u, v) = (&whole.u, &whole.v);
             let high = |row: usize| v.end - CHARACTER * row;

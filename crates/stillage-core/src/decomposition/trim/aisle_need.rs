@@ -135,7 +135,7 @@ mod tests {
             // Cells of 0.05 m, eight to the side of a character.
             let wide = |line: &String| (line.chars().flat_map(|cell| [cell; 8]).collect::<String>() + "\n").repeat(8);
             let (mut frame, whole) = RegionFrame::of_picture(&picture.iter().map(wide).collect::<String>(), 0.05);
-            drivable::mark(&mut frame, 6, &Watch::unwatched()).expect("nobody stops it");
+            drivable::mark(&mut frame, 0.3, &Watch::unwatched()).expect("nobody stops it");
             let rects: Vec<Rect> = places.into_iter().map(|(u, width, v, height)| {
                 let (u, v) = (whole.u.start + u, whole.v.start + v);
                 Rect { u: u..(u + width).min(frame.columns), v: v..(v + height).min(frame.rows) }
@@ -161,7 +161,7 @@ mod tests {
         let floor = (".".repeat(4 * columns + 48) + "\n").repeat(24);
         let (mut frame, whole) =
             RegionFrame::of_picture(&[&floor[..], &goods.repeat(16 * layers), &floor].concat(), 0.05);
-        drivable::mark(&mut frame, 12, &Watch::unwatched()).expect("nobody stops it");
+        drivable::mark(&mut frame, 0.6, &Watch::unwatched()).expect("nobody stops it");
         let place = |number: usize| {
             let (u, v) = (whole.u.start + 24 + number % columns * 4, whole.v.start + 24 + number / columns * 16);
             Rect { u: u..u + 4, v: v..v + 16 }
