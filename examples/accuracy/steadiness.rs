@@ -103,7 +103,9 @@ fn drawings(arguments: &Arguments, variants: &[Variant]) -> Outcome<String> {
     let one = |&(style, seed, variant): &(DrawingStyle, u64, &Variant)| -> Outcome<f64> {
         let sample = stillage_zoo::draw(style, seed, &variant.options);
         let site = if variant.is_jpeg { sites::of_jpeg(&sample, QUALITY)? } else { sites::of_sample(&sample)? };
-        Ok(sites::scored(&site, &AnalysisSpec::default())?.decided.f1)
+        let f1 = sites::scored(&site, &AnalysisSpec::default())?.decided.f1;
+        eprintln!("{style:<10}{seed:>4}  F1 {f1:.3} {}", variant.name);
+        Ok(f1)
     };
     let scores: Vec<f64> = jobs.par_iter().map(one).collect::<Outcome<_>>()?;
     let names = styles.iter().map(ToString::to_string).collect();
