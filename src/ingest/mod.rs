@@ -1,7 +1,7 @@
 //! Bytes -> occupancy grid, and the truth of a site.
 //!
 //! A map arrives as an image with `map_server` metadata, or as a `nav_msgs/OccupancyGrid` message in JSON. Cells are
-//! read exactly as `nav2_map_server` reads them (`map_io.cpp`; see [`verdict`]); the files of the wild that loaders
+//! read as `nav2_map_server` reads them (`map_io.cpp`), but for one mistake that many files make ([`verdict`]); the files of the wild that loaders
 //! stumble over are read with a warning where their meaning is plain, and refused with a remedy where it is not.
 //!
 //! Nothing here opens a file: the `image` entry of the metadata is never followed. Sizes are compared with the
@@ -19,7 +19,7 @@ mod truth;
 mod verdict;
 
 use stillage_core::OccupancyGrid;
-use stillage_core::spec::GridOptions;
+use stillage_core::spec::{GridOptions, GridSemantics};
 
 pub use error::{IngestError, Refusal};
 pub use limits::Limits;
@@ -57,8 +57,17 @@ fn decode_image(
     let metadata = metadata::parse(metadata, &mut warnings)?;
     let thresholds = metadata.thresholds.overridden(options)?;
     let picture = picture::decode(image, limits)?;
-    let reading = verdict::Reading { mode: metadata.mode, negate: metadata.negate, thresholds };
-    warnings.extend(verdict::unknown_lost(&picture, reading));
+    let mut reading = verdict::Reading { mode: metadata.mode, negate: metadata.negate, thresholds };
+    if let Some(loss) = verdict::unknown_lost(&picture, reading) {
+        let may_mend = options.semantics == GridSemantics::Intended && options.free_threshold.is_none();
+        match loss.mended().filter(|_| may_mend) {
+            Some((mended, word)) => {
+                reading = mended;
+                warnings.push(word);
+            }
+            None => warnings.push(loss.warning()),
+        }
+    }
     let cells = verdict::cells(&picture, reading);
     let grid = OccupancyGrid::new(picture.width, picture.height, metadata.frame, cells);
     Ok(DecodedMap { grid, warnings })

@@ -9,6 +9,9 @@
 //! - `raw`: the grey level is the cell's value, 0 to 100 in per cent, anything else unknown; `negate` and opacity do
 //!   not matter. The value is judged by the thresholds, as the value of a message is.
 //!
+//! Many files have a `free_thresh` of 0.25, which takes the grey that map savers write for unknown cells, 205, for free.
+//! Unless the user gave a threshold or asked for the letter of the file, that grey is read as unknown ([`Loss::mended`]).
+//!
 //! ROS 1 compares strictly instead and averages opacity into the grey: maps at the very threshold differ there.
 //! Cost: O(cells), one table look-up each.
 
@@ -125,8 +128,53 @@ const DRAWN_FREE: f32 = 5.0 / 255.0;
 /// Darker than this no tool draws free cells on purpose (the faintest seen in the wild is 243).
 const DRAWN_UNKNOWN: f32 = 20.0 / 255.0;
 
-/// Warns when the thresholds turn free what was probably drawn as unknown: grey 205 at `free_thresh: 0.25` mostly.
-pub(super) fn unknown_lost(picture: &Picture, reading: Reading) -> Option<Diagnostic> {
+/// How occupied the grey is that map savers write for unknown cells, 205: within what JPEG makes of it.
+const SAVED_UNKNOWN: std::ops::RangeInclusive<f32> = 47.0 / 255.0..=53.0 / 255.0;
+/// The free threshold that keeps it unknown: below grey 209.
+const FREE_BELOW_SAVED_UNKNOWN: f64 = 0.18;
+
+/// A grey level that the thresholds turn free though it was probably drawn as unknown.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Loss {
+    grey: u8,
+    /// Share of the pixels that have it.
+    share: f64,
+    reading: Reading,
+}
+
+impl Loss {
+    /// The reading that keeps the level unknown, and a word about it, if it is the one that map savers write.
+    pub(super) fn mended(self) -> Option<(Reading, Diagnostic)> {
+        if !SAVED_UNKNOWN.contains(&self.reading.probability(self.grey)) {
+            return None;
+        }
+        let Self { grey, share, reading } = self;
+        let (percent, free) = (share * 100.0, reading.thresholds.free);
+        let message = format!(
+            "{percent:.1} % of the pixels have grey level {grey}, which map savers write for unknown cells, and were read \
+             as unknown, although the free threshold is {free}; to keep the letter of the file, set \
+             options.grid.semantics: \"nav2\""
+        );
+        let thresholds = Thresholds { free: FREE_BELOW_SAVED_UNKNOWN, ..reading.thresholds };
+        Some((Reading { thresholds, ..reading }, Diagnostic::new("unknown-kept", message)))
+    }
+
+    /// The warning where it stays lost.
+    pub(super) fn warning(self) -> Diagnostic {
+        let Self { grey, share, reading } = self;
+        // The largest threshold of three decimals that leaves the level out: 0.196 for 205.
+        let remedy = (f64::from(reading.probability(grey)) * 1000.0).ceil() / 1000.0 - 0.001;
+        let (percent, free) = (share * 100.0, reading.thresholds.free);
+        let message = format!(
+            "{percent:.1} % of the pixels have grey level {grey} and were read as free, because the free threshold is \
+             {free}; if they mean unknown, set options.grid.freeThreshold: {remedy:.3}"
+        );
+        Diagnostic::new("unknown-lost", message)
+    }
+}
+
+/// Finds what the thresholds turn free though it was probably drawn as unknown: grey 205 at `free_thresh: 0.25` mostly.
+pub(super) fn unknown_lost(picture: &Picture, reading: Reading) -> Option<Loss> {
     if reading.mode == Mode::Raw {
         return None;
     }
@@ -141,14 +189,7 @@ pub(super) fn unknown_lost(picture: &Picture, reading: Reading) -> Option<Diagno
         .filter(notable)
         .filter(|&grey| reading.judge(grey) == Occupancy::Free && reading.probability(grey) > DRAWN_UNKNOWN)
         .max_by_key(|&grey| histogram[usize::from(grey)])?;
-    // The largest threshold of three decimals that leaves the level out: 0.196 for 205.
-    let remedy = (f64::from(reading.probability(lost)) * 1000.0).ceil() / 1000.0 - 0.001;
-    let (percent, free) = (share(lost) * 100.0, reading.thresholds.free);
-    let message = format!(
-        "{percent:.1} % of the pixels have grey level {lost} and were read as free, because the free threshold is {free}; \
-         if they mean unknown, set options.grid.freeThreshold: {remedy:.3}"
-    );
-    Some(Diagnostic::new("unknown-lost", message))
+    Some(Loss { grey: lost, share: share(lost), reading })
 }
 
 #[cfg(test)]
@@ -210,7 +251,11 @@ mod tests {
         grey.extend([205; 16]);
         grey.extend([0; 4]);
         let picture = Picture { width: 100, height: 1, grey, transparent: Vec::new() };
-        let warning = unknown_lost(&picture, reading(Mode::Trinary, false, 0.25, 0.65)).unwrap();
+        let loss = unknown_lost(&picture, reading(Mode::Trinary, false, 0.25, 0.65)).unwrap();
+        let (mended, word) = loss.mended().unwrap();
+        assert_eq!((word.code.as_str(), mended.judge(205)), ("unknown-kept", Unknown));
+        assert_eq!((mended.judge(254), mended.judge(0)), (Free, Occupied));
+        let warning = loss.warning();
         assert_eq!(warning.code, "unknown-lost");
         assert!(warning.message.contains("16.0 %"), "{}", warning.message);
         assert!(warning.message.ends_with("options.grid.freeThreshold: 0.196"), "{}", warning.message);

@@ -44,9 +44,20 @@ pub struct GridOptionsView {
     /// Replaces `occupied_thresh`.
     #[schema(minimum = 0, maximum = 1)]
     occupied_threshold: Option<f64>,
-    /// Replaces `free_thresh`. Set 0.196 where a file's 0.25 turns unknown cells (grey 205) free.
+    /// Replaces `free_thresh`.
     #[schema(minimum = 0, maximum = 1)]
     free_threshold: Option<f64>,
+    /// Where the file's own `free_thresh` takes the grey that map savers write for unknown cells, 205, for free:
+    /// `intended` reads it as unknown and says so in the warnings, `nav2` keeps the letter of the file.
+    semantics: GridSemantics,
+}
+
+#[derive(Debug, Default, Serialize, ToSchema)]
+#[serde(rename_all = "camelCase")]
+enum GridSemantics {
+    #[default]
+    Intended,
+    Nav2,
 }
 
 /// Place categories (paper, II-A).

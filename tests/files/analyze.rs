@@ -111,6 +111,6 @@ fn faults_of_the_input_end_with_2_and_a_sentence() {
         room.yaml --rule-set garden -> 2: error: there is no rule set garden: name `site`, `warehouse`, `office`, or a JSON file
         room.yaml --options options.json -> 2: error: options.json: /categorization/k: 0 is outside 2 to 32
         room.yaml --out room.pgm -> 2: error: room.pgm is a file: name a folder with --out
-        room.yaml --assignment assignment.json -> 2: error: the assignment does not fit this map: /assignment/0: no label has the id "zz"; there are co, ju, pc, un
+        room.yaml --assignment assignment.json -> 2: error: the assignment does not fit this map: /assignment/0: no label has the id "zz"; there are co, ju, pc, ro, un
     "#]].assert_eq(&report);
 }

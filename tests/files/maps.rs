@@ -74,9 +74,9 @@ fn maps_whose_threshold_swallows_the_unknown_cells_are_pointed_out() {
         }
     }
     expect_test::expect![[r#"
-        warehouse__hunav_small_warehouse unknown-lost: 16.1 % of the pixels have grey level 205 and were read as free, because the free threshold is 0.25; if they mean unknown, set options.grid.freeThreshold: 0.196
-        warehouse__nav2_depot unknown-lost: 4.8 % of the pixels have grey level 205 and were read as free, because the free threshold is 0.25; if they mean unknown, set options.grid.freeThreshold: 0.196
-        warehouse__svl_warehouse_dt_pallets unknown-lost: 8.9 % of the pixels have grey level 205 and were read as free, because the free threshold is 0.25; if they mean unknown, set options.grid.freeThreshold: 0.196
-        office__pal_office unknown-lost: 34.3 % of the pixels have grey level 205 and were read as free, because the free threshold is 0.25; if they mean unknown, set options.grid.freeThreshold: 0.196
+        warehouse__hunav_small_warehouse unknown-kept: 16.1 % of the pixels have grey level 205, which map savers write for unknown cells, and were read as unknown, although the free threshold is 0.25; to keep the letter of the file, set options.grid.semantics: "nav2"
+        warehouse__nav2_depot unknown-kept: 4.8 % of the pixels have grey level 205, which map savers write for unknown cells, and were read as unknown, although the free threshold is 0.25; to keep the letter of the file, set options.grid.semantics: "nav2"
+        warehouse__svl_warehouse_dt_pallets unknown-kept: 8.9 % of the pixels have grey level 205, which map savers write for unknown cells, and were read as unknown, although the free threshold is 0.25; to keep the letter of the file, set options.grid.semantics: "nav2"
+        office__pal_office unknown-kept: 34.3 % of the pixels have grey level 205, which map savers write for unknown cells, and were read as unknown, although the free threshold is 0.25; to keep the letter of the file, set options.grid.semantics: "nav2"
         bormann__Freiburg52_scan unknown-lost: 5.1 % of the pixels have grey level 211 and were read as free, because the free threshold is 0.196; if they mean unknown, set options.grid.freeThreshold: 0.172"#]].assert_eq(&warned.join("\n"));
 }

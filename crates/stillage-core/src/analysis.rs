@@ -7,7 +7,7 @@ use crate::annotation::{self, EdgeAnnotation, FaceAnnotation, FaceCategories};
 use crate::arrangement::{self, CellFaces, Subdivision};
 use crate::categorization::{self, CategoryMap};
 use crate::declutter;
-use crate::grid::{GridFrame, OccupancyGrid};
+use crate::grid::{GridFrame, Occupancy, OccupancyGrid};
 use crate::line::Line;
 use crate::orientation::{self, Orientations};
 use crate::radiography::{self, Radiogram};
@@ -17,10 +17,11 @@ use crate::segmentation::{self, RegionMap};
 use crate::site_plan::{self, SitePlan};
 use crate::spec::{AnalysisOptions, AnalysisSpec, DecompositionMethod};
 use crate::stage_shares::{CellCounts, StageShares};
+use crate::surroundings::{self, PaintedGround};
 use crate::watch::{Stage, Stopped, Watch};
 
 /// Version of the algorithms: part of the address of a stored analysis, raised whenever results change.
-pub const ALGORITHM_VERSION: u32 = 9;
+pub const ALGORITHM_VERSION: u32 = 10;
 
 /// What the geometric level finds in a map. Immutable; addressed by grid, options and [`ALGORITHM_VERSION`].
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -89,6 +90,11 @@ impl Diagnostic {
 pub fn analyze(grid: &OccupancyGrid, spec: &AnalysisSpec, watch: &Watch<'_>) -> Result<Analysis, Stopped> {
     let options = spec.options();
     watch.begin(&StageShares::estimate(&CellCounts::of(grid), options));
+    let surroundings = match options.decomposition.method {
+        DecompositionMethod::Adaptive => watch.stage(Stage::Declutter, || surroundings::find(grid, watch))?,
+        DecompositionMethod::Paper => None,
+    };
+    let grid = surroundings.as_ref().map_or(grid, |found| &found.grid);
     let declutter::Decluttered { grid: clean, removed: clutter } =
         watch.stage(Stage::Declutter, || declutter::declutter(grid, &options.declutter, watch))?;
     let grid = &clean;
@@ -151,7 +157,19 @@ pub fn analyze(grid: &OccupancyGrid, spec: &AnalysisSpec, watch: &Watch<'_>) -> 
         diagnostics: Vec::new(),
     };
     analysis.diagnostics = diagnose(grid, &analysis);
+    analysis.diagnostics.extend(surroundings.map(|found| remark_on(&found)));
     Ok(analysis)
+}
+
+/// The remark on painted ground around the building.
+fn remark_on(found: &PaintedGround) -> Diagnostic {
+    let area = found.cells as f64 * found.grid.resolution().powi(2);
+    let painted = if found.painted == Occupancy::Free { "free" } else { "occupied" };
+    let message = format!(
+        "{area:.0} m2 around the building are painted {painted}; all stages but the upload take them for unknown ground, \
+         as nobody was there"
+    );
+    Diagnostic::new("painted-surroundings", message)
 }
 
 /// Remarks on a degenerate or cluttered map.

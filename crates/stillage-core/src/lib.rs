@@ -39,12 +39,15 @@ pub mod signal;
 pub mod vectors;
 
 mod components;
+mod distance_transform;
 mod morphology;
 mod runs;
 mod site_ground;
 mod walls;
 
 // The stages, in the order of the data.
+mod surroundings;
+
 pub mod declutter;
 
 pub mod raycast;

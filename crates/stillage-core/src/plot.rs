@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::geometry::OrientedBox;
 
 /// What a piece of ground was cut out for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum PlotKind {
     /// One place for goods.
@@ -20,6 +20,10 @@ pub enum PlotKind {
     Room,
     /// Anything else.
     Other,
+    /// A long and narrow room with doors along it.
+    Corridor,
+    /// Where corridors meet.
+    Junction,
 }
 
 /// A rectangle of the ground and what it was cut out for.

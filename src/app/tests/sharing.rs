@@ -59,6 +59,6 @@ async fn what_belongs_to_another_caller_is_not_found() {
     not_found(service.delete_rule_set(&other, "clinic", Some(1)).await.unwrap_err());
     assert_eq!(service.maps(&other, 9, None).await.unwrap(), []);
     assert_eq!(service.jobs(&other, JobFilter { limit: 9, ..JobFilter::default() }).await.unwrap(), []);
-    assert_eq!(service.rule_sets(&other).await.unwrap().len(), 2, "the built-in ones");
+    assert_eq!(service.rule_sets(&other).await.unwrap().len(), 3, "the built-in ones");
     service.context(&me(), job.map).await.expect("for its owner it is there");
 }

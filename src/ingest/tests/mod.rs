@@ -192,14 +192,17 @@ fn the_frame_of_the_map_is_that_of_the_file() {
 fn options_override_the_thresholds_of_the_file() {
     let source = MapSource::Image { image: grey_png(), metadata: USUAL.replace("0.196", "0.25").into_bytes() };
     let limits = Limits::default();
-    let as_written = decode(&source, &GridOptions::default(), &limits).unwrap();
+    let as_meant = decode(&source, &GridOptions::default(), &limits).unwrap();
+    assert_eq!((picture(&as_meant.grid).as_str(), as_meant.warnings[0].code.as_str()), (PICTURE, "unknown-kept"));
+    let options = GridOptions { semantics: GridSemantics::Nav2, ..GridOptions::default() };
+    let as_written = decode(&source, &options, &limits).unwrap();
     assert_eq!(picture(&as_written.grid), "#..\n..#\n");
     assert_eq!(as_written.warnings[0].code, "unknown-lost");
-    let options = GridOptions { free_threshold: Some(0.196), occupied_threshold: None };
+    let options = GridOptions { free_threshold: Some(0.196), ..GridOptions::default() };
     let overridden = decode(&source, &options, &limits).unwrap();
     assert_eq!(picture(&overridden.grid), PICTURE);
     assert_eq!(overridden.warnings, []);
-    let options = GridOptions { free_threshold: Some(0.7), occupied_threshold: None };
+    let options = GridOptions { free_threshold: Some(0.7), ..GridOptions::default() };
     assert_eq!(decode(&source, &options, &limits).unwrap_err().pointer, "/options/grid/freeThreshold");
 }
 

@@ -42,42 +42,34 @@ impl Stored for MapSource {
 }
 
 impl Stored for Analysis {
-    const FORMAT: u8 = 1;
+    const FORMAT: u8 = 2;
 
-    /// Format 0 had the first seven groups of the options alone; the others have their defaults, which is what was done
-    /// then. All before and after the options is the same.
+    /// Up to format 1 the options of the grid were two thresholds. Format 0 had the first seven groups of the options
+    /// alone; what was added since has its default. All before and after the options is the same.
     fn upgrade(format: u8, plain: Vec<u8>) -> Option<Vec<u8>> {
-        if format != 0 {
-            return None;
-        }
         let (_, from_options): ((GridFrame, usize, usize), _) = postcard::take_from_bytes(&plain).ok()?;
         let before = &plain[..plain.len() - from_options.len()];
-        let (groups, after): (FirstGroups, _) = postcard::take_from_bytes(from_options).ok()?;
-        let mut options = AnalysisOptions::default();
-        (
-            options.seed,
-            options.grid,
-            options.categorization,
-            options.orientation,
-            options.regions,
-            options.decomposition,
-            options.annotation,
-        ) = groups;
-        let options = postcard::to_stdvec(&options).ok()?;
+        let (first, rest): (FirstOptions, _) = postcard::take_from_bytes(from_options).ok()?;
+        let (seed, occupied_threshold, free_threshold) = first;
+        let grid = GridOptions { occupied_threshold, free_threshold, ..GridOptions::default() };
+        let mut options = postcard::to_stdvec(&(seed, grid)).ok()?;
+        let mut after = rest;
+        if format == 0 {
+            let (_, from_declutter): (GroupsOfFormat0, _) = postcard::take_from_bytes(rest).ok()?;
+            options.extend_from_slice(&rest[..rest.len() - from_declutter.len()]);
+            options.extend(postcard::to_stdvec(&AnalysisOptions::default().declutter).ok()?);
+            after = from_declutter;
+        }
         Some([before, &options, after].concat())
     }
 }
 
-/// The options of an analysis of format 0, in their order.
-type FirstGroups = (
-    u64,
-    GridOptions,
-    CategorizationOptions,
-    OrientationOptions,
-    RegionOptions,
-    DecompositionOptions,
-    AnnotationOptions,
-);
+/// Seed and thresholds, with which the options began up to format 1.
+type FirstOptions = (u64, Option<f64>, Option<f64>);
+
+/// The options of format 0 that follow them, in their order.
+type GroupsOfFormat0 =
+    (CategorizationOptions, OrientationOptions, RegionOptions, DecompositionOptions, AnnotationOptions);
 
 /// Why bytes are not a value.
 #[derive(Debug, PartialEq, Eq)]

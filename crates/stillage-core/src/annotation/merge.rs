@@ -131,7 +131,7 @@ fn is_alike(faces: &[Purpose], [left, right]: [FaceId; 2]) -> bool {
             PlotKind::Aisle => {
                 other.kind == one.kind && line_angle_between(one.bounds.angle, other.bounds.angle) < PARALLEL
             }
-            PlotKind::OpenFloor | PlotKind::Passage | PlotKind::Room | PlotKind::Other => other.kind == one.kind,
+            _ => other.kind == one.kind,
         },
         _ => false,
     };

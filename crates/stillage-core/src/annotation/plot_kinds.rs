@@ -1,4 +1,7 @@
-//! What each face was cut out for: the kind of the plot that a point inside the face lies in. Cost: O(faces + plots).
+//! What each face was cut out for: its room or the part of one, or the plot that a point inside it lies in.
+//!
+//! On a site with a plan every face is something: ground without room or plot is open floor where it is free on a site
+//! with rows, and else nothing that has a name (walls, unseen ground). Cost: O(faces + plots).
 
 use std::collections::BTreeMap;
 
@@ -15,31 +18,33 @@ const OPEN_SHARE: f64 = 0.5;
 /// Side of a bucket of plots, metres: about a place.
 const BUCKET_M: f64 = 2.0;
 
-/// The kind of every face, by face id; `None` where no plot lies, and where a drivable plot was not seen to be free.
+/// The kind of every face, by face id; `None` for the unbounded face, and for all faces without a plan.
 pub(super) fn of_faces(
     graph: &AdjacencyGraph,
     faces: &[FaceAnnotation],
     plots: &[Plot],
     grounds: &[FaceGround],
 ) -> Vec<Option<PlotKind>> {
+    if plots.is_empty() && grounds.is_empty() {
+        return vec![None; faces.len()];
+    }
     let index = PlotIndex::new(plots);
-    // On a site of rooms alone, rooms get no kind: some of them are corridors.
-    let is_floor = |ground: &FaceGround| ground.part.is_some_and(|(_, kind)| kind == PlotKind::OpenFloor);
-    let has_rows = plots.iter().any(|plot| plot.kind != PlotKind::Place) || grounds.iter().any(is_floor);
+    let has_rows = plots.iter().any(|plot| plot.kind != PlotKind::Place);
     let kind = |face: u32| {
-        let ground = grounds.get(face as usize).copied().unwrap_or_default();
-        if has_rows && ground.room.is_some() {
-            return Some(PlotKind::Room);
-        }
         let annotation = &faces[face as usize];
-        let kind = match ground.part {
-            Some((_, kind)) => kind,
-            None => index.at(graph.position(FaceId(face)), annotation.region)?.kind,
+        let is_free = annotation.free_fraction >= OPEN_SHARE;
+        let planned = match grounds.get(face as usize).and_then(|ground| ground.area) {
+            Some((_, kind)) => Some(kind),
+            None => index.at(graph.position(FaceId(face)), annotation.region).map(|plot| plot.kind),
         };
-        let is_open = matches!(kind, PlotKind::Aisle | PlotKind::OpenFloor | PlotKind::Passage);
-        (!is_open || annotation.free_fraction >= OPEN_SHARE).then_some(kind)
+        match planned {
+            Some(PlotKind::Aisle | PlotKind::OpenFloor | PlotKind::Passage) if !is_free => PlotKind::Other,
+            Some(kind) => kind,
+            None if is_free && has_rows => PlotKind::OpenFloor,
+            None => PlotKind::Other,
+        }
     };
-    (0..faces.len() as u32).map(|face| if FaceId(face) == FaceId::OUTER { None } else { kind(face) }).collect()
+    (0..faces.len() as u32).map(|face| (FaceId(face) != FaceId::OUTER).then(|| kind(face))).collect()
 }
 
 /// Plots by the buckets that their boxes touch.

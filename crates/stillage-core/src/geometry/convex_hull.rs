@@ -3,7 +3,7 @@
 use super::point::Point;
 
 /// Corners of the convex hull of points, counter-clockwise (A. M. Andrew's monotone chain, 1979). O(n log n).
-pub(super) fn convex_hull(points: &[Point]) -> Vec<Point> {
+pub(crate) fn convex_hull(points: &[Point]) -> Vec<Point> {
     let mut sorted = points.to_vec();
     sorted.sort_unstable_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
     let mut hull = Vec::new();

@@ -27,4 +27,5 @@ pub use oriented_box::OrientedBox;
 pub use point::{Point, Vector, direction, fold_half_turn, line_angle_between, normal};
 pub use polygon::ring_area;
 
+pub(crate) use convex_hull::convex_hull;
 pub(crate) use disjoint_sets::DisjointSets;

@@ -14,8 +14,8 @@
 //! Cost: O(cells + necks x width^2), the width of a neck in cells, at most that of [`WIDEST_M`]. Limits: an opening as
 //! wide as the room behind it is no doorway; ground wider than [`WIDEST_M`] is never parted.
 
-use super::distance_transform::DistanceTransform;
 use super::ground::RoomGround;
+use crate::distance_transform::DistanceTransform;
 use crate::geometry::DisjointSets;
 use crate::watch::{Stopped, Watch};
 
@@ -41,6 +41,9 @@ const WALL_GAP_M: f64 = 0.2;
 /// value.
 const FAR_END_FACTOR: f64 = 1.6;
 
+/// Least and greatest width of a door, metres: a person fits through, and one leaf or two close it.
+const DOOR_WIDTHS_M: [f64; 2] = [0.6, 3.0];
+
 /// The shortest line across a neck that parts two rooms.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Doorway {
@@ -55,6 +58,11 @@ impl Doorway {
     pub(super) fn width(&self, cell: f64) -> f64 {
         let [from, to] = self.ends;
         ((to[0] - from[0]) as f64).hypot((to[1] - from[1]) as f64) * cell
+    }
+
+    /// Whether it is a door: as wide as one, in a wall. Other doorways are gaps between goods or furniture.
+    pub(super) fn is_door(&self, cell: f64) -> bool {
+        self.wall_ends > 0 && (DOOR_WIDTHS_M[0]..=DOOR_WIDTHS_M[1]).contains(&self.width(cell))
     }
 }
 

@@ -4,12 +4,15 @@ use super::borders;
 use super::doorways::{self, Doorway};
 use super::gates;
 use super::ground::RoomGround;
+use super::junctions;
 use super::partition::Partition;
 use super::room_cells::RoomCells;
+use super::room_kinds::{self, RoomKinds};
 use super::stacks::Stacks;
 use super::zones::Zones;
 use crate::geometry::{DisjointSets, Point};
 use crate::grid::OccupancyGrid;
+use crate::plot::PlotKind;
 use crate::watch::{Stage, Stopped, Watch};
 
 /// A site divided at its doorways and at the gates of its bays.
@@ -46,7 +49,7 @@ impl FloorPlan {
         is_inside.then(|| self.partition.nearest_room(row * self.ground.width + column))
     }
 
-    /// The rooms that are no part of a hall, and the doorways that lead into them; `is_hall` is indexed by room, entry
+    /// The rooms that are no part of a hall, and the doors and gates that lead into them; `is_hall` is indexed by room, entry
     /// 0 is not read. Only a gate to a hall parts rooms: a bay whose gate leads to another room is part of it.
     pub(crate) fn rooms_beside(&self, is_hall: &[bool]) -> RoomCells {
         let Self { ground, partition, doorways, gates } = self;
@@ -75,13 +78,35 @@ impl FloorPlan {
             one != other
         };
         let point = |[column, row]: [i64; 2]| Point::new(column as f64 + 0.5, row as f64 + 0.5) * ground.cell;
-        let openings = doorways.iter().chain(gates).filter(leads_into_room);
+        let doors = doorways.iter().filter(|doorway| doorway.is_door(ground.cell));
+        let openings = doors.chain(gates).filter(leads_into_room);
         RoomCells {
             count: count as usize,
             cells: partition.rooms.iter().map(|&room| numbers[room as usize]).collect(),
+            kinds: vec![PlotKind::Room; count as usize],
             parts: Vec::new(),
             doorways: openings.map(|doorway| doorway.ends.map(point)).collect(),
         }
+    }
+
+    /// Which of some rooms are corridors, and which one may be a hall with storage.
+    pub(crate) fn kinds(&self, rooms: &RoomCells, watch: &Watch<'_>) -> Result<RoomKinds, Stopped> {
+        let doorways: Vec<Doorway> = self.doorways.iter().chain(&self.gates).copied().collect();
+        room_kinds::find(&self.ground, &self.partition, &doorways, rooms, watch)
+    }
+
+    /// Cuts the junctions out of the corridors; `angle` is a direction of the site, radians.
+    pub(crate) fn cut_junctions(
+        &self,
+        rooms: &mut RoomCells,
+        kinds: &RoomKinds,
+        angle: f64,
+        watch: &Watch<'_>,
+    ) -> Result<(), Stopped> {
+        for &(corridor, width) in &kinds.corridors {
+            junctions::cut_out(&self.ground, &self.partition, rooms, corridor, width, angle, watch)?;
+        }
+        Ok(())
     }
 
     /// The stacks that stand in some rooms; `angle` is a direction of the site, radians.

@@ -8,10 +8,10 @@
 //! Cost: O(cells), nearly all of it in coarse cells of a quarter of a metre. Limits: a wing of the building that is as
 //! narrow and holds nothing is a bay; of two gates of one bay, the one towards its middle is found.
 
-use super::distance_transform::DistanceTransform;
 use super::doorways::{Doorway, WIDEST_M};
 use super::ground::RoomGround;
 use crate::components::{Component, Components, Neighbours};
+use crate::distance_transform::DistanceTransform;
 use crate::geometry::{OrientedBox, Point, Vector, direction};
 use crate::grid::{Occupancy, OccupancyGrid};
 use crate::site_ground::CoarseGrid;

@@ -12,29 +12,31 @@
 //! | [`partition`] | the room of every cell when all of them are closed |
 //! | [`floor_plan`] | all of it together: rooms, zones, stacks and borders on request |
 //! | [`zones`] | rooms that open widely into one another |
+//! | [`room_kinds`], [`room_shape`], [`junctions`] | which rooms are corridors, and where these meet; which room may be a hall |
 //! | [`stacks`] | goods that stand in rooms |
 //! | [`borders`] | the borders of rooms and stacks as straight segments |
 //! | [`room_cells`], [`room_map`], [`doors`] | the room of every cell; the room of every face, and the edges of every door |
-//! | [`distance_transform`] | the nearest of some cells, and the distance to it |
 //!
 //! The borders are lines of the subdivision, so every room is a union of faces. Which rooms are halls is
 //! given by the caller. Cost: O(cells log cells).
 
 mod borders;
-mod distance_transform;
 mod doors;
 mod doorways;
 mod floor_plan;
 mod gates;
 mod ground;
+mod junctions;
 mod partition;
 mod room_cells;
+mod room_kinds;
 mod room_map;
+mod room_shape;
 mod stacks;
 mod zones;
 
 pub use doors::Door;
-pub use room_cells::{FaceGround, RoomCells};
+pub use room_cells::{FaceGround, Part, RoomCells};
 pub use room_map::RoomMap;
 
 pub(crate) use floor_plan::FloorPlan;

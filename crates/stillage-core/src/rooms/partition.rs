@@ -7,10 +7,10 @@
 
 use std::collections::VecDeque;
 
-use super::distance_transform::{DistanceTransform, NONE};
 use super::doorways::Doorway;
 use super::ground::RoomGround;
 use crate::components::{Components, Neighbours};
+use crate::distance_transform::{DistanceTransform, NONE};
 use crate::watch::{Stopped, Watch};
 
 /// Least area of a room, square metres: a cupboard that one can stand in.

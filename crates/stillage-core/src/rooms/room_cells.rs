@@ -21,11 +21,22 @@ pub struct RoomCells {
     /// Room of each cell, row-major: 1 to `count`, larger numbers for the parts of rooms, 0 for neither. Empty without
     /// rooms.
     pub cells: Vec<u32>,
-    /// What the parts of rooms are, which are no part of their room any more: stacks, aisles, open floor. The first one has
-    /// the number `count + 1`.
-    pub parts: Vec<PlotKind>,
-    /// Lines from jamb to jamb of the doorways between two rooms, or a room and a hall; metres of the grid frame.
+    /// What the rooms are: corridors, or rooms. The first one has the number 1.
+    pub kinds: Vec<PlotKind>,
+    /// What the parts of rooms are. The first one has the number `count + 1`.
+    pub parts: Vec<Part>,
+    /// Lines from jamb to jamb of the doors between two rooms, or a room and a hall, and of the gates of bays; metres of
+    /// the grid frame.
     pub doorways: Vec<[Point; 2]>,
+}
+
+/// What is cut out of a room.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Part {
+    /// What it is.
+    pub kind: PlotKind,
+    /// The room that it still belongs to, from 1: junctions do; stacks, aisles and open floor do not.
+    pub room: Option<u32>,
 }
 
 /// The room that a face lies in, or the part of one.
@@ -33,21 +44,30 @@ pub struct RoomCells {
 pub struct FaceGround {
     /// Number of the room.
     pub room: Option<u32>,
-    /// Number of the part, and what it is.
-    pub part: Option<(u32, PlotKind)>,
+    /// Number of the room or part among both, and what it is.
+    pub area: Option<(u32, PlotKind)>,
 }
 
 impl FaceGround {
     /// Whether it is a room or a part of one.
     pub(crate) const fn is_planned(&self) -> bool {
-        self.room.is_some() || self.part.is_some()
+        self.area.is_some()
     }
 }
 
 impl RoomCells {
-    /// Adds a part that has no cells yet, and gives its number.
+    /// Adds a part that has no cells yet and belongs to no room any more, and gives its number.
     pub(crate) fn add_part(&mut self, kind: PlotKind) -> u32 {
-        self.parts.push(kind);
+        self.push(Part { kind, room: None })
+    }
+
+    /// Adds a part of a room, from 1, that has no cells yet, and gives its number.
+    pub(super) fn add_part_of(&mut self, room: u32, kind: PlotKind) -> u32 {
+        self.push(Part { kind, room: Some(room) })
+    }
+
+    fn push(&mut self, part: Part) -> u32 {
+        self.parts.push(part);
         (self.count + self.parts.len()) as u32
     }
 
@@ -81,18 +101,19 @@ impl RoomCells {
         }
         let mut numbers = vec![None; self.count + 1];
         let mut next = 0;
-        let ground = |number: u32| {
-            if number == 0 {
-                return FaceGround::default();
-            }
-            if let Some(part) = (number as usize).checked_sub(self.count + 1) {
-                return FaceGround { room: None, part: self.parts.get(part).map(|&kind| (number, kind)) };
-            }
-            let room = numbers[number as usize].get_or_insert_with(|| {
+        let mut renumbered = |room: u32| {
+            *numbers[room as usize].get_or_insert_with(|| {
                 next += 1;
                 next - 1
-            });
-            FaceGround { room: Some(*room), part: None }
+            })
+        };
+        let ground = |number: u32| {
+            let Some(index) = (number as usize).checked_sub(1) else { return FaceGround::default() };
+            let (room, kind) = match index.checked_sub(self.count) {
+                Some(part) => (self.parts[part].room, self.parts[part].kind),
+                None => (Some(number), self.kinds[index]),
+            };
+            FaceGround { room: room.map(&mut renumbered), area: Some((number, kind)) }
         };
         Ok(room_of.into_iter().map(ground).collect())
     }

@@ -14,8 +14,8 @@ use std::collections::BTreeMap;
 use std::f64::consts::FRAC_PI_2;
 use std::ops::Range;
 
-use super::distance_transform::DistanceTransform;
 use crate::components::{Component, Components, Neighbours};
+use crate::distance_transform::DistanceTransform;
 use crate::geometry::{OrientedBox, Point, direction};
 use crate::grid::{Occupancy, OccupancyGrid};
 use crate::watch::{Stopped, Watch};
@@ -97,9 +97,9 @@ fn room_around(part: Component<'_>, rooms: &[u32], width: usize) -> u32 {
 }
 
 /// A rectangle of the map.
-struct RoomRectangle {
-    columns: Range<usize>,
-    rows: Range<usize>,
+pub(super) struct RoomRectangle {
+    pub(super) columns: Range<usize>,
+    pub(super) rows: Range<usize>,
     /// Columns of the map.
     width: usize,
 }
@@ -127,8 +127,13 @@ impl RoomRectangle {
         })
     }
 
+    /// That around the cells of one room; `None` for a room without cells.
+    pub(super) fn of_room(rooms: &[u32], room: u32, width: usize) -> Option<Self> {
+        Self::of_rooms(rooms, width, 0).find(|&(number, _)| number == room).map(|(_, rectangle)| rectangle)
+    }
+
     /// Its cells of the map, row-major.
-    fn cells(&self) -> impl Iterator<Item = usize> {
+    pub(super) fn cells(&self) -> impl Iterator<Item = usize> {
         self.rows.clone().flat_map(move |row| self.columns.clone().map(move |column| row * self.width + column))
     }
 }
@@ -177,7 +182,7 @@ fn mark_between(line: &[usize], is_open: &[bool], is_room: &[bool], is_between: 
 }
 
 /// Calls `found` with the cells of every line in a direction; each cell of the map lies on exactly one line.
-fn for_each_line(
+pub(super) fn for_each_line(
     [width, height]: [usize; 2],
     angle: f64,
     watch: &Watch<'_>,

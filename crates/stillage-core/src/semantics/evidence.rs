@@ -35,11 +35,11 @@ pub struct CategoryEvidence {
     pub lined_fraction: f64,
     /// Share of their area that was cut out as places.
     pub place_fraction: f64,
-    /// Share of their area that was cut out as aisles.
+    /// Share of their area that was cut out as aisles, or is corridors between rooms.
     pub aisle_fraction: f64,
-    /// Share of their area that was cut out as open floor or passages.
+    /// Share of their area that was cut out as open floor or passages, or is junctions of corridors.
     pub floor_fraction: f64,
-    /// Share of their area that lies in rooms beside the hall, or in bays behind its gates.
+    /// Share of their area that lies in rooms, or in bays behind the gates of a hall.
     pub room_fraction: f64,
     /// Share of their area that was cut out as something else.
     pub rest_fraction: f64,
@@ -64,8 +64,8 @@ pub(super) fn category_evidence(analysis: &Analysis) -> Vec<CategoryEvidence> {
         sum.elongation += weight * annotation.elongation;
         match annotation.kind {
             Some(PlotKind::Place) => sum.place_fraction += weight,
-            Some(PlotKind::Aisle) => sum.aisle_fraction += weight,
-            Some(PlotKind::OpenFloor | PlotKind::Passage) => sum.floor_fraction += weight,
+            Some(PlotKind::Aisle | PlotKind::Corridor) => sum.aisle_fraction += weight,
+            Some(PlotKind::OpenFloor | PlotKind::Passage | PlotKind::Junction) => sum.floor_fraction += weight,
             Some(PlotKind::Room) => sum.room_fraction += weight,
             Some(PlotKind::Other) => sum.rest_fraction += weight,
             None => {}

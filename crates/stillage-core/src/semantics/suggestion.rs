@@ -224,7 +224,7 @@ mod tests {
             &with_sight(map, &sight),
             &RuleSet::office(),
             &expect![[r#"
-                0 co 0.50 100 % free, 0 % occupied, 0 % unknown; 10.0 times as long as wide, 10.0 m2 in the median, 100 % of the border lined by structure: reads as corridor (1.00; next junction, 1.00).
+                0 co 1.00 100 % free, 0 % occupied, 0 % unknown; 10.0 times as long as wide, 10.0 m2 in the median, 100 % of the border lined by structure: reads as corridor (1.00).
                 3 of 0.92 100 % free, 0 % occupied, 0 % unknown; 1.1 times as long as wide, 7.5 m2 in the median, 100 % of the border lined by structure: reads as office (0.92).
                 4 un 1.00 9 % free, 91 % occupied, 0 % unknown; 2.5 times as long as wide, 16.0 m2 in the median, 100 % of the border lined by structure: no label fits.
                 5 un 1.00 0 % free, 100 % occupied, 0 % unknown; 20.0 times as long as wide, 5.0 m2 in the median, 100 % of the border lined by structure: no label fits.

@@ -7,6 +7,8 @@ use super::view::View;
 /// Factor on the likelihood of a label that is drivable and nothing else: it fits every free place, so a more specific
 /// label is preferred. No measurement is recorded for this value.
 const PLAIN_DRIVABLE: f64 = 0.75;
+/// Id of the label for places where ways meet, in both tables of the paper.
+const JUNCTION: &str = "ju";
 /// Share of a category's area that was cut out as plots above which their kinds decide: the majority.
 const MAJORITY: f64 = 0.5;
 
@@ -88,6 +90,8 @@ impl Traits {
     /// one of them only.
     pub(super) fn likelihood(&self, label: &Label) -> f64 {
         let suit = |function: &Functionality| match function {
+            // Table IV gives corridors and junctions the same functionalities: only their names tell them apart.
+            Functionality::Access if label.id == JUNCTION => self.suit(Functionality::Connection),
             Functionality::StorageAccess | Functionality::Access => {
                 let ways = [Functionality::StorageAccess, Functionality::Access].into_iter();
                 ways.filter(|&way| label.has(way)).map(|way| self.suit(way)).fold(0.0, f64::max)

@@ -7,7 +7,7 @@ use crate::floor;
 use crate::geometry::{Point, direction, fold_half_turn, normal};
 use crate::grid::{Occupancy, OccupancyGrid};
 use crate::line::Line;
-use crate::plot::Plot;
+use crate::plot::{Plot, PlotKind};
 use crate::rooms::{FloorPlan, RoomCells};
 use crate::segmentation::RegionMap;
 use crate::spec::DecompositionOptions;
@@ -52,9 +52,14 @@ fn assemble(
         return Ok(SitePlan { lines, plots, rooms });
     }
     let main = main_direction(regions);
+    let kinds = floor_plan.kinds(&rooms, watch)?;
     let stacks = floor_plan.stacks(grid, &rooms, main, watch)?;
-    let storage = storage::find(grid, &rooms, &stacks);
+    let storage = storage::find(grid, &rooms, &stacks, kinds.hall, watch)?;
     storage::add_stacks(&mut rooms, &stacks, &storage);
+    for &(corridor, _) in &kinds.corridors {
+        rooms.kinds[corridor as usize - 1] = PlotKind::Corridor;
+    }
+    floor_plan.cut_junctions(&mut rooms, &kinds, main, watch)?;
     for (room, bodies) in &storage {
         floor::divide(grid, &mut rooms, *room, bodies, main, watch)?;
     }

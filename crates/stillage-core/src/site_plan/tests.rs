@@ -120,6 +120,131 @@ fn rooms_open_to_a_corridor_through_doors() {
     );
 }
 
+/// The letter of what every cell is in, a character each: corridor, junction, room, hall, goods.
+fn kinds(grid: &OccupancyGrid) -> String {
+    let areas = planned(grid).0.rooms;
+    let letter = |cell: usize| match (areas.cells[cell] as usize).checked_sub(1).map(|area| {
+        match area.checked_sub(areas.count) {
+            Some(part) => areas.parts[part].kind,
+            None => areas.kinds[area],
+        }
+    }) {
+        Some(PlotKind::Corridor) => 'c',
+        Some(PlotKind::Junction) => 'j',
+        Some(PlotKind::Room) => 'r',
+        Some(PlotKind::OpenFloor) => 'h',
+        Some(PlotKind::Place) => 'g',
+        _ => ' ',
+    };
+    let (width, middle) = (grid.width(), ENLARGED / 2);
+    let row = |row: usize| {
+        (0..width / ENLARGED)
+            .map(|column| letter((row * ENLARGED + middle) * width + column * ENLARGED + middle))
+            .collect::<String>()
+    };
+    (0..grid.height() / ENLARGED).rev().map(|number| row(number).trim_end().to_owned() + "\n").collect()
+}
+
+#[test]
+fn corridors_are_long_and_have_doors_and_meet_in_junctions() {
+    expect![[r#"
+        rrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrr
+        rrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrr
+        rrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrr
+        rrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrr
+        rrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrr
+        rrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrr
+        rrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrr
+        rrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrr
+        rrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrr
+        rrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrr
+        rrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrr
+        rrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrr
+        rrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrr
+        rrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrr
+        rrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrr
+        rrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrr
+        rrrrrrrrcccccrrrrrrrrrrrrrrrrcccccrrrrrrrrrrrrrrcccccrrrrrrrrr
+        ccccccccccccccccccccccccccjjjjjjjjjjcccccccccccccccccccccccccc
+        ccccccccccccccccccccccccccjjjjjjjjjjcccccccccccccccccccccccccc
+        ccccccccccccccccccccccccccjjjjjjjjjjcccccccccccccccccccccccccc
+        ccccccccccccccccccccccccccjjjjjjjjjjcccccccccccccccccccccccccc
+        ccccccccccccccccccccccccccjjjjjjjjjjcccccccccccccccccccccccccc
+        ccccccccccccccccccccccccccjjjjjjjjjjcccccccccccccccccccccccccc
+        ccccccccccccccccccccccccccjjjjjjjjjjcccccccccccccccccccccccccc
+        ccccccccccccccccccccccccccjjjjjjjjjjcccccccccccccccccccccccccc
+        ccccccccccccccccccccccccccjjjjjjjjjjcccccccccccccccccccccccccc
+        ccccccccccccccccccccccccccjjjjjjjjjjcccccccccccccccccccccccccc
+        ccccccccrrrrrcccccccccccccccccccccccccccccccccccrrrrrccccccccc
+        rrrrrrrrrrrrrrrrrrrrrrrrrcccccccccccrrrrrrrrrrrrrrrrrrrrrrrrrr
+        rrrrrrrrrrrrrrrrrrrrrrrrrcccccccccccrrrrrrrrrrrrrrrrrrrrrrrrrr
+        rrrrrrrrrrrrrrrrrrrrrrrrrcccccccccccrrrrrrrrrrrrrrrrrrrrrrrrrr
+        rrrrrrrrrrrrrrrrrrrrrrrrrcccccccccccrrrrrrrrrrrrrrrrrrrrrrrrrr
+        rrrrrrrrrrrrrrrrrrrrrrrrrcccccccccccrrrrrrrrrrrrrrrrrrrrrrrrrr
+        rrrrrrrrrrrrrrrrrrrrrrrrrcccccccccccrrrrrrrrrrrrrrrrrrrrrrrrrr
+        rrrrrrrrrrrrrrrrrrrrrrrrrcccccccccccrrrrrrrrrrrrrrrrrrrrrrrrrr
+        rrrrrrrrrrrrrrrrrrrrrrrrrcccccccccccrrrrrrrrrrrrrrrrrrrrrrrrrr
+        rrrrrrrrrrrrrrrrrrrrrrrrrcccccccccccrrrrrrrrrrrrrrrrrrrrrrrrrr
+        rrrrrrrrrrrrrrrrrrrrrrrrrcccccccccccrrrrrrrrrrrrrrrrrrrrrrrrrr
+        rrrrrrrrrrrrrrrrrrrrrrrrrcccccccccccrrrrrrrrrrrrrrrrrrrrrrrrrr
+        rrrrrrrrrrrrrrrrrrrrrrrrrcccccccccccrrrrrrrrrrrrrrrrrrrrrrrrrr
+        rrrrrrrrrrrrrrrrrrrrrrrrrcccccccccccrrrrrrrrrrrrrrrrrrrrrrrrrr
+        rrrrrrrrrrrrrrrrrrrrrrrrrcccccccccccrrrrrrrrrrrrrrrrrrrrrrrrrr
+        rrrrrrrrrrrrrrrrrrrrrrrrrcccccccccccrrrrrrrrrrrrrrrrrrrrrrrrrr
+        rrrrrrrrrrrrrrrrrrrrrrrrrcccccccccccrrrrrrrrrrrrrrrrrrrrrrrrrr
+        rrrrrrrrrrrrrrrrrrrrrrrrrcccccccccccrrrrrrrrrrrrrrrrrrrrrrrrrr
+    "#]]
+    .assert_eq(&kinds(&drawn(
+        "
+        ##############################################################
+        #...................#....................#...................#
+        #...................#....................#...................#
+        #...................#....................#...................#
+        #...................#....................#...................#
+        #...................#....................#...................#
+        #...................#....................#...................#
+        #...................#....................#...................#
+        #...................#....................#...................#
+        #...................#....................#...................#
+        #...................#....................#...................#
+        #...................#....................#...................#
+        #...................#....................#...................#
+        #...................#....................#...................#
+        #...................#....................#...................#
+        #...................#....................#...................#
+        ########.....################.....##############.....#########
+        #............................................................#
+        #............................................................#
+        #............................................................#
+        #............................................................#
+        #............................................................#
+        #............................................................#
+        #............................................................#
+        #............................................................#
+        #............................................................#
+        #............................................................#
+        ########.....#############..........############.....#########
+        #........................#..........#........................#
+        #........................#..........#........................#
+        #........................#..........#........................#
+        #........................#..........#........................#
+        #........................#..........#........................#
+        #........................#..........#........................#
+        #........................#..........#........................#
+        #........................#..........#........................#
+        #........................#..........#........................#
+        #........................#..........#........................#
+        #........................#..........#........................#
+        #........................#..........#........................#
+        #........................#..........#........................#
+        #........................#..........#........................#
+        #........................#..........#........................#
+        #........................#..........#........................#
+        ##############################################################
+        ",
+    )));
+}
+
 #[test]
 fn furniture_divides_nothing() {
     check(

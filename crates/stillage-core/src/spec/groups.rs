@@ -10,8 +10,21 @@ use super::categorization::RelaxationOptions;
 pub struct GridOptions {
     /// Replaces `occupied_thresh`, 0 to 1.
     pub occupied_threshold: Option<f64>,
-    /// Replaces `free_thresh`, 0 to 1. Set 0.196 where a file's 0.25 turns unknown cells (grey 205) free.
+    /// Replaces `free_thresh`, 0 to 1.
     pub free_threshold: Option<f64>,
+    /// What is done where the file's own `free_thresh` takes the savers' grey for unknown cells, 205, for free.
+    pub semantics: GridSemantics,
+}
+
+/// How literally the thresholds of a file are taken.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub enum GridSemantics {
+    /// The grey that map savers write for unknown cells stays unknown.
+    #[default]
+    Intended,
+    /// To the letter, as `nav2_map_server` reads the file.
+    Nav2,
 }
 
 /// Options of the dominant orientations (paper, II-B).

@@ -17,7 +17,7 @@ pub use categorization::{
 pub use check::{AnalysisSpec, OptionProblem};
 pub use groups::{
     AnnotationMethod, AnnotationOptions, DeclutterMethod, DeclutterOptions, DecompositionMethod, DecompositionOptions,
-    GridOptions, OrientationMethod, OrientationOptions, RegionMethod, RegionOptions,
+    GridOptions, GridSemantics, OrientationMethod, OrientationOptions, RegionMethod, RegionOptions,
 };
 pub use options::AnalysisOptions;
 pub use preset::Preset;

@@ -69,6 +69,8 @@ fn analyses_of_every_format_are_read() {
     let spec = AnalysisOptions::default().check().expect("the defaults are in range");
     let analysis = stillage_core::analyze(&small_grid(), &spec, &Watch::unwatched()).expect("nothing stops it");
     check_newest("analysis", &analysis);
+    let first = std::fs::read(repository().join("tests/upgrade/formats/analysis-1")).expect("it is in the repository");
+    assert_eq!(decode::<Analysis>(&first).expect("it can be read").options, AnalysisOptions::default());
     let old: Analysis = decode(&of_release_0_1(ANALYSIS_0_1)).expect("it can be read");
     assert_eq!((old.width, old.height, old.options), (20, 12, AnalysisOptions::default()));
     assert_eq!(old.faces.len(), old.subdivision.faces().len() + 1, "face 0 is the unbounded one");

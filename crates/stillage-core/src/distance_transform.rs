@@ -11,10 +11,10 @@ use rayon::prelude::*;
 use crate::watch::{Stopped, Watch};
 
 /// The index of no cell.
-pub(super) const NONE: u32 = u32::MAX;
+pub(crate) const NONE: u32 = u32::MAX;
 
 /// The nearest target of every cell, row-major.
-pub(super) struct DistanceTransform {
+pub(crate) struct DistanceTransform {
     /// Squared distance to it between cell centres, cells; `u32::MAX` without any target.
     pub squared: Vec<u32>,
     /// Its index; [`NONE`] without any target.
@@ -23,7 +23,7 @@ pub(super) struct DistanceTransform {
 
 impl DistanceTransform {
     /// Measures the distance to the cells for which `is_target` holds, on a grid of `width` columns.
-    pub(super) fn of(
+    pub(crate) fn of(
         width: usize,
         cells: usize,
         is_target: impl Fn(usize) -> bool,
