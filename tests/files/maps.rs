@@ -5,15 +5,15 @@ use std::path::Path;
 use serde_json::Value;
 use stillage::ingest::{DecodedMap, Limits, MapSource, decode};
 use stillage_core::Occupancy;
-use stillage_core::spec::GridOptions;
+use stillage_core::spec::{GridOptions, GridSemantics};
 
 use crate::shared;
 
-fn load(folder: &Path, image: &str) -> DecodedMap {
+fn load(folder: &Path, image: &str, semantics: GridSemantics) -> DecodedMap {
     let read = |name: &str| std::fs::read(folder.join(name)).unwrap();
     let source = MapSource::Image { image: read(image), metadata: read("map.yaml") };
-    decode(&source, &GridOptions::default(), &Limits::default())
-        .unwrap_or_else(|error| panic!("{}: {error}", folder.display()))
+    let options = GridOptions { semantics, ..GridOptions::default() };
+    decode(&source, &options, &Limits::default()).unwrap_or_else(|error| panic!("{}: {error}", folder.display()))
 }
 
 /// Per cent occupied, free and unknown.
@@ -44,7 +44,7 @@ fn every_map_reads_with_the_shares_of_the_index() {
         let text = |key: &str| entry[key].as_str().unwrap_or_default();
         let id = text("id");
         let folder = maps.join(id);
-        let map = load(&folder, text("file"));
+        let map = load(&folder, text("file"), GridSemantics::Nav2);
         let grid = &map.grid;
         assert_eq!(
             (Some(grid.width() as u64), Some(grid.height() as u64)),
@@ -68,7 +68,7 @@ fn maps_whose_threshold_swallows_the_unknown_cells_are_pointed_out() {
     let mut warned = Vec::new();
     for entry in index.iter().filter(|entry| entry["set"] == "dev") {
         let id = entry["id"].as_str().unwrap();
-        let map = load(&maps.join(id), entry["file"].as_str().unwrap());
+        let map = load(&maps.join(id), entry["file"].as_str().unwrap(), GridSemantics::Intended);
         for warning in &map.warnings {
             warned.push(format!("{id} {}: {}", warning.code, warning.message));
         }
