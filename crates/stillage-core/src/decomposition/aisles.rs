@@ -36,6 +36,9 @@ const THIN_M: f64 = 3.6;
 const DEEP_M: f64 = 7.0;
 /// Lines of a rectangle with less ground of the site than this share of the fullest line are ignored.
 const GROUND_SHARE: f64 = 0.2;
+/// Storage is at least this deep, metres; weight of bands between which everything is thinner.
+const LEAST_DEPTH_M: f64 = 0.45;
+const LINES_WEIGHT: f64 = 0.1;
 /// Bands that score less than this share of the best band of their rectangle are left to the next cut.
 const RIVAL_SHARE: f64 = 0.5;
 /// Deepest recursion: no site needs more cuts, one within another.
@@ -117,7 +120,8 @@ impl XyCut<'_> {
         let (mut best, mut most) = (None, 0.0);
         for axis in Axis::BOTH {
             let bands = self.bands(area, axis)?;
-            let score: f64 = bands.iter().map(|band| band.score * band.range.len() as f64).sum();
+            let whole: f64 = bands.iter().map(|band| band.score * band.range.len() as f64).sum();
+            let score = if self.leaves_lines(&bands) { LINES_WEIGHT * whole } else { whole };
             if score > most {
                 (best, most) = (Some((axis, bands)), score);
             }
@@ -126,6 +130,12 @@ impl XyCut<'_> {
             let least = RIVAL_SHARE * bands.iter().map(|band| band.score).fold(0.0, f64::max);
             (axis, bands.into_iter().filter(|band| band.score >= least).map(|band| band.range).collect())
         }))
+    }
+
+    /// Whether all that stands between two bands is thinner than any storage: the frames of racks, seen from their ends.
+    fn leaves_lines(&self, bands: &[BandCandidate]) -> bool {
+        let mut bodies = bands.windows(2).map(|pair| pair[1].range.start.saturating_sub(pair[0].range.end)).peekable();
+        bodies.peek().is_some() && bodies.all(|body| body < self.frame.cells_of(LEAST_DEPTH_M))
     }
 
     /// Whether a band along `axis` leads through the rows of a body, and is no aisle of rows of the other direction.

@@ -101,23 +101,24 @@ fn decompose_region(
     Ok(Decomposition { lines, plots })
 }
 
-/// Lays a region out for the widest vehicle of [`VEHICLES_M`] that finds aisles between rows of places, or for the widest
-/// of all where none does. Narrower vehicles find aisles everywhere, so there only what divides
-/// places is evidence for them.
+/// Lays a region out for the usual vehicle by the goods in its rows, if these repeat. Otherwise for the vehicle of
+/// [`VEHICLES_M`] for which most places can be reached between what divides them; of equals the widest. Narrower vehicles
+/// find aisles everywhere, so goods are no evidence there.
 fn layout(frame: &mut RegionFrame, hints: &SizeHints, vehicle_m: f64, watch: &Watch<'_>) -> Result<RowLayout, Stopped> {
     drivable::mark(frame, vehicle_m, watch)?;
-    let widest = rows::lay_out(frame, aisles::cut(frame, watch)?, hints, Reading::Goods, watch)?;
-    if widest.has_places {
-        return Ok(widest);
+    let usual = rows::lay_out(frame, aisles::cut(frame, watch)?, hints, Reading::Goods, watch)?;
+    if usual.is_periodic {
+        return Ok(usual);
     }
+    let mut best = (usual, vehicle_m);
     let narrower = VEHICLES_M.into_iter().filter(|&narrower_m| narrower_m < vehicle_m);
     for width_m in std::iter::once(vehicle_m).chain(narrower) {
         drivable::mark(frame, width_m, watch)?;
         let layout = rows::lay_out(frame, aisles::cut(frame, watch)?, hints, Reading::Dividers, watch)?;
-        if layout.has_places {
-            return Ok(layout);
+        if layout.lanes > best.0.lanes {
+            best = (layout, width_m);
         }
     }
-    drivable::mark(frame, vehicle_m, watch)?;
-    Ok(widest)
+    drivable::mark(frame, best.1, watch)?;
+    Ok(best.0)
 }

@@ -74,7 +74,12 @@ impl<'a> DirectionRows<'a> {
 
     /// Whether its rows are periodic, with the model that all have in common or each with its own.
     pub fn is_periodic(&self) -> bool {
-        self.periodicity.is_certain() || !self.divided.is_empty()
+        self.has_repeating_goods() || !self.divided.is_empty()
+    }
+
+    /// Whether the goods in its rows repeat.
+    pub fn has_repeating_goods(&self) -> bool {
+        self.periodicity.is_certain()
     }
 
     /// Whether its rows are more clearly periodic than any furniture, so that the building is a storage.
@@ -136,6 +141,9 @@ impl<'a> DirectionRows<'a> {
         for ((row, evidence), model) in self.rows.iter().zip(&self.evidence).zip(models) {
             self.watch.check()?;
             match model {
+                _ if evidence.is_even() && evidence.has_content() => {
+                    parcels.extend(pieces::parcels(row, pieces::of_one_place(evidence.filled(), evidence.len())));
+                }
                 Some(model) => {
                     let pieces = pieces::of_comb(&model.cut(evidence), model.pitch, self.frame);
                     parcels.extend(pieces::parcels(row, pieces));

@@ -32,8 +32,11 @@ const STEP_SHARE: f64 = 0.08;
 const SOLID_SHARE: f64 = 0.4;
 /// Lumps with a gap below this share of the usual gap between them are one divider: the legs of two neighbours.
 const JOINED_SHARE: f64 = 0.4;
-/// Widest divider, as a share of the usual gap.
+/// Widest divider, and widest one of several lumps, as shares of the usual gap.
 const WIDEST_SHARE: f64 = 0.45;
+const WIDEST_JOINED_SHARE: f64 = 0.75;
+/// Widest pause in the line of a front, metres.
+const WIDEST_PAUSE_M: f64 = 1.1;
 /// Greatest share of a row that goods and columns wider than dividers may take.
 const WIDE_SHARE: f64 = 0.2;
 /// Widest gap between the goods of two places, metres: a wider one is floor.
@@ -64,6 +67,14 @@ pub(super) fn parted(
     if let Some(pitch) = usual_pitch(&lattices) {
         for (lattice, marks) in lattices.iter_mut().zip(&marks).filter(|(lattice, _)| lattice.is_none()) {
             *lattice = marks.as_ref().and_then(|marks| DividerLattice::at(marks, pitch, frame.cell));
+        }
+    }
+    if std::env::var_os("DIVIDERS").is_some() {
+        for ((row, marks), lattice) in rows.iter().zip(&marks).zip(&lattices) {
+            eprintln!(
+                "vehicle {} {reading:?} row {:?} {:?} {:?} marks {:?} lattice {:?}",
+                frame.vehicle_m, row.axis, row.rect, row.layers, marks, lattice
+            );
         }
     }
     let along = |row: &RackRow| row.rect.range(row.axis).clone();
@@ -119,7 +130,7 @@ fn marks(frame: &RegionFrame, row: &RackRow, reading: Reading) -> Option<Vec<f64
     }
     if !is_solid {
         let lumps: Vec<Range<usize>> = runs_where(length, |column| !is_clear[column]).collect();
-        return dividers(&lumps, length);
+        return dividers(&lumps, length).or_else(|| pauses(frame, row));
     }
     if reading == Reading::Goods {
         return None;
@@ -129,6 +140,17 @@ fn marks(frame: &RegionFrame, row: &RackRow, reading: Reading) -> Option<Vec<f64
         mark_goods(&layer, &mut is_clear);
     }
     gaps(&is_clear, frame.cells_of(WIDEST_GAP_M))
+}
+
+/// The middles of the pauses in the lines along the fronts of a row, cells from its start.
+fn pauses(frame: &RegionFrame, row: &RackRow) -> Option<Vec<f64>> {
+    let mut is_clear = vec![true; row.rect.range(row.axis).len()];
+    for layer in row.patches(frame) {
+        for line in 0..layer.height {
+            is_clear.iter_mut().zip(layer.row(line)).for_each(|(is_clear, cell)| *is_clear &= cell.is_free());
+        }
+    }
+    gaps(&is_clear, frame.cells_of(WIDEST_PAUSE_M))
 }
 
 /// Marks the columns of a layer that hold goods.
@@ -183,8 +205,13 @@ fn dividers(lumps: &[Range<usize>], length: usize) -> Option<Vec<f64>> {
             _ => joined.push(lump.clone()),
         }
     }
+    let is_thin = |lump: &Range<usize>| lump.len() as f64 <= WIDEST_SHARE * usual;
+    let is_wide = |lump: &&Range<usize>| !is_thin(lump);
+    let is_of_wide = |joined: &Range<usize>| {
+        lumps.iter().filter(is_wide).any(|lump| joined.start <= lump.start && lump.end <= joined.end)
+    };
     let (thin, wide): (Vec<Range<usize>>, Vec<Range<usize>>) =
-        joined.into_iter().partition(|lump| lump.len() as f64 <= WIDEST_SHARE * usual);
+        joined.into_iter().partition(|lump| lump.len() as f64 <= WIDEST_JOINED_SHARE * usual && !is_of_wide(lump));
     let taken: usize = wide.iter().map(ExactSizeIterator::len).sum();
     let middle = |lump: Range<usize>| f64::midpoint(lump.start as f64, lump.end as f64);
     (taken as f64 <= WIDE_SHARE * length as f64).then(|| thin.into_iter().map(middle).collect())

@@ -47,6 +47,12 @@ const LEAST_CONTENT: f64 = 0.5;
 /// Free share of a column of cells that is clear.
 const CLEAR_SHARE: f64 = 0.9;
 
+/// Smoothing of content before its variation is measured, standard deviation in metres: about a gap between goods.
+const VARIATION_SIGMA_M: f64 = 0.1;
+/// Variation below which a row is even: the steps of solid racks have 0.08 at most, hatched ones 0.22 to 0.28, 98 % of the
+/// rows of the zoo 0.26 and more.
+const EVEN_VARIATION: f64 = 0.25;
+
 /// Evidence along a row, one number per cell.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct RowEvidence {
@@ -63,6 +69,8 @@ pub(super) struct RowEvidence {
     widths: usize,
     /// Side of a cell, metres.
     pub cell: f64,
+    /// Standard deviation of the content along the row, as a share of its mean.
+    variation: f64,
 }
 
 impl RowEvidence {
@@ -94,7 +102,25 @@ impl RowEvidence {
             least_width,
             widths,
             cell,
+            variation: variation(&gaussian(&whole, VARIATION_SIGMA_M / cell)),
         }
+    }
+
+    /// Whether its content hardly varies: no border shows in a solid or hatched rack.
+    pub(super) fn is_even(&self) -> bool {
+        self.variation < EVEN_VARIATION
+    }
+
+    /// Whether anything stands in it.
+    pub(super) fn has_content(&self) -> bool {
+        self.is_clear.contains(&false)
+    }
+
+    /// From the first to the last cell along it that is not clear.
+    pub(super) fn filled(&self) -> Range<usize> {
+        let is_filled = |is_clear: &bool| !is_clear;
+        let first = self.is_clear.iter().position(is_filled).unwrap_or(0);
+        first..self.is_clear.iter().rposition(is_filled).map_or(first, |last| last + 1)
     }
 
     /// Rows of one length that are cut alike, as one row: the mean of their evidence for borders, and the content of each.
@@ -107,6 +133,7 @@ impl RowEvidence {
             bundle.mirror.iter_mut().zip(&row.mirror).for_each(|(sum, value)| *sum += value);
             bundle.is_clear.iter_mut().zip(&row.is_clear).for_each(|(all, is_clear)| *all &= is_clear);
             bundle.content.extend(row.content);
+            bundle.variation = bundle.variation.max(row.variation);
             count += 1.0;
         }
         for value in &mut bundle.border {
@@ -202,6 +229,16 @@ fn levelled(content: &[f64], cell: f64) -> Vec<f64> {
     let squares: Vec<f64> = content.iter().map(|content| content * content).collect();
     let level = mean_filter(&squares, LEVEL_WINDOW_M / cell);
     content.iter().zip(level).map(|(content, square)| content / (square.max(0.0).sqrt() + LEVEL_FLOOR)).collect()
+}
+
+/// Standard deviation as a share of the mean; 0 without content.
+fn variation(content: &[f64]) -> f64 {
+    let count = content.len().max(1) as f64;
+    let mean = content.iter().sum::<f64>() / count;
+    if mean <= 0.0 {
+        return 0.0;
+    }
+    (content.iter().map(|content| (content - mean).powi(2)).sum::<f64>() / count).sqrt() / mean
 }
 
 /// See [`RowEvidence::unevenness`].

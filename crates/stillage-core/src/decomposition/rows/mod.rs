@@ -44,8 +44,10 @@ pub(crate) use size_hints::SizeHints;
 /// The bands and bodies of a region as parcels.
 pub(crate) struct RowLayout {
     pub parcels: Vec<Parcel>,
-    /// Whether rows were cut into places.
-    pub has_places: bool,
+    /// Whether the goods in the rows repeat.
+    pub is_periodic: bool,
+    /// Number of storage lanes that were cut: places, those one behind the other counted once.
+    pub lanes: usize,
 }
 
 /// Lays the bands and bodies of a region out as parcels.
@@ -69,11 +71,12 @@ pub(crate) fn lay_out(
             direction.judge_each_alone()?;
         }
     }
+    let is_periodic = directions.iter().any(DirectionRows::has_repeating_goods);
     let is_storage = directions.iter().any(DirectionRows::is_storage);
     let mut parcels = cut.bands;
     for direction in directions {
         parcels = direction.lay_out(parcels, is_storage)?;
     }
-    let has_places = parcels.iter().any(|parcel| parcel.kind == PlotKind::Place);
-    Ok(RowLayout { parcels, has_places })
+    let lanes = parcels.iter().filter(|parcel| parcel.kind == PlotKind::Place).count();
+    Ok(RowLayout { parcels, is_periodic, lanes })
 }

@@ -98,7 +98,10 @@ impl Periodicity {
         threshold: Threshold,
         watch: &Watch<'_>,
     ) -> Result<Self, Stopped> {
-        let all: Vec<usize> = (0..rows.len()).filter(|&row| evidence[row].length() >= LEAST_LENGTH_M).collect();
+        let all: Vec<usize> = {
+            let is_judged = |&row: &usize| evidence[row].length() >= LEAST_LENGTH_M && !evidence[row].is_even();
+            (0..rows.len()).filter(is_judged).collect()
+        };
         let mut held = Vec::new();
         for &row in &all {
             watch.check()?;

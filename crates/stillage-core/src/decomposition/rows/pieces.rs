@@ -34,6 +34,13 @@ pub(super) fn of_comb(comb: &Comb, pitch: f64, frame: &RegionFrame) -> Vec<(Rang
     without_slivers(pieces, frame.cells_of(SLIVER_M))
 }
 
+/// The pieces of a row of some length that is one place, cells.
+pub(super) fn of_one_place(place: Range<usize>, length: usize) -> Vec<(Range<usize>, PlotKind)> {
+    let pieces =
+        [(0..place.start, PlotKind::Other), (place.clone(), PlotKind::Place), (place.end..length, PlotKind::Other)];
+    pieces.into_iter().filter(|(range, _)| !range.is_empty()).collect()
+}
+
 /// The pieces of a row of some length by the borders of its places, cells; without slivers.
 pub(super) fn of_borders(borders: &[usize], length: usize, frame: &RegionFrame) -> Vec<(Range<usize>, PlotKind)> {
     let [first, last] = [borders.first(), borders.last()].map(|border| border.copied().unwrap_or(0));
