@@ -20,6 +20,8 @@ use crate::watch::{Stopped, Watch};
 /// Share of a line of cells that must be drivable for an aisle (accuracy study: 0.66 to 0.72). The rest is clutter,
 /// drift, and the ends of the line that the square of a vehicle does not reach.
 const AISLE_SHARE: f64 = 0.7;
+/// Greatest occupied share of a line of an empty aisle: the posts of bare racks, between which a vehicle would fit, take more.
+const EMPTY_AISLE_SHARE: f64 = 0.015;
 /// The same for a line across all bodies, for a cross aisle (accuracy study).
 const CROSS_SHARE: f64 = 0.85;
 /// Narrowest band of drivable lines that is an aisle, in widths of a vehicle: the lines beside its racks, which have
@@ -70,9 +72,22 @@ pub(crate) struct BodyArea {
     pub fronts: [bool; 2],
 }
 
+/// What may stand in an aisle.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum AisleContent {
+    /// Things that a vehicle finds room beside.
+    Things,
+    /// Nothing: whatever stands in a line is part of a rack.
+    Nothing,
+}
+
 /// Cuts a region.
-pub(crate) fn cut(frame: &RegionFrame, watch: &Watch<'_>) -> Result<AisleCut, Stopped> {
-    let mut cut = XyCut { frame, watch, found: AisleCut { bands: Vec::new(), bodies: Vec::new() } };
+pub(crate) fn cut(frame: &RegionFrame, content: AisleContent, watch: &Watch<'_>) -> Result<AisleCut, Stopped> {
+    let most_occupied = match content {
+        AisleContent::Things => 1.0,
+        AisleContent::Nothing => EMPTY_AISLE_SHARE,
+    };
+    let mut cut = XyCut { frame, watch, most_occupied, found: AisleCut { bands: Vec::new(), bodies: Vec::new() } };
     cut.cut(&BodyArea { rect: frame.whole(), axis: None, fronts: [false; 2] }, 0)?;
     Ok(cut.found)
 }
@@ -80,6 +95,8 @@ pub(crate) fn cut(frame: &RegionFrame, watch: &Watch<'_>) -> Result<AisleCut, St
 struct XyCut<'a> {
     frame: &'a RegionFrame,
     watch: &'a Watch<'a>,
+    /// Greatest occupied share of a line of an aisle.
+    most_occupied: f64,
     found: AisleCut,
 }
 
@@ -217,7 +234,8 @@ impl XyCut<'_> {
         let fullest = profile.ground.iter().copied().max().unwrap_or(0);
         let share = |line: usize| {
             let enough = f64::from(profile.ground[line]) >= GROUND_SHARE * f64::from(fullest);
-            if enough && profile.ground[line] > 0 {
+            let is_crossed = profile.occupied[line] > self.most_occupied * f64::from(profile.ground[line]);
+            if enough && profile.ground[line] > 0 && !is_crossed {
                 f64::from(profile.drivable[line]) / f64::from(profile.ground[line])
             } else {
                 0.0

@@ -37,6 +37,7 @@ use crate::site_ground::SiteGround;
 use crate::spec::DecompositionOptions;
 use crate::watch::{Stage, Stopped, Watch};
 
+use aisles::AisleContent;
 use ground::{RegionFrame, drivable};
 use rows::{Reading, RowLayout, SizeHints};
 
@@ -106,7 +107,7 @@ fn decompose_region(
 /// find aisles everywhere, so goods are no evidence there.
 fn layout(frame: &mut RegionFrame, hints: &SizeHints, vehicle_m: f64, watch: &Watch<'_>) -> Result<RowLayout, Stopped> {
     drivable::mark(frame, vehicle_m, watch)?;
-    let usual = rows::lay_out(frame, aisles::cut(frame, watch)?, hints, Reading::Goods, watch)?;
+    let usual = rows::lay_out(frame, aisles::cut(frame, AisleContent::Things, watch)?, hints, Reading::Goods, watch)?;
     if usual.is_periodic {
         return Ok(usual);
     }
@@ -114,9 +115,11 @@ fn layout(frame: &mut RegionFrame, hints: &SizeHints, vehicle_m: f64, watch: &Wa
     let narrower = VEHICLES_M.into_iter().filter(|&narrower_m| narrower_m < vehicle_m);
     for width_m in std::iter::once(vehicle_m).chain(narrower) {
         drivable::mark(frame, width_m, watch)?;
-        let layout = rows::lay_out(frame, aisles::cut(frame, watch)?, hints, Reading::Dividers, watch)?;
-        if layout.lanes > best.0.lanes {
-            best = (layout, width_m);
+        for content in [AisleContent::Things, AisleContent::Nothing] {
+            let layout = rows::lay_out(frame, aisles::cut(frame, content, watch)?, hints, Reading::Dividers, watch)?;
+            if layout.lanes > best.0.lanes {
+                best = (layout, width_m);
+            }
         }
     }
     drivable::mark(frame, best.1, watch)?;

@@ -69,14 +69,6 @@ pub(super) fn parted(
             *lattice = marks.as_ref().and_then(|marks| DividerLattice::at(marks, pitch, frame.cell));
         }
     }
-    if std::env::var_os("DIVIDERS").is_some() {
-        for ((row, marks), lattice) in rows.iter().zip(&marks).zip(&lattices) {
-            eprintln!(
-                "vehicle {} {reading:?} row {:?} {:?} {:?} marks {:?} lattice {:?}",
-                frame.vehicle_m, row.axis, row.rect, row.layers, marks, lattice
-            );
-        }
-    }
     let along = |row: &RackRow| row.rect.range(row.axis).clone();
     let is_divided = |(_, lattice): &(&RackRow, &Option<DividerLattice>)| lattice.is_some();
     let whole: usize = rows.iter().map(|row| along(row).len()).sum();
