@@ -21,7 +21,7 @@ use crate::watch::{Stopped, Watch};
 /// drift, and the ends of the line that the square of a vehicle does not reach.
 const AISLE_SHARE: f64 = 0.7;
 /// Greatest occupied share of a line of an empty aisle: the posts of bare racks, between which a vehicle would fit, take more.
-const EMPTY_AISLE_SHARE: f64 = 0.015;
+const EMPTY_AISLE_SHARE: f64 = 0.004;
 /// The same for a line across all bodies, for a cross aisle (accuracy study).
 const CROSS_SHARE: f64 = 0.85;
 /// Narrowest band of drivable lines that is an aisle, in widths of a vehicle: the lines beside its racks, which have

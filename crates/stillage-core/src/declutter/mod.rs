@@ -10,7 +10,8 @@
 //! 3. The others are classed by size and surroundings. Speckle of the rate would bring a known number of each class;
 //!    where that is most of the class, the whole class is removed. So hits on the floor before a rack are removed, and
 //!    the legs at the border of what the scanner saw are not.
-//! 4. Removed cells take the state of the cells around them. Small unknown holes in free space become free; small free
+//! 4. Where most small components stand in rows at equal distances, they are posts, and none is removed.
+//! 5. Removed cells take the state of the cells around them. Small unknown holes in free space become free; small free
 //!    specks in unknown ground become unknown, so that ground nobody saw stays outside the site.
 //!
 //! Source: the connected-component filters of document analysis (kFill, L. O'Gorman 1992), with the local density in
@@ -18,9 +19,12 @@
 //! 10.1111/j.2517-6161.1995.tb02031.x) in place of a threshold. Cost: O(cells). Limits: lone posts below three cells
 //! are removed; hits that touch structure stay.
 
+mod repetition;
+
 use serde::{Deserialize, Serialize};
 
 use crate::components::{Component, Components, Neighbours};
+use crate::geometry::Point;
 use crate::grid::{Occupancy, OccupancyGrid};
 use crate::spec::{DeclutterMethod, DeclutterOptions};
 use crate::watch::{Stopped, Watch};
@@ -49,6 +53,9 @@ const CLEAN_RATE: f64 = 5e-4;
 /// Number of eight-connected shapes of one, two, three and four cells (fixed polyplets): the ways in which hits can
 /// touch.
 const SHAPES: [f64; 4] = [1.0, 4.0, 20.0, 110.0];
+/// Share of the small components that stand in rows at equal distances from which on they are the posts of racks: the
+/// majority.
+const IN_ROWS_SHARE: f64 = 0.5;
 /// Expected speckle above which a class of components is removed, as a share of the class: the majority.
 const SPECKLE_SHARE: f64 = 0.5;
 /// Largest area of a hole or speck, square metres.
@@ -107,7 +114,11 @@ fn without_clutter(grid: &OccupancyGrid, watch: &Watch<'_>) -> Result<Decluttere
             speckle.explains(component.len(), false, Surroundings::around(grid, component.cells()))
         }
     };
-    let clutter: Vec<Component<'_>> = obstacles.iter().filter(is_clutter).collect();
+    let small = obstacles.iter().filter(|component| component.len() as f64 * cell_area <= SMALL_AREA);
+    let places: Vec<Point> = small.map(|component| middle(component, grid)).collect();
+    let are_posts = repetition::share_in_rows(&places, grid.resolution()) >= IN_ROWS_SHARE;
+    let clutter: Vec<Component<'_>> =
+        if are_posts { Vec::new() } else { obstacles.iter().filter(is_clutter).collect() };
     let mut occupied: Vec<u32> = clutter.iter().flat_map(Component::cells).map(|cell| cell as u32).collect();
     occupied.sort_unstable();
     let mut unknown: Vec<u32> = components(grid, Occupancy::Unknown, watch)?
@@ -138,6 +149,12 @@ fn without_clutter(grid: &OccupancyGrid, watch: &Watch<'_>) -> Result<Decluttere
     }
     let clean = OccupancyGrid::new(grid.width(), grid.height(), *grid.frame(), cells);
     Ok(Decluttered { grid: clean, removed: Removed { occupied, unknown, rate } })
+}
+
+/// The middle of the first and the last cell of a small component, metres.
+fn middle(component: Component<'_>, grid: &OccupancyGrid) -> Point {
+    let [columns, rows] = component.bounds().map(|side| f64::midpoint(side.start as f64, side.end as f64));
+    Point::new(columns, rows) * grid.resolution()
 }
 
 /// What lies around a cell or a small component, beside other occupied cells.
