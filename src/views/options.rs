@@ -116,7 +116,7 @@ impl Default for CategoryCount {
     }
 }
 
-/// The number is found.
+/// It is found.
 #[derive(Debug, Serialize, ToSchema)]
 #[serde(rename_all = "camelCase")]
 enum Auto {
@@ -250,9 +250,9 @@ enum RegionMethod {
 pub struct DecompositionOptionsView {
     /// `adaptive`: aisles, rows, then cells by the evidence for their borders. `paper`: infinite lines.
     method: DecompositionMethod,
-    /// Width of the narrowest vehicle that drives in the aisles, metres.
-    #[schema(minimum = 0.2, maximum = 20)]
-    vehicle_width_m: f64,
+    /// Width of the narrowest vehicle that drives in the aisles, metres, or `auto`: the one for which the site has aisles
+    /// between its rows; the warnings say which.
+    vehicle_width_m: VehicleWidth,
     /// Hint: narrowest and widest place along its aisle, metres.
     #[schema(min_items = 2, max_items = 2)]
     pitch_m: Option<Vec<f64>>,
@@ -268,6 +268,20 @@ pub struct DecompositionOptionsView {
     /// Smallest peak, as a share of the highest of its radiogram.
     #[schema(minimum = 0, maximum = 1)]
     min_peak: f64,
+}
+
+/// A number of metres, 0.2 to 20, or `auto`.
+#[derive(Debug, Serialize, ToSchema)]
+#[serde(untagged)]
+enum VehicleWidth {
+    Auto(#[schema(inline)] Auto),
+    Fixed(f64),
+}
+
+impl Default for VehicleWidth {
+    fn default() -> Self {
+        Self::Auto(Auto::Auto)
+    }
 }
 
 /// How a region is cut into faces.
@@ -366,6 +380,7 @@ mod tests {
             ("/orientation/method", vec!["energy", "paper"]),
             ("/regions/method", vec!["energy", "single", "gabor"]),
             ("/decomposition/method", vec!["adaptive", "paper"]),
+            ("/decomposition/vehicleWidthM", vec!["auto"]),
             ("/annotation/method", vec!["faces", "vote"]),
             ("/declutter/method", vec!["adaptive", "none"]),
         ] {
@@ -375,6 +390,9 @@ mod tests {
                 assert!(serde_json::from_value::<AnalysisOptions>(options).is_ok(), "{pointer} = {choice}");
             }
         }
+        let width = |text: &str| serde_json::from_str::<stillage_core::spec::VehicleWidth>(text);
+        assert_eq!(width("2").expect("a number"), stillage_core::spec::VehicleWidth::Fixed(2.0));
+        assert!(width("\"wide\"").is_err_and(|error| error.to_string().contains("a number of metres or \"auto\"")));
         let written = |value| serde_json::to_value(value).expect("can be written");
         assert_eq!(written(FeatureProfile::Halmstad2017), "halmstad2017");
         assert_eq!(serde_json::to_value(Scaling::LogZScore).expect("can be written"), "logZScore");

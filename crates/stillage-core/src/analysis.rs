@@ -104,7 +104,7 @@ pub fn analyze(grid: &OccupancyGrid, spec: &AnalysisSpec, watch: &Watch<'_>) -> 
     let regions = watch.stage(Stage::Regions, || segmentation::segment(grid, &orientations, options, watch))?;
     let (radiograms, lines) =
         watch.stage(Stage::Radiography, || radiography::lines(grid, &regions, &options.decomposition, watch))?;
-    let SitePlan { lines, plots, rooms } = match options.decomposition.method {
+    let SitePlan { lines, plots, rooms, vehicles_m } = match options.decomposition.method {
         DecompositionMethod::Adaptive => site_plan::plan(grid, &regions, &options.decomposition, watch)?,
         DecompositionMethod::Paper => SitePlan { lines, ..SitePlan::default() },
     };
@@ -157,6 +157,7 @@ pub fn analyze(grid: &OccupancyGrid, spec: &AnalysisSpec, watch: &Watch<'_>) -> 
         diagnostics: Vec::new(),
     };
     analysis.diagnostics = diagnose(grid, &analysis);
+    analysis.diagnostics.extend(vehicle_remark(&vehicles_m));
     analysis.diagnostics.extend(surroundings.map(|found| remark_on(&found)));
     Ok(analysis)
 }
@@ -170,6 +171,18 @@ fn remark_on(found: &PaintedGround) -> Diagnostic {
          as nobody was there"
     );
     Diagnostic::new("painted-surroundings", message)
+}
+
+/// The vehicles that the aisles between rows were cut for; `None` without such aisles.
+fn vehicle_remark(vehicles_m: &[Option<f64>]) -> Option<Diagnostic> {
+    let mut widths: Vec<f64> = vehicles_m.iter().copied().flatten().collect();
+    widths.sort_by(f64::total_cmp);
+    widths.dedup();
+    let list = widths.iter().map(|width| format!("{width} m")).collect::<Vec<_>>().join(" and ");
+    let message = format!(
+        "aisles between rows were cut for vehicles {list} wide: set `decomposition.vehicleWidthM` where others drive there"
+    );
+    (!widths.is_empty()).then(|| Diagnostic::new("vehicle-width", message))
 }
 
 /// Remarks on a degenerate or cluttered map.

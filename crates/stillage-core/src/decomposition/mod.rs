@@ -34,14 +34,14 @@ use crate::line::Line;
 use crate::plot::Plot;
 use crate::segmentation::RegionMap;
 use crate::site_ground::SiteGround;
-use crate::spec::DecompositionOptions;
+use crate::spec::{DecompositionOptions, VehicleWidth};
 use crate::watch::{Stage, Stopped, Watch};
 
 use aisles::AisleContent;
 use ground::{RegionFrame, drivable};
 use rows::{Reading, RowLayout, SizeHints};
 
-/// Widths of vehicles that are tried, metres: counterbalanced and reach trucks, narrow-aisle trucks, pallet jacks and carts,
+/// Widths of vehicles that are tried, metres, the usual one first: counterbalanced and reach trucks, narrow-aisle trucks, pallet jacks and carts,
 /// robots that carry pods.
 const VEHICLES_M: [f64; 4] = [1.7, 1.25, 1.0, 0.8];
 
@@ -52,6 +52,8 @@ pub struct Decomposition {
     pub lines: Vec<Line>,
     /// The plots, by region.
     pub plots: Vec<Plot>,
+    /// By region: the width of the vehicles that its aisles were cut for, metres; none where no rows have places.
+    pub vehicles_m: Vec<Option<f64>>,
 }
 
 /// Decomposes a grid, region by region.
@@ -78,6 +80,7 @@ pub fn decompose(
     for part in of_region {
         whole.lines.extend(part.lines);
         whole.plots.extend(part.plots);
+        whole.vehicles_m.push(part.vehicles_m.into_iter().flatten().next());
     }
     Ok(whole)
 }
@@ -99,21 +102,31 @@ fn decompose_region(
     let parcels = trim::trimmed(&frame, layout.parcels, watch)?;
     let lines = lines::of_parcels(&frame, region, &parcels, watch)?;
     let plots = parcels.iter().map(|parcel| parcel::plot(&frame, region, parcel)).collect();
-    Ok(Decomposition { lines, plots })
+    Ok(Decomposition { lines, plots, vehicles_m: vec![(layout.lanes > 0).then_some(frame.vehicle_m)] })
 }
 
-/// Lays a region out for the usual vehicle by the goods in its rows, if these repeat. Otherwise for the vehicle of
-/// [`VEHICLES_M`] for which most places can be reached between what divides them; of equals the widest. Narrower vehicles
-/// find aisles everywhere, so goods are no evidence there.
-fn layout(frame: &mut RegionFrame, hints: &SizeHints, vehicle_m: f64, watch: &Watch<'_>) -> Result<RowLayout, Stopped> {
-    drivable::mark(frame, vehicle_m, watch)?;
+/// Lays a region out by the goods in its rows, if these repeat, or else by what divides the places, if there are such rows.
+///
+/// Where the width of vehicles is not given, goods are looked for along the aisles of the usual vehicle, and otherwise the
+/// one of [`VEHICLES_M`] is taken for which most places can be reached between what divides them; of equals the widest.
+/// Narrower vehicles find aisles everywhere, so goods are no evidence there.
+fn layout(
+    frame: &mut RegionFrame,
+    hints: &SizeHints,
+    vehicle: VehicleWidth,
+    watch: &Watch<'_>,
+) -> Result<RowLayout, Stopped> {
+    let widths_m = match vehicle {
+        VehicleWidth::Auto => VEHICLES_M.to_vec(),
+        VehicleWidth::Fixed(width_m) => vec![width_m],
+    };
+    drivable::mark(frame, widths_m[0], watch)?;
     let usual = rows::lay_out(frame, aisles::cut(frame, AisleContent::Things, watch)?, hints, Reading::Goods, watch)?;
     if usual.is_periodic {
         return Ok(usual);
     }
-    let mut best = (usual, vehicle_m);
-    let narrower = VEHICLES_M.into_iter().filter(|&narrower_m| narrower_m < vehicle_m);
-    for width_m in std::iter::once(vehicle_m).chain(narrower) {
+    let mut best = (usual, widths_m[0]);
+    for width_m in widths_m {
         drivable::mark(frame, width_m, watch)?;
         for content in [AisleContent::Things, AisleContent::Nothing] {
             let layout = rows::lay_out(frame, aisles::cut(frame, content, watch)?, hints, Reading::Dividers, watch)?;

@@ -22,6 +22,8 @@ pub struct SitePlan {
     pub plots: Vec<Plot>,
     /// The rooms and their parts.
     pub rooms: RoomCells,
+    /// By region: the width of the vehicles that its aisles were cut for, metres; none where no rows have places.
+    pub vehicles_m: Vec<Option<f64>>,
 }
 
 /// Divides a site into rows and rooms.
@@ -47,9 +49,9 @@ fn assemble(
     halls: Halls,
     watch: &Watch<'_>,
 ) -> Result<SitePlan, Stopped> {
-    let Halls { rows: Decomposition { mut lines, plots }, mut rooms } = halls;
+    let Halls { rows: Decomposition { mut lines, plots, vehicles_m }, mut rooms } = halls;
     if rooms.count == 0 {
-        return Ok(SitePlan { lines, plots, rooms });
+        return Ok(SitePlan { lines, plots, rooms, vehicles_m });
     }
     let main = main_direction(regions);
     let kinds = floor_plan.kinds(&rooms, watch)?;
@@ -65,7 +67,7 @@ fn assemble(
     }
     let borders = floor_plan.borders(&rooms, watch)?;
     lines.extend(borders.into_iter().map(|ends| border_line(grid, ends)));
-    Ok(SitePlan { lines, plots, rooms })
+    Ok(SitePlan { lines, plots, rooms, vehicles_m })
 }
 
 /// The first direction of the largest region, radians.

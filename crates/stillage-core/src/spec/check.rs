@@ -4,6 +4,7 @@ use serde::Serialize;
 
 use super::categorization::CategoryCount;
 use super::options::AnalysisOptions;
+use super::vehicle_width::VehicleWidth;
 
 /// Options that were checked: each value is within its range.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
@@ -81,7 +82,9 @@ impl AnalysisOptions {
         check.number("/regions/minShare", regions.min_share, 0.0, 1.0);
 
         let decomposition = &self.decomposition;
-        check.number("/decomposition/vehicleWidthM", decomposition.vehicle_width_m, 0.2, 20.0);
+        if let VehicleWidth::Fixed(width) = decomposition.vehicle_width_m {
+            check.number("/decomposition/vehicleWidthM", width, 0.2, 20.0);
+        }
         check.range_if("/decomposition/pitchM", decomposition.pitch_m, 0.3, 10.0);
         check.range_if("/decomposition/depthM", decomposition.depth_m, 0.3, 10.0);
         check.number("/decomposition/smoothingM", decomposition.smoothing_m, 0.0, 10.0);

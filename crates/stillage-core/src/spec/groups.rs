@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::categorization::RelaxationOptions;
+use super::vehicle_width::VehicleWidth;
 
 /// Overrides of the thresholds in the map's own metadata. Used when the map is read, not by the stages.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
@@ -95,8 +96,8 @@ pub enum RegionMethod {
 pub struct DecompositionOptions {
     /// How a region is cut into faces.
     pub method: DecompositionMethod,
-    /// Width of the narrowest vehicle that drives in the aisles, metres. Decides what is drivable.
-    pub vehicle_width_m: f64,
+    /// Width of the narrowest vehicle that drives in the aisles, metres. Decides what is an aisle.
+    pub vehicle_width_m: VehicleWidth,
     /// Narrowest and widest place along its aisle, metres; a wide range when absent.
     pub pitch_m: Option<[f64; 2]>,
     /// Shallowest and deepest place, metres; a wide range when absent.
@@ -175,7 +176,7 @@ impl Default for DecompositionOptions {
     fn default() -> Self {
         Self {
             method: DecompositionMethod::Adaptive,
-            vehicle_width_m: 1.7,
+            vehicle_width_m: VehicleWidth::Auto,
             pitch_m: None,
             depth_m: None,
             smoothing_m: 0.25,

@@ -10,6 +10,7 @@ mod check;
 mod groups;
 mod options;
 mod preset;
+mod vehicle_width;
 
 pub use categorization::{
     CategorizationOptions, CategoryCount, ClusteringMethod, Covariance, FeatureProfile, RelaxationOptions, Scaling,
@@ -21,3 +22,4 @@ pub use groups::{
 };
 pub use options::AnalysisOptions;
 pub use preset::Preset;
+pub use vehicle_width::VehicleWidth;

@@ -7,7 +7,7 @@
 use proptest::prelude::*;
 use stillage_core::spec::{
     AnnotationMethod, CategoryCount, ClusteringMethod, DecompositionMethod, FeatureProfile, OrientationMethod,
-    RegionMethod, RelaxationOptions,
+    RegionMethod, RelaxationOptions, VehicleWidth,
 };
 use stillage_core::{AnalysisOptions, AnalysisSpec, GridFrame, Occupancy, OccupancyGrid, Point};
 
@@ -143,7 +143,7 @@ fn any_options() -> impl Strategy<Value = AnalysisOptions> {
         select(vec![RegionMethod::Energy, RegionMethod::Single, RegionMethod::Gabor]),
         select(vec![DecompositionMethod::Adaptive, DecompositionMethod::Paper]),
         of((0.3..3.0, 0.0..2.0).prop_map(|(least, more)| [least, least + more])),
-        0.2..3.0,
+        prop_oneof![Just(VehicleWidth::Auto), (0.2..3.0).prop_map(VehicleWidth::Fixed)],
     );
     let annotation = (select(vec![AnnotationMethod::Faces, AnnotationMethod::Vote]), 2_usize..24, relaxations);
     (categorization, geometry, annotation).prop_map(|(cells, geometry, faces)| {
@@ -153,7 +153,8 @@ fn any_options() -> impl Strategy<Value = AnalysisOptions> {
         (categorization.stride, categorization.relaxation) = (cells.3, cells.4);
         (options.orientation.method, options.regions.method, options.decomposition.method) =
             (geometry.0, geometry.1, geometry.2);
-        (options.decomposition.pitch_m, options.decomposition.vehicle_width_m) = (geometry.3, geometry.4);
+        options.decomposition.pitch_m = geometry.3;
+        options.decomposition.vehicle_width_m = geometry.4;
         options.regions.tile_m = 2.0 * geometry.4;
         (options.annotation.method, options.annotation.categories, options.annotation.relaxation) = faces;
         options
