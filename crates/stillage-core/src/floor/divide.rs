@@ -89,3 +89,164 @@ fn cells_of(grid: &OccupancyGrid, bounds: &OrientedBox) -> impl Iterator<Item = 
     rows.flat_map(move |row| columns.clone().map(move |column| (column, row)))
         .filter(move |&(column, row)| bounds.contains(Point::new(column as f64 + 0.5, row as f64 + 0.5) * cell))
 }
+
+#[cfg(test)]
+mod tests {
+    use expect_test::{Expect, expect};
+
+    use super::*;
+    use crate::components::{Components, Neighbours};
+
+    /// A hall drawn in characters of 0.5 m, in which whatever is occupied inside is a body, with the parts that its floor is
+    /// divided into: a letter for each aisle, `+` for crossings, `.` for open floor.
+    fn check(picture: &str, expected: &Expect) {
+        const CELLS: usize = 5;
+        let small = OccupancyGrid::from_ascii(picture, 0.5);
+        let (width, height) = (small.width() * CELLS, small.height() * CELLS);
+        let cell = |index: usize| small.row(index / width / CELLS)[index % width / CELLS];
+        let grid = OccupancyGrid::new(
+            width,
+            height,
+            crate::grid::GridFrame { resolution: 0.5 / CELLS as f64, origin: Point::origin(), yaw: 0.0 },
+            (0..width * height).map(cell).collect(),
+        );
+        let watch = Watch::unwatched();
+        let is_body = |cell: usize| grid.cells()[cell] == crate::grid::Occupancy::Occupied;
+        let components = Components::of([width, width * height], Neighbours::Four, is_body, &watch);
+        let bodies: Vec<OrientedBox> = components
+            .expect("nobody stops it")
+            .iter()
+            .filter(|component| component.bounds().iter().all(|side| side.start > 0))
+            .map(|component| {
+                let [columns, rows] = component.bounds().map(|side| [side.start, side.end].map(|end| end as f64));
+                let corner = |x: usize, y: usize| Point::new(columns[x], rows[y]) * grid.resolution();
+                OrientedBox::around([corner(0, 0), corner(1, 1)], 0.0).expect("two corners")
+            })
+            .collect();
+        let ground = |&cell: &crate::grid::Occupancy| u32::from(cell == crate::grid::Occupancy::Free);
+        let mut rooms =
+            RoomCells { count: 1, cells: grid.cells().iter().map(ground).collect(), ..RoomCells::default() };
+        divide(&grid, &mut rooms, 1, &bodies, 0.0, &watch).expect("nobody stops it");
+        let symbol = |column: usize, row: usize| match rooms.cells
+            [(row * CELLS + CELLS / 2) * width + column * CELLS + CELLS / 2]
+        {
+            0 => '#',
+            2 => '.',
+            3 => '+',
+            aisle => char::from(b'a' + (aisle - 4) as u8),
+        };
+        let line = |row: usize| (0..small.width()).map(|column| symbol(column, row)).collect::<String>();
+        let drawn: Vec<String> = (0..small.height()).rev().map(line).collect();
+        expected.assert_eq(&(drawn.join("\n") + "\n"));
+    }
+
+    #[test]
+    fn three_racks_have_aisles_between_them_and_floor_at_their_ends() {
+        check(
+            "
+            ##############################
+            #............................#
+            #............................#
+            #............................#
+            #............................#
+            #............................#
+            #............................#
+            #............................#
+            #............................#
+            #............................#
+            #......################......#
+            #......################......#
+            #............................#
+            #............................#
+            #............................#
+            #......################......#
+            #......################......#
+            #............................#
+            #............................#
+            #............................#
+            #......################......#
+            #......################......#
+            #............................#
+            #............................#
+            ##############################
+            ",
+            &expect![[r#"
+                ##############################
+                #......dddddddddddddddd......#
+                #......dddddddddddddddd......#
+                #......dddddddddddddddd......#
+                #......dddddddddddddddd......#
+                #......dddddddddddddddd......#
+                #......dddddddddddddddd......#
+                #......dddddddddddddddd......#
+                #......dddddddddddddddd......#
+                #......dddddddddddddddd......#
+                #......################......#
+                #......################......#
+                #......cccccccccccccccc......#
+                #......cccccccccccccccc......#
+                #......cccccccccccccccc......#
+                #......################......#
+                #......################......#
+                #......bbbbbbbbbbbbbbbb......#
+                #......bbbbbbbbbbbbbbbb......#
+                #......bbbbbbbbbbbbbbbb......#
+                #......################......#
+                #......################......#
+                #......aaaaaaaaaaaaaaaa......#
+                #......aaaaaaaaaaaaaaaa......#
+                ##############################
+            "#]],
+        );
+    }
+
+    #[test]
+    fn blocks_in_one_line_are_a_row() {
+        check(
+            "
+            ##############################
+            #............................#
+            #............................#
+            #......######....######......#
+            #......######....######......#
+            #......######....######......#
+            #......######....######......#
+            #......######....######......#
+            #......######....######......#
+            #............................#
+            #............................#
+            #......######....######......#
+            #......######....######......#
+            #......######....######......#
+            #......######....######......#
+            #......######....######......#
+            #......######....######......#
+            #............................#
+            #............................#
+            ##############################
+            ",
+            &expect![[r#"
+                ##############################
+                #......cccccccccccccccc......#
+                #......cccccccccccccccc......#
+                #......######....######......#
+                #......######....######......#
+                #......######....######......#
+                #......######....######......#
+                #......######....######......#
+                #......######....######......#
+                #......bbbbbbbbbbbbbbbb......#
+                #......bbbbbbbbbbbbbbbb......#
+                #......######....######......#
+                #......######....######......#
+                #......######....######......#
+                #......######....######......#
+                #......######....######......#
+                #......######....######......#
+                #......aaaaaaaaaaaaaaaa......#
+                #......aaaaaaaaaaaaaaaa......#
+                ##############################
+            "#]],
+        );
+    }
+}

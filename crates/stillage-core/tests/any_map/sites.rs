@@ -144,6 +144,7 @@ fn any_options() -> impl Strategy<Value = AnalysisOptions> {
         select(vec![DecompositionMethod::Adaptive, DecompositionMethod::Paper]),
         of((0.3..3.0, 0.0..2.0).prop_map(|(least, more)| [least, least + more])),
         prop_oneof![Just(VehicleWidth::Auto), (0.2..3.0).prop_map(VehicleWidth::Fixed)],
+        0.4..6.0,
     );
     let annotation = (select(vec![AnnotationMethod::Faces, AnnotationMethod::Vote]), 2_usize..24, relaxations);
     (categorization, geometry, annotation).prop_map(|(cells, geometry, faces)| {
@@ -155,7 +156,7 @@ fn any_options() -> impl Strategy<Value = AnalysisOptions> {
             (geometry.0, geometry.1, geometry.2);
         options.decomposition.pitch_m = geometry.3;
         options.decomposition.vehicle_width_m = geometry.4;
-        options.regions.tile_m = 2.0 * geometry.4;
+        options.regions.tile_m = geometry.5;
         (options.annotation.method, options.annotation.categories, options.annotation.relaxation) = faces;
         options
     })

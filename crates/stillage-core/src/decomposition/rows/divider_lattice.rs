@@ -110,3 +110,30 @@ fn fitted(numbered: &[(f64, f64)], first: f64, pitch: f64) -> (f64, f64) {
     let pitch = product / square;
     (places - numbers * pitch, pitch)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Cells of 0.05 m.
+    const CELL: f64 = 0.05;
+
+    fn borders(marks: &[f64], ends: [f64; 2]) -> Option<Vec<usize>> {
+        DividerLattice::of(marks, CELL).map(|lattice| lattice.borders(ends, 400, CELL))
+    }
+
+    #[test]
+    fn places_without_dividers_are_places_too() {
+        // The divider at 84 is missing, a column stands at 99, and the neighbours begin a place sooner.
+        let marks = [40.0, 62.0, 99.0, 106.0, 128.0, 150.0];
+        assert_eq!(borders(&marks, [18.0, 150.0]), Some(vec![18, 40, 62, 84, 106, 128, 150]));
+    }
+
+    #[test]
+    fn dividers_at_any_distance_have_no_lattice() {
+        assert_eq!(borders(&[10.0, 33.0, 71.0, 88.0, 131.0, 147.0, 190.0], [10.0, 190.0]), None);
+        assert_eq!(borders(&[10.0, 32.0], [10.0, 32.0]), None);
+        // The stringers of pallets are nearer to one another than any borders.
+        assert_eq!(borders(&[10.0, 18.0, 26.0, 34.0, 42.0, 50.0], [10.0, 50.0]), None);
+    }
+}
