@@ -222,7 +222,8 @@ fn rooms_are_not_combed() {
 #[test]
 fn grids_without_anything_have_no_lines() {
     for picture in ["", "?", "?????\n?????"] {
-        assert_eq!(decomposed(&OccupancyGrid::from_ascii(picture, 0.1)), Decomposition::default(), "{picture}");
+        let found = decomposed(&OccupancyGrid::from_ascii(picture, 0.1));
+        assert!(found.lines.is_empty() && found.plots.is_empty(), "{picture}: {found:?}");
     }
 }
 

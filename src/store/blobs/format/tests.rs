@@ -3,6 +3,7 @@
 
 use std::path::{Path, PathBuf};
 
+use stillage_core::spec::VehicleWidth;
 use stillage_core::{AnalysisOptions, OccupancyGrid, Watch};
 
 use super::*;
@@ -64,15 +65,22 @@ fn uploads_of_every_format_are_read() {
     assert!(message.starts_with(br#"{"info": {"resolution": 0.5, "width": 20, "height": 12,"#));
 }
 
+/// The options that releases up to 0.1 had where none were given.
+fn defaults_of_0_1() -> AnalysisOptions {
+    let mut options = AnalysisOptions::default();
+    options.decomposition.vehicle_width_m = VehicleWidth::Fixed(1.7);
+    options
+}
+
 #[test]
 fn analyses_of_every_format_are_read() {
     let spec = AnalysisOptions::default().check().expect("the defaults are in range");
     let analysis = stillage_core::analyze(&small_grid(), &spec, &Watch::unwatched()).expect("nothing stops it");
     check_newest("analysis", &analysis);
     let first = std::fs::read(repository().join("tests/upgrade/formats/analysis-1")).expect("it is in the repository");
-    assert_eq!(decode::<Analysis>(&first).expect("it can be read").options, AnalysisOptions::default());
+    assert_eq!(decode::<Analysis>(&first).expect("it can be read").options, defaults_of_0_1());
     let old: Analysis = decode(&of_release_0_1(ANALYSIS_0_1)).expect("it can be read");
-    assert_eq!((old.width, old.height, old.options), (20, 12, AnalysisOptions::default()));
+    assert_eq!((old.width, old.height, old.options), (20, 12, defaults_of_0_1()));
     assert_eq!(old.faces.len(), old.subdivision.faces().len() + 1, "face 0 is the unbounded one");
 }
 

@@ -141,7 +141,7 @@ impl<'a> DirectionRows<'a> {
         for ((row, evidence), model) in self.rows.iter().zip(&self.evidence).zip(models) {
             self.watch.check()?;
             match model {
-                _ if evidence.is_even() && evidence.has_content() => {
+                _ if evidence.is_even => {
                     parcels.extend(pieces::parcels(row, pieces::of_one_place(evidence.filled(), evidence.len())));
                 }
                 Some(model) => {

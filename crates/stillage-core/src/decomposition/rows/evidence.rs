@@ -49,9 +49,13 @@ const CLEAR_SHARE: f64 = 0.9;
 
 /// Smoothing of content before its variation is measured, standard deviation in metres: about a gap between goods.
 const VARIATION_SIGMA_M: f64 = 0.1;
-/// Variation below which a row is even: the steps of solid racks have 0.08 at most, hatched ones 0.22 to 0.28, 98 % of the
-/// rows of the zoo 0.26 and more.
+/// Standard deviation over mean below which a row is even: solid racks have 0.08 at most, hatched ones 0.22 to 0.28, 98 % of
+/// the rows of the zoo 0.26 and more.
 const EVEN_VARIATION: f64 = 0.25;
+/// Gaps between goods take more than this share of a row: a cell for each place of 1.6 m.
+const GAPS_SHARE: f64 = 0.02;
+/// Content beside which no gap shows, as a share of the mean. No measurement is recorded for this value.
+const EVEN_LEAST: f64 = 0.4;
 
 /// Evidence along a row, one number per cell.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -69,8 +73,8 @@ pub(super) struct RowEvidence {
     widths: usize,
     /// Side of a cell, metres.
     pub cell: f64,
-    /// Standard deviation of the content along the row, as a share of its mean.
-    variation: f64,
+    /// Whether no border shows in it: a solid or hatched rack.
+    pub is_even: bool,
 }
 
 impl RowEvidence {
@@ -102,18 +106,8 @@ impl RowEvidence {
             least_width,
             widths,
             cell,
-            variation: variation(&gaussian(&whole, VARIATION_SIGMA_M / cell)),
+            is_even: shows_no_border(&whole, cell),
         }
-    }
-
-    /// Whether its content hardly varies: no border shows in a solid or hatched rack.
-    pub(super) fn is_even(&self) -> bool {
-        self.variation < EVEN_VARIATION
-    }
-
-    /// Whether anything stands in it.
-    pub(super) fn has_content(&self) -> bool {
-        self.is_clear.contains(&false)
     }
 
     /// From the first to the last cell along it that is not clear.
@@ -133,7 +127,7 @@ impl RowEvidence {
             bundle.mirror.iter_mut().zip(&row.mirror).for_each(|(sum, value)| *sum += value);
             bundle.is_clear.iter_mut().zip(&row.is_clear).for_each(|(all, is_clear)| *all &= is_clear);
             bundle.content.extend(row.content);
-            bundle.variation = bundle.variation.max(row.variation);
+            bundle.is_even &= row.is_even;
             count += 1.0;
         }
         for value in &mut bundle.border {
@@ -231,14 +225,18 @@ fn levelled(content: &[f64], cell: f64) -> Vec<f64> {
     content.iter().zip(level).map(|(content, square)| content / (square.max(0.0).sqrt() + LEVEL_FLOOR)).collect()
 }
 
-/// Standard deviation as a share of the mean; 0 without content.
-fn variation(content: &[f64]) -> f64 {
-    let count = content.len().max(1) as f64;
-    let mean = content.iter().sum::<f64>() / count;
-    if mean <= 0.0 {
-        return 0.0;
-    }
-    (content.iter().map(|content| (content - mean).powi(2)).sum::<f64>() / count).sqrt() / mean
+/// Whether content along a row hardly varies and has no gap from its first to its last cell.
+fn shows_no_border(content: &[f64], cell: f64) -> bool {
+    let filled = |value: &f64| *value > 0.0;
+    let Some(first) = content.iter().position(filled) else { return false };
+    let content = &content[first..=content.iter().rposition(filled).unwrap_or(first)];
+    let mean = content.iter().sum::<f64>() / content.len() as f64;
+    let smooth = gaussian(content, VARIATION_SIGMA_M / cell);
+    let variance = smooth.iter().map(|content| (content - mean).powi(2)).sum::<f64>() / content.len() as f64;
+    let mut sorted = content.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    let least = sorted[(GAPS_SHARE * content.len() as f64) as usize];
+    variance.sqrt() < EVEN_VARIATION * mean && least >= EVEN_LEAST * mean
 }
 
 /// See [`RowEvidence::unevenness`].

@@ -99,7 +99,7 @@ impl Periodicity {
         watch: &Watch<'_>,
     ) -> Result<Self, Stopped> {
         let all: Vec<usize> = {
-            let is_judged = |&row: &usize| evidence[row].length() >= LEAST_LENGTH_M && !evidence[row].is_even();
+            let is_judged = |&row: &usize| evidence[row].length() >= LEAST_LENGTH_M && !evidence[row].is_even;
             (0..rows.len()).filter(is_judged).collect()
         };
         let mut held = Vec::new();
