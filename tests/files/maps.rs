@@ -29,7 +29,7 @@ fn stated_shares(text: &str) -> Option<[f64; 3]> {
 }
 
 /// The index counted these by the rules of ROS 1 (strict thresholds, opacity ignored); nav2 and we read them otherwise.
-const READ_OTHERWISE: [(&str, [f64; 3]); 2] = [
+const READ_OTHERWISE: [(&str, [f64; 4]); 2] = [
     // Thresholds 1.0 and 0.0: pure black is occupied, as the comparison is inclusive.
     ("format__scale_mode_depot_speed", [2.0, 0.0, 98.0]),
     // Pixels that are not opaque are unknown.

@@ -396,7 +396,7 @@ mod tests {
         let rows: Vec<String> = (0..160).map(|row| (0..200).map(|column| cell(row, column)).collect()).collect();
         let grid = OccupancyGrid::from_ascii(&rows.join("\n"), 0.05);
         let found = without_clutter(&grid, &Watch::unwatched()).expect("nobody stops it");
-        expect_test::expect!["436 of 436 hits and legs stay"].assert_eq(&format!(
+        expect_test::expect!["171 of 436 hits and legs stay"].assert_eq(&format!(
             "{} of {} hits and legs stay",
             found.grid.count(Occupancy::Occupied),
             grid.count(Occupancy::Occupied)
