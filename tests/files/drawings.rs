@@ -10,9 +10,6 @@ use stillage_core::spec::GridOptions;
 use stillage_core::{AnalysisSpec, Watch, analyze};
 use stillage_zoo::{DrawingOptions, DrawingStyle, draw};
 
-/// The wall of the rooms beside the hall of ticks is read as a row, and the floor before it as an aisle, so that its true
-/// aisles get another label.
-///
 /// Style, and the least F1 of its places and intersection over union of its corridors; 0 where nothing is read yet.
 const FLOORS: [(DrawingStyle, f64, f64); 9] = [
     (DrawingStyle::Solid, 0.3, 0.8),
@@ -21,6 +18,7 @@ const FLOORS: [(DrawingStyle, f64, f64); 9] = [
     (DrawingStyle::Lined, 0.4, 0.4),
     (DrawingStyle::Uprights, 0.6, 0.9),
     (DrawingStyle::Pods, 0.3, 0.6),
+    // The wall of the rooms beside the hall is read as a row: the aisle before it has the label of the true ones.
     (DrawingStyle::Ticks, 0.9, 0.0),
     (DrawingStyle::Hatched, 0.9, 0.5),
     (DrawingStyle::Dashed, 0.0, 0.9),

@@ -90,13 +90,16 @@ impl Diagnostic {
 pub fn analyze(grid: &OccupancyGrid, spec: &AnalysisSpec, watch: &Watch<'_>) -> Result<Analysis, Stopped> {
     let options = spec.options();
     watch.begin(&StageShares::estimate(&CellCounts::of(grid), options));
-    let surroundings = match options.decomposition.method {
-        DecompositionMethod::Adaptive => watch.stage(Stage::Declutter, || surroundings::find(grid, watch))?,
-        DecompositionMethod::Paper => None,
-    };
-    let grid = surroundings.as_ref().map_or(grid, |found| &found.grid);
-    let declutter::Decluttered { grid: clean, removed: clutter } =
-        watch.stage(Stage::Declutter, || declutter::declutter(grid, &options.declutter, watch))?;
+    let (surroundings, declutter::Decluttered { grid: clean, removed: clutter }) =
+        watch.stage(Stage::Declutter, || {
+            let surroundings = match options.decomposition.method {
+                DecompositionMethod::Adaptive => surroundings::find(grid, watch)?,
+                DecompositionMethod::Paper => None,
+            };
+            let grid = surroundings.as_ref().map_or(grid, |found| &found.grid);
+            let decluttered = declutter::declutter(grid, &options.declutter, watch)?;
+            Ok((surroundings, decluttered))
+        })?;
     let grid = &clean;
     let categorization = categorization::categorize(grid, &options.categorization, options.seed, watch)?;
     let orientations =

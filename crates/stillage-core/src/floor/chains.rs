@@ -12,8 +12,9 @@ const LONG: f64 = 1.6;
 /// Bodies whose direction differs by less from that of the site are aligned with it, radians (8 degrees): the box around
 /// something rough is turned by as much.
 const ALIGNED: f64 = 0.14;
-/// Bodies stand in one line when they share this much of the depth of the shallower one.
+/// Bodies stand in one line when they share this much of the depth of the shallower one, and of the deeper one.
 const SHARED_DEPTH: f64 = 0.6;
+const SHARED_DEEPER: f64 = 0.36;
 /// Longest gap in a row: a share of the shorter body beside it, and metres.
 const GAP_SHARE: f64 = 1.5;
 pub(super) const GAP_M: f64 = 2.0;
@@ -46,9 +47,9 @@ pub(super) fn of_bodies(bodies: &[OrientedBox], main: f64) -> Vec<Chain> {
     for axis in [0, 1] {
         let is_of_axis = |body: usize| {
             let is_more = sizes[axis][body] > sizes[1 - axis][body];
-            let is_longer = sizes[axis][body] == sizes[1 - axis][body]
-                && (spans[axis][body].length() > spans[axis][body].depth()
-                    || axis == 0 && { spans[axis][body].length() >= spans[axis][body].depth() });
+            let [length, depth] = [spans[axis][body].length(), spans[axis][body].depth()];
+            let is_long = if axis == 0 { length >= depth } else { length > depth };
+            let is_longer = sizes[axis][body] == sizes[1 - axis][body] && is_long;
             allowed[axis][body] && (is_more || is_longer || !allowed[1 - axis][body])
         };
         let chosen: Vec<bool> = (0..aligned.len()).map(is_of_axis).collect();
@@ -91,7 +92,7 @@ impl Span {
         let shared = self.across[1].min(other.across[1]) - self.across[0].max(other.across[0]);
         let gap = self.along[0].max(other.along[0]) - self.along[1].min(other.along[1]);
         shared >= SHARED_DEPTH * self.depth().min(other.depth())
-            && self.depth().max(other.depth()) * SHARED_DEPTH <= shared / SHARED_DEPTH
+            && shared >= SHARED_DEEPER * self.depth().max(other.depth())
             && gap <= GAP_M.min(GAP_SHARE * self.length().min(other.length()))
     }
 }

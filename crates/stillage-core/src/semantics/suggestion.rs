@@ -3,7 +3,8 @@
 //! Source: the paper assigns labels by hand and says that they could be learned "from characteristics of labels and the
 //! occupancy values" (section II-C). Here they follow from rules of fuzzy logic over the evidence of each category (L.
 //! Zadeh, *Fuzzy sets*, 1965, doi 10.1016/S0019-9958(65)90241-X): *and* is the minimum, *or* the maximum. A label is as
-//! likely as the least likely of its functionalities, in any rule set (of two kinds of access, the likelier counts). Cost: O(faces + edges + categories x labels).
+//! likely as the least likely of its functionalities, in any rule set (of two kinds of access, the likelier counts).
+//! Cost: O(faces + edges + categories x labels).
 //! Limits: a category is judged as a whole, so one that mixes kinds of places gets the label of most of its area, with
 //! a low confidence.
 
