@@ -29,16 +29,11 @@ fn stated_shares(text: &str) -> Option<[f64; 3]> {
 }
 
 /// The index counted these by the rules of ROS 1 (strict thresholds, opacity ignored); nav2 and we read them otherwise.
-const READ_OTHERWISE: [(&str, [f64; 3]); 6] = [
+const READ_OTHERWISE: [(&str, [f64; 3]); 2] = [
     // Thresholds 1.0 and 0.0: pure black is occupied, as the comparison is inclusive.
     ("format__scale_mode_depot_speed", [2.0, 0.0, 98.0]),
     // Pixels that are not opaque are unknown.
     ("format__alpha_64_255_drawing", [1.4, 95.6, 3.0]),
-    // The thresholds of these files take the grey of unknown cells for free; it is read as unknown.
-    ("warehouse__hunav_small_warehouse", [4.9, 79.0, 16.1]),
-    ("warehouse__nav2_depot", [3.2, 92.0, 4.8]),
-    ("warehouse__svl_warehouse_dt_pallets", [2.1, 89.0, 8.9]),
-    ("office__pal_office", [5.5, 60.2, 34.3]),
 ];
 
 #[test]
