@@ -8,6 +8,7 @@ use crate::arrangement::{self, CellFaces, Subdivision};
 use crate::categorization::{self, CategoryMap};
 use crate::declutter;
 use crate::grid::{GridFrame, Occupancy, OccupancyGrid};
+use crate::hatching;
 use crate::line::Line;
 use crate::orientation::{self, Orientations};
 use crate::radiography::{self, Radiogram};
@@ -21,7 +22,7 @@ use crate::surroundings::{self, PaintedGround};
 use crate::watch::{Stage, Stopped, Watch};
 
 /// Version of the algorithms: part of the address of a stored analysis, raised whenever results change.
-pub const ALGORITHM_VERSION: u32 = 10;
+pub const ALGORITHM_VERSION: u32 = 11;
 
 /// What the geometric level finds in a map. Immutable; addressed by grid, options and [`ALGORITHM_VERSION`].
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -81,6 +82,9 @@ impl Diagnostic {
     }
 }
 
+/// What is said of hatched areas.
+const HATCHED: &str = "areas that the drawing hatches are read as solid: draw their outline alone where they are free";
+
 /// Runs every stage on a grid.
 ///
 /// Fails only when it is stopped: a map without structure gives one face and a [`Diagnostic`].
@@ -90,15 +94,15 @@ impl Diagnostic {
 pub fn analyze(grid: &OccupancyGrid, spec: &AnalysisSpec, watch: &Watch<'_>) -> Result<Analysis, Stopped> {
     let options = spec.options();
     watch.begin(&StageShares::estimate(&CellCounts::of(grid), options));
-    let (surroundings, declutter::Decluttered { grid: clean, removed: clutter }) =
+    let is_adaptive = options.decomposition.method == DecompositionMethod::Adaptive;
+    let (solid, surroundings, declutter::Decluttered { grid: clean, removed: clutter }) =
         watch.stage(Stage::Declutter, || {
-            let surroundings = match options.decomposition.method {
-                DecompositionMethod::Adaptive => surroundings::find(grid, watch)?,
-                DecompositionMethod::Paper => None,
-            };
+            let solid = if is_adaptive { hatching::solid(grid, watch)? } else { None };
+            let grid = solid.as_ref().unwrap_or(grid);
+            let surroundings = if is_adaptive { surroundings::find(grid, watch)? } else { None };
             let grid = surroundings.as_ref().map_or(grid, |found| &found.grid);
             let decluttered = declutter::declutter(grid, &options.declutter, watch)?;
-            Ok((surroundings, decluttered))
+            Ok((solid, surroundings, decluttered))
         })?;
     let grid = &clean;
     let categorization = categorization::categorize(grid, &options.categorization, options.seed, watch)?;
@@ -162,6 +166,9 @@ pub fn analyze(grid: &OccupancyGrid, spec: &AnalysisSpec, watch: &Watch<'_>) -> 
     analysis.diagnostics = diagnose(grid, &analysis);
     analysis.diagnostics.extend(vehicle_remark(&vehicles_m));
     analysis.diagnostics.extend(surroundings.map(|found| remark_on(&found)));
+    if solid.is_some() {
+        analysis.diagnostics.push(Diagnostic::new("hatched-areas", HATCHED));
+    }
     Ok(analysis)
 }
 

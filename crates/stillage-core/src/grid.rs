@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::geometry::{Point, direction, normal};
+use crate::geometry::{OrientedBox, Point, direction, normal};
 
 /// State of one cell of a map.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -165,6 +165,24 @@ impl OccupancyGrid {
         let (column, row) = ((point.x / self.resolution()).floor(), (point.y / self.resolution()).floor());
         let inside = column >= 0.0 && row >= 0.0 && column < self.width as f64 && row < self.height as f64;
         inside.then_some((column as usize, row as usize))
+    }
+
+    /// Columns and rows of the cells with their centre in a box.
+    pub(crate) fn cells_within(&self, bounds: &OrientedBox) -> impl Iterator<Item = (usize, usize)> + use<> {
+        let corners = bounds.corners();
+        let cell = self.resolution();
+        let range = |axis: usize, count: usize| {
+            let places = corners.iter().map(|corner| corner.coords[axis] / cell);
+            let low = places.clone().fold(f64::INFINITY, f64::min).floor().max(0.0) as usize;
+            let high = places.fold(f64::NEG_INFINITY, f64::max).ceil().clamp(0.0, count as f64) as usize;
+            low.min(count)..high
+        };
+        let (columns, rows) = (range(0, self.width), range(1, self.height));
+        let bounds = *bounds;
+        let is_in = move |&(column, row): &(usize, usize)| {
+            bounds.contains(Point::new(column as f64 + 0.5, row as f64 + 0.5) * cell)
+        };
+        rows.flat_map(move |row| columns.clone().map(move |column| (column, row))).filter(is_in)
     }
 
     /// First and one-past-last column and row of the cells that are not unknown; `None` when all are unknown.

@@ -39,6 +39,7 @@ pub mod signal;
 pub mod vectors;
 
 mod components;
+mod digital_lines;
 mod distance_transform;
 mod morphology;
 mod runs;
@@ -65,6 +66,9 @@ pub mod segmentation;
 pub mod radiography;
 
 pub mod rooms;
+
+mod hatching;
+mod marks;
 
 pub mod decomposition;
 mod floor;

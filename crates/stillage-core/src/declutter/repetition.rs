@@ -1,6 +1,7 @@
 //! Whether small things stand in rows at equal distances, as posts do and speckle does not.
 //!
-//! A thing is in a row if the step from it to one of its nearest neighbours leads from there to a third one. Independent hits
+//! A thing is in a row if the step from it to one of its nearest neighbours leads from there, or back from the thing, to a
+//! third one. Independent hits
 //! do so by chance, the more often the denser they are, and just as often where the step is turned by an angle that no rows
 //! have. So the share of things with a third one after a turned step is subtracted. Cost: O(n log n) for n things, as long as
 //! they are spread evenly.
@@ -42,8 +43,10 @@ pub(super) fn share_in_rows(things: &[Point], cell: f64) -> f64 {
             .collect();
         neighbours.sort_by(|one, other| one.0.total_cmp(&other.0).then(one.1.cmp(&other.1)));
         neighbours.iter().take(NEIGHBOURS).any(|&(_, other)| {
-            let third = things[other] + turned(things[other] - thing, turn);
-            near(third).any(|at| at != other && (things[at] - third).norm() <= TOLERANCE_CELLS * cell)
+            let step = turned(things[other] - thing, turn);
+            [things[other] + step, thing - step]
+                .into_iter()
+                .any(|third| near(third).any(|at| at != other && (things[at] - third).norm() <= TOLERANCE_CELLS * cell))
         })
     };
     let sample: Vec<usize> = (0..things.len()).step_by(things.len().div_ceil(SAMPLE).max(1)).collect();

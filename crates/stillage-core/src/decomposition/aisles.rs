@@ -79,15 +79,18 @@ pub(crate) enum AisleContent {
     Things,
     /// Nothing: whatever stands in a line is part of a rack.
     Nothing,
+    /// No row, for these are known: bands through a single body are aisles as well.
+    NoRows,
 }
 
 /// Cuts a region.
 pub(crate) fn cut(frame: &RegionFrame, content: AisleContent, watch: &Watch<'_>) -> Result<AisleCut, Stopped> {
     let most_occupied = match content {
-        AisleContent::Things => 1.0,
+        AisleContent::Things | AisleContent::NoRows => 1.0,
         AisleContent::Nothing => EMPTY_AISLE_SHARE,
     };
-    let mut cut = XyCut { frame, watch, most_occupied, found: AisleCut { bands: Vec::new(), bodies: Vec::new() } };
+    let mut cut =
+        XyCut { frame, watch, most_occupied, content, found: AisleCut { bands: Vec::new(), bodies: Vec::new() } };
     cut.cut(&BodyArea { rect: frame.whole(), axis: None, fronts: [false; 2] }, 0)?;
     Ok(cut.found)
 }
@@ -95,6 +98,7 @@ pub(crate) fn cut(frame: &RegionFrame, content: AisleContent, watch: &Watch<'_>)
 struct XyCut<'a> {
     frame: &'a RegionFrame,
     watch: &'a Watch<'a>,
+    content: AisleContent,
     /// Greatest occupied share of a line of an aisle.
     most_occupied: f64,
     found: AisleCut,
@@ -228,8 +232,9 @@ impl XyCut<'_> {
         if is_across_body && thickness < self.frame.cells_of(THIN_M) {
             return Ok(Vec::new());
         }
+        let is_guess = is_across_body && self.content != AisleContent::NoRows;
         let least_width =
-            self.frame.cells_of(if is_across_body { THROUGH_WIDTH_M } else { AISLE_WIDTH * self.frame.vehicle_m });
+            self.frame.cells_of(if is_guess { THROUGH_WIDTH_M } else { AISLE_WIDTH * self.frame.vehicle_m });
         let profile = LineProfile::of(self.frame, rect, axis, self.watch)?;
         let fullest = profile.ground.iter().copied().max().unwrap_or(0);
         let share = |line: usize| {

@@ -31,6 +31,7 @@ use rayon::prelude::*;
 
 use crate::grid::OccupancyGrid;
 use crate::line::Line;
+use crate::marks::MarkedRow;
 use crate::plot::Plot;
 use crate::segmentation::RegionMap;
 use crate::site_ground::SiteGround;
@@ -54,6 +55,8 @@ pub struct Decomposition {
     pub plots: Vec<Plot>,
     /// By region: the width of the vehicles that its aisles were cut for, metres; none where no rows have places.
     pub vehicles_m: Vec<Option<f64>>,
+    /// Whether places were cut by goods that repeat.
+    pub has_repeating_goods: bool,
 }
 
 /// Decomposes a grid, region by region.
@@ -66,12 +69,26 @@ pub fn decompose(
     options: &DecompositionOptions,
     watch: &Watch<'_>,
 ) -> Result<Decomposition, Stopped> {
+    decompose_around(grid, regions, &[], options, watch)
+}
+
+/// The same around rows of equal marks, which are laid out as they are.
+///
+/// # Errors
+/// [`Stopped`] when the watch says so.
+pub(crate) fn decompose_around(
+    grid: &OccupancyGrid,
+    regions: &RegionMap,
+    marked: &[MarkedRow],
+    options: &DecompositionOptions,
+    watch: &Watch<'_>,
+) -> Result<Decomposition, Stopped> {
     let site = SiteGround::of(grid, regions, watch)?;
     let steps = watch.steps(Stage::Rows, regions.regions.len());
     let of_region: Vec<Decomposition> = (0..regions.regions.len() as u8)
         .into_par_iter()
         .map(|region| {
-            let found = decompose_region(grid, regions, region, &site, options, watch)?;
+            let found = decompose_region(grid, regions, (region, marked), &site, options, watch)?;
             steps.count_one();
             Ok(found)
         })
@@ -80,6 +97,7 @@ pub fn decompose(
     for part in of_region {
         whole.lines.extend(part.lines);
         whole.plots.extend(part.plots);
+        whole.has_repeating_goods |= part.has_repeating_goods;
         whole.vehicles_m.push(part.vehicles_m.into_iter().flatten().next());
     }
     Ok(whole)
@@ -88,7 +106,7 @@ pub fn decompose(
 fn decompose_region(
     grid: &OccupancyGrid,
     regions: &RegionMap,
-    region: u8,
+    (region, marked): (u8, &[MarkedRow]),
     site: &SiteGround,
     options: &DecompositionOptions,
     watch: &Watch<'_>,
@@ -98,11 +116,18 @@ fn decompose_region(
     };
     let mut frame = RegionFrame::new(grid, regions, region, angle, site, watch)?;
     let hints = SizeHints::of(options);
-    let layout = layout(&mut frame, &hints, options.vehicle_width_m, watch)?;
+    let of_region: Vec<&MarkedRow> = marked.iter().filter(|row| row.frame.region == region).collect();
+    let layout = layout(&mut frame, &of_region, &hints, options.vehicle_width_m, watch)?;
+    let has_repeating_goods = layout.is_periodic;
     let parcels = trim::trimmed(&frame, layout.parcels, watch)?;
     let lines = lines::of_parcels(&frame, region, &parcels, watch)?;
     let plots = parcels.iter().map(|parcel| parcel::plot(&frame, region, parcel)).collect();
-    Ok(Decomposition { lines, plots, vehicles_m: vec![(layout.lanes > 0).then_some(frame.vehicle_m)] })
+    Ok(Decomposition {
+        lines,
+        plots,
+        vehicles_m: vec![(layout.lanes > 0).then_some(frame.vehicle_m)],
+        has_repeating_goods,
+    })
 }
 
 /// Lays a region out by the goods in its rows, if these repeat, or else by what divides the places, if there are such rows.
@@ -112,6 +137,7 @@ fn decompose_region(
 /// Narrower vehicles find aisles everywhere, so goods are no evidence there.
 fn layout(
     frame: &mut RegionFrame,
+    marked: &[&MarkedRow],
     hints: &SizeHints,
     vehicle: VehicleWidth,
     watch: &Watch<'_>,
@@ -120,6 +146,10 @@ fn layout(
         VehicleWidth::Auto => VEHICLES_M.to_vec(),
         VehicleWidth::Fixed(width_m) => vec![width_m],
     };
+    let marked: Vec<rows::PlacedRow> = marked.iter().filter_map(|row| rows::PlacedRow::of(frame, row)).collect();
+    if !marked.is_empty() {
+        return rows::placed::layout(frame, &marked, &widths_m, watch);
+    }
     drivable::mark(frame, widths_m[0], watch)?;
     let usual = rows::lay_out(frame, aisles::cut(frame, AisleContent::Things, watch)?, hints, Reading::Goods, watch)?;
     if usual.is_periodic {

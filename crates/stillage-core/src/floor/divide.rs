@@ -62,7 +62,7 @@ fn paint(
             other.is_some_and(|other| line_angle_between(other.angle, strip.angle) > CROSSING)
         };
         let reaching = Strip { across: [strip.across[0] - CONTACT_M, strip.across[1] + CONTACT_M], ..strip.clone() };
-        for (column, row) in cells_of(grid, &reaching.bounds()) {
+        for (column, row) in grid.cells_within(&reaching.bounds()) {
             let part = &mut rooms.cells[row * grid.width() + column];
             if *part == floor {
                 *part = aisle;
@@ -72,22 +72,6 @@ fn paint(
         }
     }
     Ok(())
-}
-
-/// Columns and rows of the cells with their centre in a box.
-fn cells_of(grid: &OccupancyGrid, bounds: &OrientedBox) -> impl Iterator<Item = (usize, usize)> {
-    let corners = bounds.corners();
-    let cell = grid.resolution();
-    let range = |axis: usize, count: usize| {
-        let places = corners.iter().map(|corner| corner.coords[axis] / cell);
-        let low = places.clone().fold(f64::INFINITY, f64::min).floor().max(0.0) as usize;
-        let high = places.fold(f64::NEG_INFINITY, f64::max).ceil().clamp(0.0, count as f64) as usize;
-        low.min(count)..high
-    };
-    let (columns, rows) = (range(0, grid.width()), range(1, grid.height()));
-    let bounds = *bounds;
-    rows.flat_map(move |row| columns.clone().map(move |column| (column, row)))
-        .filter(move |&(column, row)| bounds.contains(Point::new(column as f64 + 0.5, row as f64 + 0.5) * cell))
 }
 
 #[cfg(test)]

@@ -28,6 +28,8 @@ const GREATEST_FILL: f64 = 0.65;
 const STRAIGHT: f64 = 3.0;
 /// Greatest diagonal of furniture that stands alone, metres: a block of four desks has 3.6.
 const FURNITURE_M: f64 = 4.0;
+/// Greatest depth of a rack that stands alone, metres: two rows back to back. Rooms between two corridors are deeper.
+const RACK_M: f64 = 3.0;
 /// Greatest width of a corridor, metres: wider is a hall. No measurement is recorded for this value.
 const WIDEST_CORRIDOR_M: f64 = 5.0;
 
@@ -102,7 +104,9 @@ fn walls(ground: &RoomGround, doorways: &[Doorway], watch: &Watch<'_>) -> Result
         .flat_map(|door| door.ends)
         .map(cell_at)
         .collect();
-    let is_small = |thing: &Component<'_>| thing.diagonal() * ground.cell < FURNITURE_M;
+    let is_small = |thing: &Component<'_>| {
+        thing.diagonal() * ground.cell < FURNITURE_M || footprint(*thing, ground.cell).sides()[1] <= RACK_M
+    };
     let size = [ground.width, is_wall.len()];
     let obstacles = Components::of(size, Neighbours::Eight, |cell| !ground.is_free[cell], watch)?;
     for thing in obstacles.iter().filter(is_small) {
@@ -111,4 +115,14 @@ fn walls(ground: &RoomGround, doorways: &[Doorway], watch: &Watch<'_>) -> Result
         }
     }
     Ok(is_wall)
+}
+
+/// The smallest box around a thing, metres.
+fn footprint(thing: Component<'_>, cell: f64) -> OrientedBox {
+    let corners = thing.runs().iter().flat_map(|run| {
+        let row = f64::from(run.row);
+        let [first, last] = [run.columns.start, run.columns.end].map(f64::from);
+        [(first, row), (last, row), (first, row + 1.0), (last, row + 1.0)]
+    });
+    OrientedBox::smallest_around(&corners.map(|(x, y)| Point::new(x, y) * cell).collect::<Vec<_>>())
 }

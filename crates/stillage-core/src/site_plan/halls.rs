@@ -2,6 +2,7 @@
 
 use crate::decomposition::{self, Decomposition};
 use crate::grid::{Occupancy, OccupancyGrid};
+use crate::marks::MarkedRow;
 use crate::plot::PlotKind;
 use crate::rooms::{FloorPlan, RoomCells, Zones};
 use crate::segmentation::RegionMap;
@@ -26,6 +27,7 @@ impl Halls {
         grid: &OccupancyGrid,
         regions: &RegionMap,
         floor_plan: &FloorPlan,
+        marked: &[MarkedRow],
         options: &DecompositionOptions,
         watch: &Watch<'_>,
     ) -> Result<Self, Stopped> {
@@ -35,7 +37,7 @@ impl Halls {
         loop {
             let rows = if is_hall.contains(&true) {
                 let grid = if rooms.count == 0 { grid } else { &without(grid, &rooms) };
-                decomposition::decompose(grid, regions, options, watch)?
+                decomposition::decompose_around(grid, regions, marked, options, watch)?
             } else {
                 Decomposition::default()
             };

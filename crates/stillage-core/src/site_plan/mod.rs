@@ -9,14 +9,17 @@
 //! | module | what comes out |
 //! | --- | --- |
 //! | [`mod@plan`] | the lines of rows and rooms, what they enclose, and the rooms |
+//! | [`survey`] | the rooms and the rows, by goods or by equal marks |
 //! | [`halls`] | which rooms are halls, and the rows in them |
 //! | [`storage`] | which of the other rooms hold storage |
 //!
-//! Cost: that of the rooms, and that of the rows once for each time that a zone turns out to be no hall.
+//! Cost: that of the rooms, and that of the rows once for each time that a zone turns out to be no hall; twice both where
+//! equal marks tell more than goods.
 
 mod halls;
 mod plan;
 mod storage;
+mod survey;
 
 #[cfg(test)]
 mod tests;

@@ -2,6 +2,7 @@
 
 use super::halls::Halls;
 use super::storage;
+use super::survey::Survey;
 use crate::decomposition::Decomposition;
 use crate::floor;
 use crate::geometry::{Point, direction, fold_half_turn, normal};
@@ -36,8 +37,8 @@ pub fn plan(
     options: &DecompositionOptions,
     watch: &Watch<'_>,
 ) -> Result<SitePlan, Stopped> {
-    let floor_plan = watch.stage(Stage::Rooms, || FloorPlan::of(grid, watch))?;
-    let halls = watch.stage(Stage::Rows, || Halls::find(grid, regions, &floor_plan, options, watch))?;
+    let Survey { filled, floor_plan, halls } = Survey::of(grid, regions, options, watch)?;
+    let grid = filled.as_ref().unwrap_or(grid);
     watch.stage(Stage::SitePlan, || assemble(grid, regions, &floor_plan, halls, watch))
 }
 
@@ -49,7 +50,7 @@ fn assemble(
     halls: Halls,
     watch: &Watch<'_>,
 ) -> Result<SitePlan, Stopped> {
-    let Halls { rows: Decomposition { mut lines, plots, vehicles_m }, mut rooms } = halls;
+    let Halls { rows: Decomposition { mut lines, plots, vehicles_m, .. }, mut rooms } = halls;
     if rooms.count == 0 {
         return Ok(SitePlan { lines, plots, rooms, vehicles_m });
     }

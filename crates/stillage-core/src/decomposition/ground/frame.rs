@@ -133,6 +133,13 @@ impl RegionFrame {
         Ok(())
     }
 
+    /// Makes all cells of a rectangle occupied.
+    pub fn fill(&mut self, rect: &Rect) {
+        for row in rect.v.clone() {
+            self.cells[row * self.columns..][rect.u.clone()].iter_mut().for_each(Cell::mark_occupied);
+        }
+    }
+
     pub fn row(&self, row: usize) -> &[Cell] {
         &self.cells[row * self.columns..(row + 1) * self.columns]
     }

@@ -10,6 +10,7 @@
 //! | whether the rows are periodic at all | [`periodicity`] |
 //! | the best borders of a row | [`comb`] |
 //! | the pieces between these borders | [`pieces`] |
+//! | rows whose places are known before: those of equal marks | [`placed`] |
 //!
 //! Rows that are not periodic are walls, shelves or furniture and are not cut into places. Cost: O(cells x pitches).
 
@@ -22,8 +23,10 @@ mod evidence;
 mod load_template;
 mod periodicity;
 mod pieces;
+pub(crate) mod placed;
 mod rack_row;
 mod reading;
+mod row_layout;
 mod row_model;
 mod row_set;
 mod size_hints;
@@ -32,23 +35,15 @@ mod storage_lanes;
 use crate::decomposition::aisles::AisleCut;
 use crate::decomposition::bodies::{Body, depth};
 use crate::decomposition::ground::{Axis, RegionFrame};
-use crate::decomposition::parcel::Parcel;
 use crate::plot::PlotKind;
 use crate::watch::{Stopped, Watch};
 
 use direction::DirectionRows;
 
+pub(crate) use placed::PlacedRow;
 pub(crate) use reading::Reading;
+pub(crate) use row_layout::RowLayout;
 pub(crate) use size_hints::SizeHints;
-
-/// The bands and bodies of a region as parcels.
-pub(crate) struct RowLayout {
-    pub parcels: Vec<Parcel>,
-    /// Whether the goods in the rows repeat.
-    pub is_periodic: bool,
-    /// Number of storage lanes that were cut: places, those one behind the other counted once.
-    pub lanes: usize,
-}
 
 /// Lays the bands and bodies of a region out as parcels.
 pub(crate) fn lay_out(

@@ -1,0 +1,92 @@
+//! The rooms of a site and the rows in its halls, read by goods, dividers and marks.
+//!
+//! Rows are laid out by what stands in them and between them ([`crate::decomposition`]). Where equal marks tell more
+//! ([`crate::marks`]), the site is surveyed again with the ground of these rows solid:
+//!
+//! | what repeats | what is taken |
+//! | --- | --- |
+//! | marks, and no goods | the rows of marks |
+//! | marks and goods | the rows of marks, if most marks stand in rows of about as many places |
+//! | neither, but racks of few bays side by side in the hall | these racks, whole |
+//!
+//! Cost: that of two surveys at most.
+
+use super::halls::Halls;
+use crate::grid::OccupancyGrid;
+use crate::marks::{self, MarkedRow, MarkedRows};
+use crate::plot::PlotKind;
+use crate::rooms::FloorPlan;
+use crate::segmentation::RegionMap;
+use crate::spec::DecompositionOptions;
+use crate::watch::{Stage, Stopped, Watch};
+
+/// Where goods repeat, least share of the marks that stand in rows.
+const EXPLAINED_BESIDE_GOODS: f64 = 0.75;
+/// Where goods repeat, places of rows of marks for each place of goods: a bay holds up to three pallets, and in scans the
+/// legs of pallets give two to five places for each pallet (64 generated sites).
+const PLACES_OF_GOODS: [f64; 2] = [0.3, 1.6];
+
+/// The rooms of a site, and the rows in its halls.
+pub(super) struct Survey {
+    /// The grid with the rows of marks that are known as solid as they are to a vehicle; `None` without such rows.
+    pub filled: Option<OccupancyGrid>,
+    pub floor_plan: FloorPlan,
+    pub halls: Halls,
+}
+
+impl Survey {
+    pub(super) fn of(
+        grid: &OccupancyGrid,
+        regions: &RegionMap,
+        options: &DecompositionOptions,
+        watch: &Watch<'_>,
+    ) -> Result<Self, Stopped> {
+        let floor_plan = watch.stage(Stage::Rooms, || FloorPlan::of(grid, watch))?;
+        let (marked, halls) = watch.stage(Stage::Rows, || {
+            let marked = MarkedRows::find(grid, regions, watch)?;
+            Ok((marked, Halls::find(grid, regions, &floor_plan, &[], options, watch)?))
+        })?;
+        let is_better = explain_more(&marked, &halls);
+        let whole =
+            if is_better { marked.rows } else { racks_in_hall(grid, marked.blocks, &floor_plan, &halls, watch)? };
+        if whole.is_empty() {
+            return Ok(Self { filled: None, floor_plan, halls });
+        }
+        let filled = marks::filled(grid, &whole);
+        let known: &[MarkedRow] = if is_better { &whole } else { &[] };
+        let watch = watch.silent();
+        let floor_plan = FloorPlan::of(&filled, &watch)?;
+        let halls = Halls::find(&filled, regions, &floor_plan, known, options, &watch)?;
+        Ok(Self { filled: Some(filled), floor_plan, halls })
+    }
+}
+
+/// Whether the rows of marks tell more than the goods.
+fn explain_more(marked: &MarkedRows, halls: &Halls) -> bool {
+    let places = marked.place_count() as f64;
+    if !halls.rows.has_repeating_goods || marked.rows.is_empty() {
+        return !marked.rows.is_empty();
+    }
+    let of_goods = halls.rows.plots.iter().filter(|plot| plot.kind == PlotKind::Place).count() as f64;
+    let [least, most] = PLACES_OF_GOODS.map(|ratio| ratio * of_goods);
+    marked.explained >= EXPLAINED_BESIDE_GOODS && (least..=most).contains(&places)
+}
+
+/// The racks of few bays that stand in the hall, where no rows are laid out there.
+fn racks_in_hall(
+    grid: &OccupancyGrid,
+    mut racks: Vec<MarkedRow>,
+    floor_plan: &FloorPlan,
+    halls: &Halls,
+    watch: &Watch<'_>,
+) -> Result<Vec<MarkedRow>, Stopped> {
+    if racks.is_empty() || halls.rooms.count == 0 || halls.rows.plots.iter().any(|plot| plot.kind == PlotKind::Place) {
+        return Ok(Vec::new());
+    }
+    let hall = floor_plan.kinds(&halls.rooms, watch)?.hall;
+    racks.retain(|rack| {
+        let cell = grid.cell_at(rack.bounds().center).map(|(column, row)| row * grid.width() + column);
+        hall.is_some() && cell.map(|cell| halls.rooms.cells[cell]) == hall
+    });
+    Ok(racks)
+}
