@@ -27,6 +27,8 @@ const SEEN: f64 = 0.45;
 const REGULAR_M: f64 = 0.1;
 /// Two marks of each place begin and end in the same place, or in the next one but one, where a mark is missing.
 const SAME_PLACE: i64 = 2;
+/// Longest marks, in pitches: the box around a turned thing is a little longer than the thing.
+const LONGEST_SHARE: f64 = 1.1;
 /// Least number of marks.
 const LEAST_MARKS: usize = 2;
 
@@ -68,7 +70,7 @@ pub(super) struct MarkLattice {
 impl MarkLattice {
     /// The lattice of some marks, of which most have the `usual` length.
     pub fn of(marks: &[[f64; 2]], usual: f64, pitch: Pitch, is_thin: bool) -> Self {
-        if marks.len() < LEAST_MARKS {
+        if marks.len() < LEAST_MARKS || usual > LONGEST_SHARE * pitch.length {
             return Self::default();
         }
         let all = marks.len() as f64;

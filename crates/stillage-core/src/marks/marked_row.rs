@@ -15,8 +15,6 @@ const FRAME_SHARE: f64 = 0.4;
 const LEAST_PLACES: usize = 3;
 /// Least length of things in places, in pitches: what is further apart are stacks on a floor.
 const FILLED_SHARE: f64 = 0.6;
-/// Longest marks, in pitches: the box around a turned thing is a little longer than the thing.
-const LONGEST_SHARE: f64 = 1.1;
 /// Rows back to back nearer than this touch, metres.
 const FLUE_M: f64 = 0.3;
 
@@ -101,7 +99,7 @@ impl MarkedRow {
             _ => return None,
         };
         let is_sparse = length(row.across) == length(most.across) && !is_frame && usual < FILLED_SHARE * pitch.length;
-        if usual > LONGEST_SHARE * pitch.length || most.phases.len() == 1 && is_sparse {
+        if most.phases.len() == 1 && is_sparse {
             return None;
         }
         let number = |place: f64| (place - phase) / pitch.length;

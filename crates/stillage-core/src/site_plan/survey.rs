@@ -24,7 +24,7 @@ use crate::watch::{Stage, Stopped, Watch};
 const EXPLAINED_BESIDE_GOODS: f64 = 0.75;
 /// Where goods repeat, places of rows of marks for each place of goods: a bay holds up to three pallets, and in scans the
 /// legs of pallets give two to five places for each pallet (64 generated sites).
-const PLACES_OF_GOODS: [f64; 2] = [0.3, 1.6];
+const PLACES_OF_GOODS: [f64; 2] = [0.1, 1.6];
 
 /// The rooms of a site, and the rows in its halls.
 pub(super) struct Survey {
