@@ -47,7 +47,7 @@ impl Pitch {
 
     /// Distance of a place from the nearest one of a lattice with a phase, with its sign.
     pub fn off(self, place: f64, phase: f64) -> f64 {
-        (place - phase + self.length / 2.0).rem_euclid(self.length) - self.length / 2.0
+        place - phase - self.length * ((place - phase) / self.length).round()
     }
 
     /// Whether a place lies on it within the tolerance.
@@ -143,7 +143,7 @@ fn on_lattice(mark: [f64; 2], usual: f64, phase: f64, pitch: Pitch) -> Option<st
 
 /// The phase that most places have, within the tolerance: the mean of theirs; 0 without places.
 fn fullest(places: impl Iterator<Item = f64>, pitch: Pitch) -> f64 {
-    let mut phases: Vec<f64> = places.map(|place| place.rem_euclid(pitch.length)).collect();
+    let mut phases: Vec<f64> = places.map(|place| place - pitch.length * (place / pitch.length).floor()).collect();
     phases.sort_by(f64::total_cmp);
     let count = phases.len();
     let reach = 2.0 * pitch.tolerance;

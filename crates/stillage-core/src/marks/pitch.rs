@@ -18,12 +18,15 @@ const APART: usize = 4;
 const STEP: f64 = 0.015;
 /// Pitches tried at most.
 const MOST_TRIED: usize = 40;
+/// So many marks are enough to learn from: those of a hall with five hundred places.
+const ENOUGH_MARKS: usize = 1_500;
 /// Places between two marks that make the pitch exact, in turn, and how far their distance is from a multiple of the pitch at
 /// most, in pitches.
 const REACHES: [(usize, f64); 3] = [(2, 0.1), (4, 0.05), (12, 0.04)];
 
 /// The pitch; `cell` is the side of a cell, metres; `None` where no line has enough equal distances.
-pub(super) fn common(lines: &[MarkLine], cell: f64, watch: &Watch<'_>) -> Result<Option<Pitch>, Stopped> {
+pub(super) fn common(all: &[MarkLine], cell: f64, watch: &Watch<'_>) -> Result<Option<Pitch>, Stopped> {
+    let lines = &sample(all)[..];
     let [shortest, longest] = PITCHES_M;
     let bin = |pitch: f64| ((pitch / shortest).ln() / STEP) as usize;
     let mut votes = vec![(0.0, 0_usize); bin(longest) + 2];
@@ -55,6 +58,12 @@ pub(super) fn common(lines: &[MarkLine], cell: f64, watch: &Watch<'_>) -> Result
         }
     }
     Ok(best.map(|best| Pitch::new(best.1, cell)))
+}
+
+/// Lines with marks enough to learn from, evenly spread.
+fn sample(lines: &[MarkLine]) -> Vec<MarkLine> {
+    let marks: usize = lines.iter().map(|line| line.marks.len()).sum();
+    lines.iter().step_by(marks.div_ceil(ENOUGH_MARKS).max(1)).cloned().collect()
 }
 
 /// A pitch made exact by marks that are further and further apart.

@@ -18,6 +18,8 @@ use crate::watch::{Stopped, Watch};
 const RUN_COST: f64 = 2.0;
 /// Marks so near to rows should stand in them, metres.
 const AROUND_M: f64 = 0.5;
+/// Pitches of a region at most: no region holds more sorts of storage.
+const MOST_PITCHES: usize = 6;
 /// Least number of places of all rows.
 const LEAST_PLACES: usize = 8;
 /// Least share of the marks around rows that stand in them: what a person drew is rows and little else.
@@ -44,7 +46,9 @@ impl RegionRows {
         let (mut most, mut most_of_blocks) = (0.0, 0);
         for axis in [0, 1] {
             let framed = mark::with_dotted_frames(&things, axis, watch)?;
-            for marks in [&things, &framed, &holes] {
+            let readings = [&things, &framed, &holes];
+            let differs = |&at: &usize| at == 0 || readings[at].len() != readings[at - 1].len();
+            for marks in (0..readings.len()).filter(differs).map(|at| readings[at]) {
                 watch.check()?;
                 let frame = RowFrame { region, angle, axis };
                 let rows = rows_of_lines(MarkLine::all(marks, axis), frame, grid.resolution(), watch)?;
@@ -96,7 +100,8 @@ fn rows_of_lines(
     watch: &Watch<'_>,
 ) -> Result<Vec<MarkedRow>, Stopped> {
     let mut found = Vec::new();
-    while let Some(pitch) = pitch::common(&lines, cell, watch)? {
+    for _ in 0..MOST_PITCHES {
+        let Some(pitch) = pitch::common(&lines, cell, watch)? else { break };
         let (runs, others) = mark_run::of_lines(lines, pitch);
         lines = others;
         if runs.is_empty() {
