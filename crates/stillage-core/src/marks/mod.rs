@@ -67,6 +67,11 @@ impl MarkedRows {
         Ok(found)
     }
 
+    /// Distance from place to place of most rows, metres; 0 without rows.
+    pub(crate) fn usual_pitch(&self) -> f64 {
+        range::median(self.rows.iter().map(MarkedRow::pitch)).unwrap_or(0.0)
+    }
+
     /// Number of places of the rows.
     pub(crate) fn place_count(&self) -> usize {
         self.rows.iter().map(MarkedRow::count).sum()

@@ -6,7 +6,7 @@
 //! | what repeats | what is taken |
 //! | --- | --- |
 //! | marks, and no goods | the rows of marks |
-//! | marks and goods | the rows of marks, if most marks stand in rows of about as many places |
+//! | marks and goods | the rows of marks, if most marks stand in rows and are no legs of pallets |
 //! | neither, but racks of few bays side by side in the hall | these racks, whole |
 //!
 //! Cost: that of two surveys at most.
@@ -22,9 +22,13 @@ use crate::watch::{Stage, Stopped, Watch};
 
 /// Where goods repeat, least share of the marks that stand in rows.
 const EXPLAINED_BESIDE_GOODS: f64 = 0.75;
-/// Where goods repeat, places of rows of marks for each place of goods: a bay holds up to three pallets, and in scans the
-/// legs of pallets give two to five places for each pallet (64 generated sites).
-const PLACES_OF_GOODS: [f64; 2] = [0.1, 1.6];
+/// Most places of rows of marks for each place of goods, where these marks may be legs of pallets: in scans they give two to
+/// five places for each pallet (64 generated sites).
+const PLACES_OF_LEGS: f64 = 1.6;
+/// Legs, blocks and stringers of pallets are nearer to each other than this, metres, and scans show them unequal: fewer than
+/// this share of their marks stand in rows.
+const LEGS_M: f64 = 0.9;
+const EXPLAINED_LEGS: f64 = 0.9;
 
 /// The rooms of a site, and the rows in its halls.
 pub(super) struct Survey {
@@ -68,8 +72,8 @@ fn explain_more(marked: &MarkedRows, halls: &Halls) -> bool {
         return !marked.rows.is_empty();
     }
     let of_goods = halls.rows.plots.iter().filter(|plot| plot.kind == PlotKind::Place).count() as f64;
-    let [least, most] = PLACES_OF_GOODS.map(|ratio| ratio * of_goods);
-    marked.explained >= EXPLAINED_BESIDE_GOODS && (least..=most).contains(&places)
+    let may_be_legs = marked.usual_pitch() < LEGS_M || marked.explained < EXPLAINED_LEGS;
+    marked.explained >= EXPLAINED_BESIDE_GOODS && (!may_be_legs || places <= PLACES_OF_LEGS * of_goods)
 }
 
 /// The racks of few bays that stand in the hall, where no rows are laid out there.
