@@ -10,7 +10,8 @@
 //! 3. The others are classed by size and surroundings. Speckle of the rate would bring a known number of each class;
 //!    where that is most of the class, the whole class is removed. So hits on the floor before a rack are removed, and
 //!    the legs at the border of what the scanner saw are not.
-//! 4. Where most small components stand in rows at equal distances, they are posts, and none is removed.
+//! 4. Where most small components stand in rows at equal distances, or, on a map without speckle, have one step in common,
+//!    they are posts, and none is removed.
 //! 5. Removed cells take the state of the cells around them. Small unknown holes in free space become free; small free
 //!    specks in unknown ground become unknown, so that ground nobody saw stays outside the site.
 //!
@@ -21,6 +22,7 @@
 
 mod repetition;
 
+use repetition::Repetition;
 use serde::{Deserialize, Serialize};
 
 use crate::components::{Component, Components, Neighbours};
@@ -56,6 +58,9 @@ const SHAPES: [f64; 4] = [1.0, 4.0, 20.0, 110.0];
 /// Share of the small components that stand in rows at equal distances from which on they are the posts of racks: the
 /// majority.
 const IN_ROWS_SHARE: f64 = 0.5;
+/// Share of the small components of a map without speckle from which one step leads to another one: the legs of pods have it,
+/// however many places are empty.
+const COMMON_STEP_SHARE: f64 = 0.7;
 /// Expected speckle above which a class of components is removed, as a share of the class: the majority.
 const SPECKLE_SHARE: f64 = 0.5;
 /// Largest area of a hole or speck, square metres.
@@ -116,7 +121,9 @@ fn without_clutter(grid: &OccupancyGrid, watch: &Watch<'_>) -> Result<Decluttere
     };
     let small = obstacles.iter().filter(|component| component.len() as f64 * cell_area <= SMALL_AREA);
     let places: Vec<Point> = small.map(|component| middle(component, grid)).collect();
-    let are_posts = repetition::share_in_rows(&places, grid.resolution()) >= IN_ROWS_SHARE;
+    let repetition = Repetition::of(&places, grid.resolution());
+    let are_posts = repetition.share_in_rows() >= IN_ROWS_SHARE
+        || rate < CLEAN_RATE && repetition.share_with_common_step() >= COMMON_STEP_SHARE;
     let clutter: Vec<Component<'_>> =
         if are_posts { Vec::new() } else { obstacles.iter().filter(is_clutter).collect() };
     let mut occupied: Vec<u32> = clutter.iter().flat_map(Component::cells).map(|cell| cell as u32).collect();
