@@ -13,7 +13,7 @@
 //! | 6 | [`region_rows`], [`block`] | the rows of a region: those that explain most marks, and racks of few bays side by side |
 //!
 //! Limits: a scan shows equal things unequal, so goods in a scan are read by their shape
-//! ([`crate::decomposition::rows`]), and rows of marks are laid out only where these explain more.
+//! ([`crate::decomposition`]), and rows of marks are laid out only where these explain more.
 //! Cost: O(cells + marks x pitches).
 
 mod block;
