@@ -17,10 +17,10 @@ const FLOORS: [(DrawingStyle, f64, f64); 9] = [
     (DrawingStyle::Outlined, 0.9, 0.8),
     (DrawingStyle::Lined, 0.4, 0.4),
     (DrawingStyle::Uprights, 0.9, 0.9),
-    (DrawingStyle::Pods, 0.6, 0.8),
+    (DrawingStyle::Pods, 0.7, 0.8),
     (DrawingStyle::Ticks, 0.85, 0.85),
     (DrawingStyle::Hatched, 0.9, 0.4),
-    (DrawingStyle::Dashed, 0.0, 0.8),
+    (DrawingStyle::Dashed, 0.6, 0.8),
 ];
 
 /// A hall of a size that a test can afford.
