@@ -6,7 +6,7 @@
 
 use std::ops::Range;
 
-use crate::geometry::DisjointSets;
+use crate::geometry::{DisjointSets, OrientedBox, Point};
 use crate::watch::{Stopped, Watch};
 
 /// Which cells touch.
@@ -174,6 +174,16 @@ impl<'a> Component<'a> {
         let high = self.runs.iter().map(|run| run.columns.end).max().unwrap_or(0) as usize;
         let [first, last] = [self.runs.first(), self.runs.last()].map(|run| run.map_or(0, |run| run.row as usize));
         [low..high, first..last + 1]
+    }
+
+    /// The smallest box around it, metres from the corner of the grid; `cell` is the side of a cell, metres.
+    pub(crate) fn smallest_box(&self, cell: f64) -> OrientedBox {
+        let corners = self.runs.iter().flat_map(|run| {
+            let [left, right] = [run.columns.start, run.columns.end].map(f64::from);
+            let [low, high] = [f64::from(run.row), f64::from(run.row) + 1.0];
+            [(left, low), (right, low), (left, high), (right, high)].map(|(x, y)| Point::new(x, y) * cell)
+        });
+        OrientedBox::smallest_around(&corners.collect::<Vec<_>>())
     }
 
     /// Diagonal of its bounds, cells.

@@ -5,7 +5,6 @@
 //! are wider. A few such holes are none: a scan has some by chance. Cost: O(cells).
 
 use crate::components::{Component, Components, Neighbours};
-use crate::geometry::{OrientedBox, Point};
 use crate::grid::{Occupancy, OccupancyGrid};
 use crate::watch::{Stopped, Watch};
 
@@ -48,13 +47,7 @@ fn is_thin(part: Component<'_>, grid: &OccupancyGrid) -> bool {
     if touches_border || part.diagonal() * cell > LONGEST_M || part.len() as f64 * cell * cell < LEAST_HOLE_M2 {
         return false;
     }
-    let corners = part.runs().iter().flat_map(|run| {
-        let row = f64::from(run.row);
-        let [first, last] = [run.columns.start, run.columns.end].map(f64::from);
-        [(first, row), (last, row), (first, row + 1.0), (last, row + 1.0)]
-    });
-    let corners: Vec<Point> = corners.map(|(x, y)| Point::new(x, y) * cell).collect();
-    OrientedBox::smallest_around(&corners).sides()[1] < THINNEST_PLACE_M
+    part.smallest_box(cell).sides()[1] < THINNEST_PLACE_M
 }
 
 #[cfg(test)]

@@ -1,11 +1,10 @@
 //! Whether small things stand in rows at equal distances, as posts do and speckle does not.
 //!
 //! A thing is in a row if the step from it to one of its nearest neighbours leads from there, or back from the thing, to a
-//! third one. Independent hits
-//! do so by chance, the more often the denser they are, and just as often where the step is turned by an angle that no rows
-//! have. So the share of things with a third one after a turned step is subtracted. Where many places are empty, the step
-//! within one place still is the same for all. Cost: O(n log n) for n things, as long as
-//! they are spread evenly.
+//! third one. Independent hits do so by chance, the more often the denser they are, and just as often where the step is turned
+//! by an angle that no rows have. So the share of things with a third one after a turned step is subtracted. Where many places
+//! are empty, the step within one place still is the same for all. Cost: O(n log n) for n things, as long as they are spread
+//! evenly.
 
 use std::collections::{BTreeMap, BTreeSet};
 

@@ -1,7 +1,8 @@
 //! Blocks: rows side by side with their borders in line.
 //!
-//! A rack of two bays shows three frames, and three equal marks are no counts. Several such racks one behind the other, with
-//! their frames in line, are. A frame that stands at a wall does not show, and a frame may be seen in part, so rows are as long and as deep as most of their block.
+//! A rack of two bays shows three frames, and three equal marks are no evidence. Several such racks one behind the other,
+//! with their frames in line, are. A frame that stands at a wall does not show, and a frame may be seen in part, so rows are
+//! as long and as deep as most of their block.
 
 use super::marked_row::{MarkCounts, MarkedRow};
 use super::range::{length, median, middle};
@@ -25,7 +26,7 @@ const MOST_EMPTY: usize = 4;
 /// The rows of those blocks that are no chance.
 pub(super) fn rows(rows: &[MarkedRow]) -> Vec<MarkedRow> {
     let is_certain = |block: &Vec<usize>| {
-        let counts = block.iter().map(|&row| rows[row].counts).fold(MarkCounts::default(), MarkCounts::and);
+        let counts = MarkCounts::of_rows(block.iter().map(|&row| &rows[row]));
         block.len() >= LEAST_ROWS
             && counts.explained >= LEAST_THINGS
             && counts.explained >= counts.runs + 2 + LEAST_SURPLUS
@@ -38,7 +39,7 @@ pub(super) fn rows(rows: &[MarkedRow]) -> Vec<MarkedRow> {
 /// have places; not where no place inside of these rows is empty.
 pub(super) fn add_empty_ends(rows: &mut [MarkedRow]) {
     for block in blocks(rows) {
-        let counts = block.iter().map(|&row| rows[row].counts).fold(MarkCounts::default(), MarkCounts::and);
+        let counts = MarkCounts::of_rows(block.iter().map(|&row| &rows[row]));
         let seen = (counts.explained + counts.irregular) as f64;
         if rows[block[0]].has_frames || seen > (1.0 - LEAST_EMPTY_SHARE) * counts.full as f64 {
             continue;

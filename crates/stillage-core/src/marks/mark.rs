@@ -62,23 +62,40 @@ pub(super) struct Marks {
     pub holes: Vec<Mark>,
 }
 
+/// What is connected on a grid.
+pub(super) struct GridParts {
+    occupied: Components,
+    free: Components,
+}
+
+impl GridParts {
+    pub fn of(grid: &OccupancyGrid, watch: &Watch<'_>) -> Result<Self, Stopped> {
+        let size = [grid.width(), grid.cells().len()];
+        let parts = |wanted: Occupancy, neighbours| {
+            Components::of(size, neighbours, |cell| grid.cells()[cell] == wanted, watch)
+        };
+        let occupied = parts(Occupancy::Occupied, Neighbours::Eight)?;
+        Ok(Self { occupied, free: parts(Occupancy::Free, Neighbours::Four)? })
+    }
+}
+
 impl Marks {
     /// Those of a region with a first direction, radians.
     pub fn find(
         grid: &OccupancyGrid,
+        parts: &GridParts,
         regions: &RegionMap,
         (region, angle): (u8, f64),
         watch: &Watch<'_>,
     ) -> Result<Self, Stopped> {
         let size = [grid.width(), grid.cells().len()];
-        let is = |wanted: Occupancy| move |cell: usize| grid.cells()[cell] == wanted;
         let is_in_region =
             |cell: usize| regions.region_of_cell(cell % grid.width(), cell / grid.width()) == Some(region);
         let mark_of =
             |part: Component<'_>| is_in_region(part.first()).then(|| Mark::around(grid, angle, part.cells())).flatten();
         let mut things = Vec::new();
         let mut is_large = vec![false; grid.cells().len()];
-        for thing in Components::of(size, Neighbours::Eight, is(Occupancy::Occupied), watch)?.iter() {
+        for thing in parts.occupied.iter() {
             watch.check()?;
             if may_be_small(thing, grid) {
                 things.extend(mark_of(thing).filter(Mark::is_small));
@@ -93,9 +110,13 @@ impl Marks {
         things.extend(
             rests.iter().filter(stands_off).filter_map(mark_of).filter(|mark| mark.is_small() && is_seen(mark)),
         );
-        let free = Components::of(size, Neighbours::Four, is(Occupancy::Free), watch)?;
-        let holes = free.iter().filter(|&hole| may_be_small(hole, grid)).filter_map(mark_of).filter(Mark::is_small);
-        let holes = holes.collect();
+        let holes = parts
+            .free
+            .iter()
+            .filter(|&hole| may_be_small(hole, grid))
+            .filter_map(mark_of)
+            .filter(Mark::is_small)
+            .collect();
         Ok(Self { things, holes })
     }
 }

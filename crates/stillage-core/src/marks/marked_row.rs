@@ -60,13 +60,14 @@ impl MarkCounts {
         Self { explained: sum(|run| run.regular), irregular: sum(|run| run.irregular), runs: runs.len(), full: 0 }
     }
 
-    pub fn and(self, other: Self) -> Self {
-        Self {
-            explained: self.explained + other.explained,
-            irregular: self.irregular + other.irregular,
-            runs: self.runs + other.runs,
-            full: self.full + other.full,
-        }
+    /// Those of several rows together.
+    pub fn of_rows<'a>(rows: impl IntoIterator<Item = &'a MarkedRow>) -> Self {
+        rows.into_iter().map(|row| row.counts).fold(Self::default(), |one, other| Self {
+            explained: one.explained + other.explained,
+            irregular: one.irregular + other.irregular,
+            runs: one.runs + other.runs,
+            full: one.full + other.full,
+        })
     }
 }
 

@@ -34,6 +34,7 @@ use crate::grid::{Occupancy, OccupancyGrid};
 use crate::segmentation::RegionMap;
 use crate::watch::{Stopped, Watch};
 
+use mark::GridParts;
 pub(crate) use marked_row::MarkedRow;
 use region_rows::RegionRows;
 
@@ -54,10 +55,12 @@ impl MarkedRows {
     /// # Errors
     /// [`Stopped`] when the watch says so.
     pub(crate) fn find(grid: &OccupancyGrid, regions: &RegionMap, watch: &Watch<'_>) -> Result<Self, Stopped> {
+        let parts = GridParts::of(grid, watch)?;
         let mut found = Self { explained: 1.0, ..Self::default() };
         for (region, orientations) in (0_u8..).zip(regions.regions.iter().map(|region| &region.orientations)) {
             let Some(&angle) = orientations.first() else { continue };
-            let RegionRows { rows, explained, blocks } = RegionRows::find(grid, regions, (region, angle), watch)?;
+            let RegionRows { rows, explained, blocks } =
+                RegionRows::find(grid, &parts, regions, (region, angle), watch)?;
             if !rows.is_empty() {
                 found.explained = found.explained.min(explained);
             }

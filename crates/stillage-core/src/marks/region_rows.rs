@@ -4,7 +4,7 @@
 //! frame, and among the holes in its things. Of these readings the one is taken that explains most things by fewest runs.
 
 use super::block;
-use super::mark::{self, Mark, Marks};
+use super::mark::{self, GridParts, Mark, Marks};
 use super::mark_line::MarkLine;
 use super::mark_run;
 use super::marked_row::{self, MarkCounts, MarkedRow, RowFrame};
@@ -37,11 +37,12 @@ impl RegionRows {
     /// The rows of a region with a first direction, radians.
     pub fn find(
         grid: &OccupancyGrid,
+        parts: &GridParts,
         regions: &RegionMap,
         (region, angle): (u8, f64),
         watch: &Watch<'_>,
     ) -> Result<Self, Stopped> {
-        let Marks { things, holes } = Marks::find(grid, regions, (region, angle), watch)?;
+        let Marks { things, holes } = Marks::find(grid, parts, regions, (region, angle), watch)?;
         let mut found = Self::default();
         let (mut most, mut most_of_blocks) = (0.0, 0);
         for axis in [0, 1] {
@@ -53,12 +54,12 @@ impl RegionRows {
                 let frame = RowFrame { region, angle, axis };
                 let rows = rows_of_lines(MarkLine::all(marks, axis), frame, grid.resolution(), watch)?;
                 let blocks = block::rows(&rows);
-                let of_blocks = counts_of(&blocks).explained;
+                let of_blocks = MarkCounts::of_rows(&blocks).explained;
                 if of_blocks > most_of_blocks {
                     (most_of_blocks, found.blocks) = (of_blocks, blocks);
                 }
                 let rows: Vec<MarkedRow> = rows.into_iter().filter(MarkedRow::is_long).collect();
-                let counts = counts_of(&rows);
+                let counts = MarkCounts::of_rows(&rows);
                 let score = counts.explained as f64 - RUN_COST * counts.runs as f64;
                 if score > most {
                     let around = things_around(&rows, marks) - counts.irregular;
@@ -73,10 +74,6 @@ impl RegionRows {
         }
         Ok(found)
     }
-}
-
-fn counts_of(rows: &[MarkedRow]) -> MarkCounts {
-    rows.iter().map(|row| row.counts).fold(MarkCounts::default(), MarkCounts::and)
 }
 
 /// Number of things in those marks that lie within the box around some rows.

@@ -105,7 +105,7 @@ fn walls(ground: &RoomGround, doorways: &[Doorway], watch: &Watch<'_>) -> Result
         .map(cell_at)
         .collect();
     let is_small = |thing: &Component<'_>| {
-        thing.diagonal() * ground.cell < FURNITURE_M || footprint(*thing, ground.cell).sides()[1] <= RACK_M
+        thing.diagonal() * ground.cell < FURNITURE_M || thing.smallest_box(ground.cell).sides()[1] <= RACK_M
     };
     let size = [ground.width, is_wall.len()];
     let obstacles = Components::of(size, Neighbours::Eight, |cell| !ground.is_free[cell], watch)?;
@@ -115,14 +115,4 @@ fn walls(ground: &RoomGround, doorways: &[Doorway], watch: &Watch<'_>) -> Result
         }
     }
     Ok(is_wall)
-}
-
-/// The smallest box around a thing, metres.
-fn footprint(thing: Component<'_>, cell: f64) -> OrientedBox {
-    let corners = thing.runs().iter().flat_map(|run| {
-        let row = f64::from(run.row);
-        let [first, last] = [run.columns.start, run.columns.end].map(f64::from);
-        [(first, row), (last, row), (first, row + 1.0), (last, row + 1.0)]
-    });
-    OrientedBox::smallest_around(&corners.map(|(x, y)| Point::new(x, y) * cell).collect::<Vec<_>>())
 }

@@ -17,7 +17,7 @@ use std::ops::Range;
 use crate::components::{Component, Components, Neighbours};
 use crate::digital_lines::for_each_line;
 use crate::distance_transform::DistanceTransform;
-use crate::geometry::{OrientedBox, Point};
+use crate::geometry::OrientedBox;
 use crate::grid::{Occupancy, OccupancyGrid};
 use crate::watch::{Stopped, Watch};
 
@@ -146,12 +146,7 @@ pub(super) fn footprint(thing: Component<'_>, closed: usize, cell: f64) -> Optio
     if area_of(closed) < STACK_M2 {
         return None;
     }
-    let corners = thing.runs().iter().flat_map(|run| {
-        let [left, right] = [run.columns.start, run.columns.end].map(f64::from);
-        let [low, high] = [f64::from(run.row), f64::from(run.row) + 1.0];
-        [(left, low), (right, low), (left, high), (right, high)].map(|(x, y)| Point::new(x, y) * cell)
-    });
-    let smallest = OrientedBox::smallest_around(&corners.collect::<Vec<_>>());
+    let smallest = thing.smallest_box(cell);
     let [long, short] = smallest.sides();
     let is_stack = short >= STACK_M && area_of(thing.len()) >= STACK_FILL * long * short;
     is_stack.then_some(smallest)

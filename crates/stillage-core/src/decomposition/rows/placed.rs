@@ -22,7 +22,7 @@ pub(crate) struct PlacedRow {
 }
 
 impl PlacedRow {
-    /// A row in cells; `None` where its middle is not in the site.
+    /// A row in cells; `None` where most of its ground is in no hall, so that it is not solid there.
     pub(crate) fn of(frame: &RegionFrame, row: &MarkedRow) -> Option<Self> {
         let axis = Axis::BOTH[row.frame.axis];
         let cell = |axis: Axis, place: f64| {
