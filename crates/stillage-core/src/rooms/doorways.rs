@@ -14,7 +14,7 @@
 //! Cost: O(cells + necks x width^2), the width of a neck in cells, at most that of [`WIDEST_M`]. Limits: an opening as
 //! wide as the room behind it is no doorway; ground wider than [`WIDEST_M`] is never parted.
 
-use super::ground::RoomGround;
+use super::ground::{Jambs, RoomGround};
 use crate::distance_transform::DistanceTransform;
 use crate::geometry::DisjointSets;
 use crate::watch::{Stopped, Watch};
@@ -48,7 +48,7 @@ const DOOR_WIDTHS_M: [f64; 2] = [0.6, 3.0];
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Doorway {
     /// Column and row of the obstacle at each of its ends, the jambs.
-    pub ends: [[i64; 2]; 2],
+    pub ends: Jambs,
     /// How many of its ends a wall continues.
     pub wall_ends: usize,
 }

@@ -6,6 +6,7 @@ use super::gates;
 use super::ground::RoomGround;
 use super::junctions;
 use super::partition::Partition;
+use super::passages::RoomPassages;
 use super::room_cells::RoomCells;
 use super::room_kinds::{self, RoomKinds};
 use super::stacks::Stacks;
@@ -25,15 +26,21 @@ pub(crate) struct FloorPlan {
 }
 
 impl FloorPlan {
-    /// Divides a site into rooms. Reports its progress as that of [`Stage::Rooms`].
-    pub(crate) fn of(grid: &OccupancyGrid, watch: &Watch<'_>) -> Result<Self, Stopped> {
-        let ground = RoomGround::of(grid, watch)?;
+    /// Divides a site into rooms; `angle` is a direction of the site, radians. Reports its progress as that of
+    /// [`Stage::Rooms`].
+    pub(crate) fn of(grid: &OccupancyGrid, angle: f64, watch: &Watch<'_>) -> Result<Self, Stopped> {
+        let mut ground = RoomGround::of(grid, watch)?;
+        let passages = RoomPassages::of(&ground, angle, watch)?;
+        ground.clear_furniture(&passages.walls, watch)?;
         watch.progress(Stage::Rooms, 0.1);
-        let doorways = doorways::find(&ground, watch)?;
+        let mut doorways = doorways::find(&passages.closed(&ground), watch)?;
+        doorways.retain(|doorway| !passages.are_crossed_by(&ground, doorway));
         watch.progress(Stage::Rooms, 0.2);
         let gates = gates::find(grid, &ground, watch)?;
         watch.progress(Stage::Rooms, 0.3);
-        let partition = Partition::of(&ground, doorways.iter().chain(&gates), watch)?;
+        let jambs = doorways.iter().chain(&gates).map(|doorway| doorway.ends);
+        let mut partition = Partition::of(&ground, jambs.chain(passages.closings()), watch)?;
+        doorways.extend(passages.join_arms(&ground, &doorways, &mut partition));
         Ok(Self { ground, partition, doorways, gates })
     }
 
@@ -77,7 +84,6 @@ impl FloorPlan {
             let [one, other] = partition.sides(ground, doorway).map(|room| numbers[room as usize]);
             one != other
         };
-        let point = |[column, row]: [i64; 2]| Point::new(column as f64 + 0.5, row as f64 + 0.5) * ground.cell;
         let doors = doorways.iter().filter(|doorway| doorway.is_door(ground.cell));
         let openings = doors.chain(gates).filter(leads_into_room);
         RoomCells {
@@ -85,7 +91,7 @@ impl FloorPlan {
             cells: partition.rooms.iter().map(|&room| numbers[room as usize]).collect(),
             kinds: vec![PlotKind::Room; count as usize],
             parts: Vec::new(),
-            doorways: openings.map(|doorway| doorway.ends.map(point)).collect(),
+            doorways: openings.map(|doorway| doorway.ends.map(|cell| ground.middle_of(cell))).collect(),
         }
     }
 

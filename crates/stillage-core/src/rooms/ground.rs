@@ -7,19 +7,31 @@
 //! no wall either. Small ground that it encloses is part of it: drawings show goods by their outlines.
 //! Cost: O(cells), and O(n log n) for the n cells of each large obstacle.
 
+use std::collections::BTreeSet;
+
 use super::stacks;
-use crate::components::{Components, Neighbours};
+use crate::components::{Component, Components, Neighbours};
+use crate::geometry::Point;
 use crate::grid::{Occupancy, OccupancyGrid};
 use crate::watch::{Stopped, Watch};
 
 /// Largest diagonal of furniture, metres: a chair has 0.7, a bin 0.4; a piece of wall between two doors is longer.
 const FURNITURE_M: f64 = 1.0;
 
+/// Largest diagonal of desks and shelves that stand together, metres: a block of four desks has 3.6.
+const DESKS_M: f64 = 4.0;
+/// Greatest thickness of a piece of wall, metres, with what is hung on it.
+const THICKEST_WALL_M: f64 = 0.4;
+
 /// Largest ground that is the inside of a stack, square metres: a place of the largest pitch and depth, 3.2 by 1.8 m.
 /// Nobody enters it, since nothing opens.
 const COMPARTMENT_M2: f64 = 5.8;
 
+/// Columns and rows of two cells at which an opening begins and ends.
+pub(super) type Jambs = [[i64; 2]; 2];
+
 /// Which cells are ground.
+#[derive(Clone)]
 pub(super) struct RoomGround {
     /// Columns of the grid.
     pub width: usize,
@@ -66,6 +78,48 @@ impl RoomGround {
         [below - 1, below, below + 1, cell - 1, cell + 1, above - 1, above, above + 1]
     }
 
+    /// The middle of a cell, given by its column and row, metres.
+    pub(super) fn middle_of(&self, [column, row]: [i64; 2]) -> Point {
+        Point::new(column as f64 + 0.5, row as f64 + 0.5) * self.cell
+    }
+
+    /// The cell at a point, if it is ground; metres.
+    pub(super) fn cell_at(&self, point: Point) -> Option<usize> {
+        let [column, row] = [point.x, point.y].map(|side| (side / self.cell).floor() as i64);
+        self.holds(column, row).then(|| row as usize * self.width + column as usize)
+    }
+
+    /// The cells of a line from one cell to another: no step up, down, left or right leads through between two of them.
+    pub(super) fn cells_between(&self, &[from, to]: &Jambs) -> impl Iterator<Item = usize> + use<> {
+        let span = [to[0] - from[0], to[1] - from[1]];
+        let steps = 2 * span[0].abs().max(span[1].abs()).max(1);
+        let width = self.width;
+        (0..=steps).map(move |step| {
+            let at = |axis: usize| (from[axis] as f64 + (span[axis] * step) as f64 / steps as f64).round() as usize;
+            at(1) * width + at(0)
+        })
+    }
+
+    /// Turns desks and shelves into ground: what stands alone, is no longer than [`DESKS_M`] and no straight piece of wall,
+    /// unless it is a part of some walls.
+    pub(super) fn clear_furniture(&mut self, walls: &[Jambs], watch: &Watch<'_>) -> Result<(), Stopped> {
+        let ends = walls.iter().flatten().map(|&[column, row]| row as usize * self.width + column as usize);
+        let is_wall: BTreeSet<usize> = ends.collect();
+        let size = [self.width, self.is_free.len()];
+        let is_obstacle = |cell: usize| !self.is_free[cell] && !self.is_stack[cell];
+        let obstacles = Components::of(size, Neighbours::Eight, is_obstacle, watch)?;
+        for obstacle in obstacles.iter() {
+            if !self.is_at_border(obstacle)
+                && obstacle.diagonal() * self.cell < DESKS_M
+                && obstacle.smallest_box(self.cell).sides()[1] >= THICKEST_WALL_M
+                && !obstacle.cells().any(|cell| is_wall.contains(&cell))
+            {
+                obstacle.cells().for_each(|cell| self.is_free[cell] = true);
+            }
+        }
+        Ok(())
+    }
+
     /// Turns small obstacles that stand alone into ground, and marks larger ones that are stacks, with what they enclose.
     fn sort_obstacles(&mut self, watch: &Watch<'_>) -> Result<(), Stopped> {
         let size = [self.width, self.is_free.len()];
@@ -73,8 +127,7 @@ impl RoomGround {
         let is_closed = |cell: usize| !self.is_free[cell] || compartments[cell];
         let obstacles = Components::of(size, Neighbours::Eight, is_closed, watch)?;
         for obstacle in obstacles.iter() {
-            let [columns, rows] = obstacle.bounds();
-            if columns.start == 0 || rows.start == 0 || columns.end == self.width || rows.end == self.height {
+            if self.is_at_border(obstacle) {
                 continue;
             }
             if obstacle.diagonal() * self.cell < FURNITURE_M {
@@ -84,6 +137,12 @@ impl RoomGround {
             }
         }
         Ok(())
+    }
+
+    /// Whether an obstacle reaches the border of the grid.
+    fn is_at_border(&self, obstacle: Component<'_>) -> bool {
+        let [columns, rows] = obstacle.bounds();
+        columns.start == 0 || rows.start == 0 || columns.end == self.width || rows.end == self.height
     }
 
     /// Which cells are ground without an opening and too small for a room.

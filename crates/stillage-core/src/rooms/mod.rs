@@ -1,13 +1,14 @@
 //! Rooms: the ground that walls divide, with the doors between them.
 //!
 //! ```text
-//! grid ─ ground ─┬─ doorways ─┬─ partition ─ floor_plan ─┬─ room_cells ─ room_map (with doors)
-//!                └─ gates ────┘              └─ zones    └─ stacks, borders
+//! grid ─ ground ─ passages ─┬─ doorways ─┬─ partition ─ floor_plan ─┬─ room_cells ─ room_map (with doors)
+//!                           └─ gates ────┘              └─ zones    └─ stacks, borders
 //! ```
 //!
 //! | module | what comes out |
 //! | --- | --- |
 //! | [`ground`] | free cells, and small obstacles that stand on them alone |
+//! | [`passages`] | straight strips between two walls, and where they are open |
 //! | [`doorways`], [`gates`] | lines across the ground where it parts two rooms, or a bay and its hall |
 //! | [`partition`] | the room of every cell when all of them are closed |
 //! | [`floor_plan`] | all of it together: rooms, zones, stacks and borders on request |
@@ -28,6 +29,7 @@ mod gates;
 mod ground;
 mod junctions;
 mod partition;
+mod passages;
 mod room_cells;
 mod room_kinds;
 mod room_map;

@@ -8,9 +8,10 @@
 use std::collections::VecDeque;
 
 use super::doorways::Doorway;
-use super::ground::RoomGround;
+use super::ground::{Jambs, RoomGround};
 use crate::components::{Components, Neighbours};
 use crate::distance_transform::{DistanceTransform, NONE};
+use crate::geometry::DisjointSets;
 use crate::watch::{Stopped, Watch};
 
 /// Least area of a room, square metres: a cupboard that one can stand in.
@@ -34,16 +35,15 @@ pub(super) struct Partition {
 }
 
 impl Partition {
-    pub(super) fn of<'a>(
+    /// Divides the ground where lines between two jambs, or two parts of a wall, close it.
+    pub(super) fn of(
         ground: &RoomGround,
-        doorways: impl Iterator<Item = &'a Doorway>,
+        closed: impl Iterator<Item = Jambs>,
         watch: &Watch<'_>,
     ) -> Result<Self, Stopped> {
         let mut is_open = ground.is_free.clone();
-        for doorway in doorways {
-            for cell in cells_along(ground, doorway) {
-                is_open[cell] = false;
-            }
+        for jambs in closed {
+            ground.cells_between(&jambs).for_each(|cell| is_open[cell] = false);
         }
         let (count, mut rooms) = components(ground, &is_open, watch)?;
         spread(ground, &mut rooms, watch)?;
@@ -58,6 +58,21 @@ impl Partition {
             })
             .collect();
         Ok(Self { count, rooms: shared, nearest: transform.nearest })
+    }
+
+    /// Makes one room of all that are in one set.
+    pub(super) fn join(&mut self, sets: &mut DisjointSets) {
+        let mut numbers = vec![0; self.count + 1];
+        self.count = 0;
+        for room in 1..numbers.len() {
+            let first = sets.find(room);
+            if numbers[first] == 0 {
+                self.count += 1;
+                numbers[first] = self.count as u32;
+            }
+            numbers[room] = numbers[first];
+        }
+        self.rooms.iter_mut().for_each(|room| *room = numbers[*room as usize]);
     }
 
     /// The room whose ground is nearest to a cell, however far; 0 without rooms.
@@ -79,18 +94,6 @@ impl Partition {
             if ground.holds(column, row) { self.rooms[row as usize * ground.width + column as usize] } else { 0 }
         })
     }
-}
-
-/// The cells of a line across a doorway: no step up, down, left or right leads through between two of them.
-fn cells_along(ground: &RoomGround, doorway: &Doorway) -> impl Iterator<Item = usize> {
-    let [from, to] = doorway.ends;
-    let span = [to[0] - from[0], to[1] - from[1]];
-    let steps = 2 * span[0].abs().max(span[1].abs()).max(1);
-    let width = ground.width;
-    (0..=steps).map(move |step| {
-        let at = |axis: usize| (from[axis] as f64 + (span[axis] * step) as f64 / steps as f64).round() as usize;
-        at(1) * width + at(0)
-    })
 }
 
 /// Four-connected components that are large enough, numbered in the order of their first cells.

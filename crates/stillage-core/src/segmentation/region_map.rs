@@ -34,6 +34,12 @@ impl RegionMap {
     /// No region: outside the known part of the map.
     pub const NONE: u8 = u8::MAX;
 
+    /// The first direction of the largest region, radians; 0 without regions.
+    pub(crate) fn main_direction(&self) -> f64 {
+        let largest = self.regions.iter().max_by(|one, other| one.share.total_cmp(&other.share));
+        largest.and_then(|region| region.orientations.first().copied()).unwrap_or(0.0)
+    }
+
     /// Region of a cell, by column and row.
     #[must_use]
     pub fn region_of_cell(&self, column: usize, row: usize) -> Option<u8> {

@@ -54,7 +54,7 @@ fn assemble(
     if rooms.count == 0 {
         return Ok(SitePlan { lines, plots, rooms, vehicles_m });
     }
-    let main = main_direction(regions);
+    let main = regions.main_direction();
     let kinds = floor_plan.kinds(&rooms, watch)?;
     let stacks = floor_plan.stacks(grid, &rooms, main, watch)?;
     let storage = storage::find(grid, &rooms, &stacks, kinds.hall, watch)?;
@@ -69,12 +69,6 @@ fn assemble(
     let borders = floor_plan.borders(&rooms, watch)?;
     lines.extend(borders.into_iter().map(|ends| border_line(grid, ends)));
     Ok(SitePlan { lines, plots, rooms, vehicles_m })
-}
-
-/// The first direction of the largest region, radians.
-fn main_direction(regions: &RegionMap) -> f64 {
-    let largest = regions.regions.iter().max_by(|one, other| one.share.total_cmp(&other.share));
-    largest.and_then(|region| region.orientations.first().copied()).unwrap_or(0.0)
 }
 
 /// A border as a line of no region, supported by the occupied cells under it.

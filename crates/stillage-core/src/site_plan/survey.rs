@@ -45,7 +45,7 @@ impl Survey {
         options: &DecompositionOptions,
         watch: &Watch<'_>,
     ) -> Result<Self, Stopped> {
-        let floor_plan = watch.stage(Stage::Rooms, || FloorPlan::of(grid, watch))?;
+        let floor_plan = watch.stage(Stage::Rooms, || FloorPlan::of(grid, regions.main_direction(), watch))?;
         let (marked, halls) = watch.stage(Stage::Rows, || {
             let marked = MarkedRows::find(grid, regions, watch)?;
             Ok((marked, Halls::find(grid, regions, &floor_plan, &[], options, watch)?))
@@ -59,7 +59,7 @@ impl Survey {
         let filled = marks::filled(grid, &whole);
         let known: &[MarkedRow] = if is_better { &whole } else { &[] };
         let watch = watch.silent();
-        let floor_plan = FloorPlan::of(&filled, &watch)?;
+        let floor_plan = FloorPlan::of(&filled, regions.main_direction(), &watch)?;
         let halls = Halls::find(&filled, regions, &floor_plan, known, options, &watch)?;
         Ok(Self { filled: Some(filled), floor_plan, halls })
     }

@@ -114,8 +114,8 @@ fn rooms_open_to_a_corridor_through_doors() {
             room 0: 13.6 m2 in 1 face
             room 1: 9.8 m2 in 1 face
             room 2: 10.2 m2 in 1 face
-            door 1|0 of 0.85 m at (2.0, 1.8)
-            door 2|0 of 0.85 m at (5.8, 1.8)
+            door 1|0 of 0.85 m at (2.0, 1.6)
+            door 2|0 of 0.85 m at (5.8, 1.6)
         "#]],
     );
 }
@@ -164,7 +164,7 @@ fn corridors_are_long_and_have_doors_and_meet_in_junctions() {
         rrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrr
         rrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrr
         rrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrr
-        rrrrrrrrcccccrrrrrrrrrrrrrrrrcccccrrrrrrrrrrrrrrcccccrrrrrrrrr
+        rrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrr
         ccccccccccccccccccccccccccjjjjjjjjjjcccccccccccccccccccccccccc
         ccccccccccccccccccccccccccjjjjjjjjjjcccccccccccccccccccccccccc
         ccccccccccccccccccccccccccjjjjjjjjjjcccccccccccccccccccccccccc
@@ -180,12 +180,12 @@ fn corridors_are_long_and_have_doors_and_meet_in_junctions() {
         rrrrrrrrrrrrrrrrrrrrrrrrrcccccccccccrrrrrrrrrrrrrrrrrrrrrrrrrr
         rrrrrrrrrrrrrrrrrrrrrrrrrcccccccccccrrrrrrrrrrrrrrrrrrrrrrrrrr
         rrrrrrrrrrrrrrrrrrrrrrrrrcccccccccccrrrrrrrrrrrrrrrrrrrrrrrrrr
-        rrrrrrrrrrrrrrrrrrrrrrrrrcccccccccccrrrrrrrrrrrrrrrrrrrrrrrrrr
-        rrrrrrrrrrrrrrrrrrrrrrrrrcccccccccccrrrrrrrrrrrrrrrrrrrrrrrrrr
-        rrrrrrrrrrrrrrrrrrrrrrrrrcccccccccccrrrrrrrrrrrrrrrrrrrrrrrrrr
-        rrrrrrrrrrrrrrrrrrrrrrrrrcccccccccccrrrrrrrrrrrrrrrrrrrrrrrrrr
-        rrrrrrrrrrrrrrrrrrrrrrrrrcccccccccccrrrrrrrrrrrrrrrrrrrrrrrrrr
-        rrrrrrrrrrrrrrrrrrrrrrrrrcccccccccccrrrrrrrrrrrrrrrrrrrrrrrrrr
+        rrrrrrrrrrrrrrrrrrrrrrrrrrccccccccccrrrrrrrrrrrrrrrrrrrrrrrrrr
+        rrrrrrrrrrrrrrrrrrrrrrrrrrccccccccccrrrrrrrrrrrrrrrrrrrrrrrrrr
+        rrrrrrrrrrrrrrrrrrrrrrrrrrccccccccccrrrrrrrrrrrrrrrrrrrrrrrrrr
+        rrrrrrrrrrrrrrrrrrrrrrrrrrccccccccccrrrrrrrrrrrrrrrrrrrrrrrrrr
+        rrrrrrrrrrrrrrrrrrrrrrrrrrccccccccccrrrrrrrrrrrrrrrrrrrrrrrrrr
+        rrrrrrrrrrrrrrrrrrrrrrrrrrccccccccccrrrrrrrrrrrrrrrrrrrrrrrrrr
         rrrrrrrrrrrrrrrrrrrrrrrrrcccccccccccrrrrrrrrrrrrrrrrrrrrrrrrrr
         rrrrrrrrrrrrrrrrrrrrrrrrrcccccccccccrrrrrrrrrrrrrrrrrrrrrrrrrr
         rrrrrrrrrrrrrrrrrrrrrrrrrcccccccccccrrrrrrrrrrrrrrrrrrrrrrrrrr
@@ -228,11 +228,11 @@ fn corridors_are_long_and_have_doors_and_meet_in_junctions() {
         #........................#..........#........................#
         #........................#..........#........................#
         #........................#..........#........................#
-        #........................#..........#........................#
-        #........................#..........#........................#
-        #........................#..........#........................#
-        #........................#..........#........................#
-        #........................#..........#........................#
+        #...................................#........................#
+        #...................................#........................#
+        #...................................#........................#
+        #...................................#........................#
+        #...................................#........................#
         #........................#..........#........................#
         #........................#..........#........................#
         #........................#..........#........................#
