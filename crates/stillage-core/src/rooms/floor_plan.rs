@@ -56,6 +56,11 @@ impl FloorPlan {
         is_inside.then(|| self.partition.nearest_room(row * self.ground.width + column))
     }
 
+    /// All rooms of a site without a hall.
+    pub(crate) fn all_rooms(&self) -> RoomCells {
+        self.rooms_beside(&vec![false; self.partition.count + 1])
+    }
+
     /// The rooms that are no part of a hall, and the doors and gates that lead into them; `is_hall` is indexed by room, entry
     /// 0 is not read. Only a gate to a hall parts rooms: a bay whose gate leads to another room is part of it.
     pub(crate) fn rooms_beside(&self, is_hall: &[bool]) -> RoomCells {

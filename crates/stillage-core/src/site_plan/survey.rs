@@ -12,6 +12,7 @@
 //! Cost: that of two surveys at most.
 
 use super::halls::Halls;
+use crate::decomposition::Decomposition;
 use crate::grid::OccupancyGrid;
 use crate::marks::{self, MarkedRow, MarkedRows};
 use crate::plot::PlotKind;
@@ -57,10 +58,14 @@ impl Survey {
             return Ok(Self { filled: None, floor_plan, halls });
         }
         let filled = marks::filled(grid, &whole);
-        let known: &[MarkedRow] = if is_better { &whole } else { &[] };
         let watch = watch.silent();
         let floor_plan = FloorPlan::of(&filled, regions.main_direction(), &watch)?;
-        let halls = Halls::find(&filled, regions, &floor_plan, known, options, &watch)?;
+        let halls = if is_better {
+            Halls::find(&filled, regions, &floor_plan, &whole, options, &watch)?
+        } else {
+            // Whole racks are no rows of goods, however equal they are.
+            Halls { rows: Decomposition::default(), rooms: floor_plan.all_rooms() }
+        };
         Ok(Self { filled: Some(filled), floor_plan, halls })
     }
 }
@@ -72,7 +77,7 @@ fn explain_more(marked: &MarkedRows, halls: &Halls) -> bool {
         return !marked.rows.is_empty();
     }
     let of_goods = halls.rows.plots.iter().filter(|plot| plot.kind == PlotKind::Place).count() as f64;
-    let may_be_legs = marked.usual_pitch() < LEGS_M || marked.explained < EXPLAINED_LEGS;
+    let may_be_legs = marked.usual_pitch() < LEGS_M && marked.explained < EXPLAINED_LEGS;
     marked.explained >= EXPLAINED_BESIDE_GOODS && (!may_be_legs || places <= PLACES_OF_LEGS * of_goods)
 }
 
@@ -84,13 +89,14 @@ fn racks_in_hall(
     halls: &Halls,
     watch: &Watch<'_>,
 ) -> Result<Vec<MarkedRow>, Stopped> {
-    if racks.is_empty() || halls.rooms.count == 0 || halls.rows.plots.iter().any(|plot| plot.kind == PlotKind::Place) {
+    if racks.is_empty() || halls.rows.plots.iter().any(|plot| plot.kind == PlotKind::Place) {
         return Ok(Vec::new());
     }
-    let hall = floor_plan.kinds(&halls.rooms, watch)?.hall;
+    let rooms = floor_plan.all_rooms();
+    let hall = floor_plan.kinds(&rooms, watch)?.hall;
     racks.retain(|rack| {
         let cell = grid.cell_at(rack.bounds().center).map(|(column, row)| row * grid.width() + column);
-        hall.is_some() && cell.map(|cell| halls.rooms.cells[cell]) == hall
+        hall.is_some() && cell.map(|cell| rooms.cells[cell]) == hall
     });
     Ok(racks)
 }

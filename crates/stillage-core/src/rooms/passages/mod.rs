@@ -137,7 +137,7 @@ mod tests {
         let grid = OccupancyGrid::from_ascii(picture, 0.5);
         let watch = Watch::unwatched();
         let plan = FloorPlan::of(&grid, 0.0, &watch).expect("nobody stops it");
-        let rooms = plan.rooms_beside(&vec![false; plan.zones().of_room.len()]);
+        let rooms = plan.all_rooms();
         let symbol = |(&room, &cell): (&u32, &Occupancy)| match cell {
             Occupancy::Free => char::from(b'a' + room.wrapping_sub(1) as u8),
             _ => '#',
