@@ -19,6 +19,7 @@ mod location_errors;
 mod moved;
 mod offices;
 mod real;
+mod room_scans;
 mod rooms;
 mod rotation;
 mod scan;
@@ -158,6 +159,7 @@ fn main() -> Outcome<()> {
     }
     if arguments.rooms {
         tell("rooms", &rooms::table(&arguments.shared.join("maps/dev"))?)?;
+        tell("room-scans", &room_scans::scans(&arguments.shared.join("maps/dev"))?)?;
     }
     if arguments.write { document.write() } else { Ok(()) }
 }

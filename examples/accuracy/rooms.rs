@@ -24,11 +24,11 @@ const SETS: [(&str, &str); 2] = [("plain", "map.png"), ("furnished", "map_furnis
 
 /// Panoptic quality and strict MCC of one map.
 #[derive(Debug, Clone, Copy)]
-struct Scores {
-    panoptic: f64,
-    strict: f64,
-    places: usize,
-    rooms: usize,
+pub struct Scores {
+    pub panoptic: f64,
+    pub strict: f64,
+    pub places: usize,
+    pub rooms: usize,
 }
 
 /// The table of all maps `bormann__*` in a folder.
@@ -112,7 +112,7 @@ fn components(is_in: &[bool], width: usize) -> Vec<usize> {
 }
 
 /// Segments of more than [`SMALLEST`] cells.
-fn without_small(mut labels: Vec<usize>) -> Vec<usize> {
+pub fn without_small(mut labels: Vec<usize>) -> Vec<usize> {
     let mut sizes = vec![0; labels.iter().max().map_or(1, |&last| last + 1)];
     for &label in &labels {
         sizes[label] += 1;
@@ -124,7 +124,7 @@ fn without_small(mut labels: Vec<usize>) -> Vec<usize> {
 }
 
 /// How many cells places and rooms have, and have in common; 0 is no segment.
-struct Contingency {
+pub struct Contingency {
     places: BTreeMap<usize, f64>,
     rooms: BTreeMap<usize, f64>,
     common: BTreeMap<(usize, usize), f64>,
@@ -133,7 +133,7 @@ struct Contingency {
 }
 
 impl Contingency {
-    fn of(places: &[usize], rooms: &[usize]) -> Self {
+    pub fn of(places: &[usize], rooms: &[usize]) -> Self {
         let mut table = Self { places: BTreeMap::new(), rooms: BTreeMap::new(), common: BTreeMap::new(), cells: 0.0 };
         for (&place, &room) in places.iter().zip(rooms).filter(|&(&place, &room)| place + room > 0) {
             table.cells += 1.0;
@@ -150,7 +150,7 @@ impl Contingency {
         table
     }
 
-    fn scores(&self) -> Scores {
+    pub fn scores(&self) -> Scores {
         let segments = (self.places.len() + self.rooms.len()) as f64;
         let overlap = |(&(place, room), &common): (&(usize, usize), &f64)| {
             common / (self.places[&place] + self.rooms[&room] - common)

@@ -146,6 +146,9 @@ impl Frame<'_> {
             .map(|side| steps(reach).take_while(|aside| is_free(width / 2.0, side * aside)).count())
             .iter()
             .sum();
-        steps(reach).all(|ahead| is_free(ahead, 0.0)) && across as f64 * self.ground.cell >= reach
+        // A door ahead of it lets one of three lines through, a table leaves two of them.
+        let goes_on = |aside: &f64| steps(reach).all(|ahead| is_free(ahead, aside * width));
+        [-0.25, 0.0, 0.25].iter().filter(|aside| goes_on(aside)).count() >= 2
+            && across as f64 * self.ground.cell >= reach
     }
 }
