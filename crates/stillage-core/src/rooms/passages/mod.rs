@@ -57,11 +57,11 @@ impl RoomPassages {
         Ok(Self { strips, openings, walls })
     }
 
-    /// The ground with all openings of the passages closed.
+    /// The ground with all openings of the passages closed, by lines two cells wide: no step aslant leads through them.
     pub(super) fn closed(&self, ground: &RoomGround) -> RoomGround {
         let mut closed = ground.clone();
-        for jambs in self.closings() {
-            ground.cells_between(&jambs).for_each(|cell| closed.is_free[cell] = false);
+        for cell in self.closings().flat_map(|jambs| ground.cells_between(&jambs)) {
+            closed.is_free[cell..].iter_mut().take(2).for_each(|is_free| *is_free = false);
         }
         closed
     }

@@ -11,7 +11,7 @@ use crate::geometry::{Point, direction, normal};
 use crate::watch::{Stopped, Watch};
 
 /// Least and greatest width, metres: one person, and two trucks that pass each other.
-pub(super) const WIDTHS_M: [f64; 2] = [1.0, 4.0];
+const WIDTHS_M: [f64; 2] = [1.0, 4.0];
 /// Least length in widths, and in metres. No measurement is recorded for these values.
 const LEAST_LENGTH: f64 = 4.0;
 const LEAST_LENGTH_M: f64 = 6.0;
