@@ -83,9 +83,14 @@ impl RoomGround {
         Point::new(column as f64 + 0.5, row as f64 + 0.5) * self.cell
     }
 
-    /// The cell at a point, if it is ground; metres.
+    /// Column and row of the cell at a point, metres; it may lie outside the map.
+    pub(super) fn place_of(&self, point: Point) -> [i64; 2] {
+        [point.x, point.y].map(|side| (side / self.cell).floor() as i64)
+    }
+
+    /// The cell at a point, metres, if it is ground.
     pub(super) fn cell_at(&self, point: Point) -> Option<usize> {
-        let [column, row] = [point.x, point.y].map(|side| (side / self.cell).floor() as i64);
+        let [column, row] = self.place_of(point);
         self.holds(column, row).then(|| row as usize * self.width + column as usize)
     }
 

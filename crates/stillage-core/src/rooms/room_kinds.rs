@@ -9,7 +9,7 @@
 //! | halls with goods | 0.82 to 1.00 |
 //! | a hall of rooms and boxes | 0.49 |
 //! | an office with one large room | 0.53 |
-//! | 25 of 26 maps of offices | 0.07 to 0.45 |
+//! | 24 of 26 maps of offices | 0.07 to 0.45 |
 //! | an open-plan office | 0.70 |
 //! | a basement of corridors | 0.73, a corridor |
 //!
@@ -22,7 +22,7 @@ use super::room_cells::RoomCells;
 use super::room_shape::RoomShape;
 use crate::watch::{Stopped, Watch};
 
-/// Least share of the ground of a site in its hall: two thirds (see the table above; no other map was tried).
+/// Least share of the ground of a site in its hall: about two thirds (see the table above; no other map was tried).
 const HALL_SHARE: f64 = 0.65;
 
 /// What the rooms of a site are.

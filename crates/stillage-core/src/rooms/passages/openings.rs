@@ -128,8 +128,7 @@ impl Frame<'_> {
     }
 
     fn cell_at(&self, along: f64, across: f64) -> [i64; 2] {
-        let point = self.point_at(along, across);
-        [point.x, point.y].map(|side| (side / self.ground.cell).floor() as i64)
+        self.ground.place_of(self.point_at(along, across))
     }
 
     fn is_closed(&self, [column, row]: [i64; 2]) -> bool {
