@@ -107,7 +107,7 @@ fn one(style: DrawingStyle, seed: u64, arguments: &Arguments) -> Outcome<Drawing
         if meta.soft { " soft" } else { "" },
         meta.empty,
     );
-    Ok(Drawing { evaluation, errors: location_errors::of(&analysis, &sample.truth) })
+    Ok(Drawing { evaluation, errors: location_errors::of(&site.grid, &analysis, &sample.truth) })
 }
 
 /// Mean and 95th percentile of the distances of centres, centimetres, and the largest error of a heading, degrees.

@@ -3,7 +3,8 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use stillage_core::geometry::{OrientedBox, Point, Vector, line_angle_between, ring_area};
-use stillage_core::{Analysis, layout};
+use stillage_core::layout::Location;
+use stillage_core::{Analysis, OccupancyGrid};
 use stillage_zoo::{Properties, Truth};
 
 use crate::sites;
@@ -24,9 +25,9 @@ pub struct LocationError {
 }
 
 /// How many locations of a map head aslant to their own oriented box, by more than [`ASLANT`], and how many there are.
-pub fn aslant(analysis: &Analysis) -> [usize; 2] {
-    let locations = layout::locations(analysis, &sites::suggested(analysis));
-    let is_aslant = |location: &&layout::Location| {
+pub fn aslant(grid: &OccupancyGrid, analysis: &Analysis) -> [usize; 2] {
+    let locations = sites::locations(grid, analysis);
+    let is_aslant = |location: &&Location| {
         let corners: Vec<Point> = analysis.subdivision.rings(location.face).concat();
         let along = OrientedBox::smallest_around(&corners).angle;
         let error = line_angle_between(location.heading, along);
@@ -36,7 +37,7 @@ pub fn aslant(analysis: &Analysis) -> [usize; 2] {
 }
 
 /// The errors of all locations that stand for a place.
-pub fn of(analysis: &Analysis, truth: &Truth) -> Vec<LocationError> {
+pub fn of(grid: &OccupancyGrid, analysis: &Analysis, truth: &Truth) -> Vec<LocationError> {
     let angle = truth.features.iter().find_map(|feature| match feature.properties {
         Properties::Region { angle_deg, .. } => Some(angle_deg.to_radians()),
         _ => None,
@@ -53,7 +54,7 @@ pub fn of(analysis: &Analysis, truth: &Truth) -> Vec<LocationError> {
             (Point::from(middle), ring_area(corners))
         })
         .collect();
-    let error = |location: &layout::Location| {
+    let error = |location: &Location| {
         let center = analysis.frame.to_map(location.center);
         let distance = |place: &(Point, f64)| (place.0 - center).norm();
         let place = places.iter().min_by(|one, other| distance(one).total_cmp(&distance(other)))?;
@@ -62,5 +63,5 @@ pub fn of(analysis: &Analysis, truth: &Truth) -> Vec<LocationError> {
         let heading = line_angle_between(analysis.frame.angle_to_map(location.heading), across);
         is_alike.then(|| LocationError { center: distance(place), heading })
     };
-    layout::locations(analysis, &sites::suggested(analysis)).iter().filter_map(error).collect()
+    sites::locations(grid, analysis).iter().filter_map(error).collect()
 }

@@ -59,7 +59,7 @@ pub fn real(arguments: &Arguments) -> Outcome<String> {
         if let Some(folder) = arguments.shown().filter(|_| SHOWN.contains(&map.name.as_str())) {
             std::fs::write(folder.join(format!("{}.png", map.name)), sites::small_picture(&map.grid, &analysis)?)?;
         }
-        Ok((map.truth.score(&analysis, &sites::suggested(&analysis)), location_errors::aslant(&analysis)))
+        Ok((map.truth.score(&analysis, &sites::suggested(&analysis)), location_errors::aslant(&map.grid, &analysis)))
     };
     let measured: Vec<(MapScore, [usize; 2])> = maps.par_iter().map(one).collect::<Outcome<_>>()?;
     let (scores, aslant): (Vec<MapScore>, Vec<[usize; 2]>) = measured.into_iter().unzip();

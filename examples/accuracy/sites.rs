@@ -8,9 +8,10 @@ use rayon::prelude::*;
 use stillage::ingest::{self, Limits, MapSource};
 use stillage::render;
 use stillage_core::evaluation::{self, Evaluation, GroundTruth};
+use stillage_core::layout::{self, LayoutSpec, Location};
 use stillage_core::semantics::{self, Assignment, RuleSet, SemanticMap};
 use stillage_core::spec::{AnnotationMethod, DecompositionMethod, GridOptions, OrientationMethod, RegionMethod};
-use stillage_core::{Analysis, AnalysisOptions, AnalysisSpec, OccupancyGrid, Watch, analyze, layout};
+use stillage_core::{Analysis, AnalysisOptions, AnalysisSpec, OccupancyGrid, SiteCells, Watch, analyze};
 use stillage_zoo::{Kind, Options, Sample};
 
 use crate::Outcome;
@@ -174,8 +175,14 @@ pub fn zoo(seeds: RangeInclusive<u64>, pictures: Option<&Path>) -> Outcome<Vec<O
 /// A picture of an analysis under its suggested labels.
 pub fn picture(grid: &OccupancyGrid, analysis: &Analysis) -> Vec<u8> {
     let semantic = suggested(analysis);
-    let locations = layout::locations(analysis, &semantic);
-    render::semantic_png(grid, analysis, &semantic, &locations)
+    render::semantic_png(grid, analysis, &semantic, &locations(grid, analysis))
+}
+
+/// The storage locations of an analysis under its suggested labels.
+pub fn locations(grid: &OccupancyGrid, analysis: &Analysis) -> Vec<Location> {
+    let semantic = suggested(analysis);
+    let cells = SiteCells::of(grid, analysis);
+    layout::layout(&cells.map(grid, analysis, &semantic), &LayoutSpec::of(&analysis.options)).locations
 }
 
 /// The same picture for a page of text, at most so large.

@@ -6,10 +6,9 @@
 
 use std::sync::Arc;
 
-use stillage_core::arrangement::CellFaces;
-use stillage_core::layout;
+use stillage_core::layout::{self, LayoutSpec};
 use stillage_core::semantics::{self, Assignment, RuleSet, RuleSetDraft};
-use stillage_core::{Analysis, OccupancyGrid};
+use stillage_core::{Analysis, OccupancyGrid, SiteCells};
 use uuid::Uuid;
 
 use super::map_context::{FeatureCache, MapContext};
@@ -54,7 +53,7 @@ impl App {
 struct GeometricLevel {
     grid: Arc<OccupancyGrid>,
     analysis: Arc<Analysis>,
-    cells: Arc<CellFaces>,
+    cells: Arc<SiteCells>,
 }
 
 impl GeometricLevel {
@@ -66,7 +65,7 @@ impl GeometricLevel {
     fn read(source: &Blob, blob: &Blob, record: &AnalysisRecord, limits: &Limits) -> Result<Self, AppError> {
         let grid = ingest::decode(&source.decode::<MapSource>()?, &record.options.grid, limits)?.grid;
         let analysis: Analysis = blob.decode()?;
-        let cells = CellFaces::rasterize(&analysis.subdivision, grid.width(), grid.height(), grid.resolution());
+        let cells = SiteCells::of(&grid, &analysis);
         Ok(Self { grid: Arc::new(grid), analysis: Arc::new(analysis), cells: Arc::new(cells) })
     }
 
@@ -88,8 +87,8 @@ impl GeometricLevel {
             created: analysis.created,
         });
         let semantic = semantics::apply(&self.analysis, &rule_set, &semantics.assignment)?;
-        let locations = layout::locations(&self.analysis, &semantic);
         let Self { grid, analysis: geometric, cells } = self;
+        let layout = layout::layout(&cells.map(&grid, &geometric, &semantic), &LayoutSpec::of(&geometric.options));
         Ok(MapContext {
             record,
             grid,
@@ -99,7 +98,7 @@ impl GeometricLevel {
             semantics,
             semantic,
             suggestions,
-            locations,
+            layout,
             features: FeatureCache::default(),
         })
     }

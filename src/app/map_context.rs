@@ -2,10 +2,9 @@
 
 use std::sync::{Arc, OnceLock};
 
-use stillage_core::arrangement::CellFaces;
-use stillage_core::layout::Location;
+use stillage_core::layout::Layout;
 use stillage_core::semantics::{SemanticMap, Suggestion};
-use stillage_core::{Analysis, OccupancyGrid};
+use stillage_core::{Analysis, OccupancyGrid, SiteCells, SiteMap};
 use uuid::Uuid;
 
 use crate::features::{self, AnalysedMap, Collection, Feature};
@@ -22,16 +21,16 @@ pub struct MapContext {
     pub analysis_id: Uuid,
     /// The geometric level.
     pub analysis: Arc<Analysis>,
-    /// The face of every cell.
-    pub cells: Arc<CellFaces>,
+    /// What is read off its cells.
+    pub cells: Arc<SiteCells>,
     /// The decision in force, or the suggestion.
     pub semantics: SemanticsRecord,
     /// The human level.
     pub semantic: SemanticMap,
     /// What each category is proposed to be under the rule set in force.
     pub suggestions: Vec<Suggestion>,
-    /// The storage locations, by code.
-    pub locations: Vec<Location>,
+    /// Storage locations, aisles and rows.
+    pub layout: Layout,
     /// Its collections, made when they are first asked for.
     pub(super) features: FeatureCache,
 }
@@ -44,7 +43,13 @@ impl MapContext {
     /// The map as [`crate::features`] reads it.
     #[must_use]
     pub fn view(&self) -> AnalysedMap<'_> {
-        AnalysedMap { analysis: &self.analysis, semantic: &self.semantic, locations: &self.locations }
+        AnalysedMap { analysis: &self.analysis, semantic: &self.semantic, layout: &self.layout }
+    }
+
+    /// The map as layout, graph and routing read it.
+    #[must_use]
+    pub fn site(&self) -> SiteMap<'_> {
+        self.cells.map(&self.grid, &self.analysis, &self.semantic)
     }
 
     /// The features of a collection, by id. The first call makes them: keep it off the runtime.

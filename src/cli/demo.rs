@@ -133,7 +133,7 @@ fn summary(context: &MapContext, job: &JobRecord) -> String {
         analysis.lines.len(),
         analysis.subdivision.face_count().saturating_sub(1),
         analysis.subdivision.edge_count(),
-        context.locations.len(),
+        context.layout.locations.len(),
         labels.join("; "),
     )
 }

@@ -23,11 +23,15 @@ pub enum Collection {
     Doors,
     /// Storage locations.
     Locations,
+    /// Aisles between rows of locations.
+    Aisles,
+    /// Rows of locations along one side of an aisle.
+    Rows,
 }
 
 impl Collection {
     /// All of them, in the order in which they are listed.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 12] = [
         Self::Faces,
         Self::Edges,
         Self::Vertices,
@@ -38,6 +42,8 @@ impl Collection {
         Self::Places,
         Self::Doors,
         Self::Locations,
+        Self::Aisles,
+        Self::Rows,
     ];
 
     /// The id in URLs and file names.
@@ -54,6 +60,8 @@ impl Collection {
             Self::Places => "places",
             Self::Doors => "doors",
             Self::Locations => "locations",
+            Self::Aisles => "aisles",
+            Self::Rows => "rows",
         }
     }
 

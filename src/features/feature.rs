@@ -5,7 +5,9 @@ use stillage_core::geometry::Bounds;
 use super::collection::Collection;
 use super::geometry::Geometry;
 use super::id::FeatureId;
-use super::rows::{doors, edges, faces, lines, links, locations, nodes, places, regions, vertices};
+use super::rows::{
+    aisles, doors, edges, faces, lines, links, locations, nodes, places, regions, storage_rows, vertices,
+};
 use super::schema::CollectionSchema;
 use super::value::Value;
 
@@ -36,6 +38,8 @@ pub enum Row {
     Place(places::PlaceRow),
     Door(doors::DoorRow),
     Location(locations::LocationRow),
+    Aisle(aisles::AisleRow),
+    StorageRow(storage_rows::StorageRow),
 }
 
 impl Row {
@@ -53,6 +57,8 @@ impl Row {
             Self::Place(_) => Collection::Places,
             Self::Door(_) => Collection::Doors,
             Self::Location(_) => Collection::Locations,
+            Self::Aisle(_) => Collection::Aisles,
+            Self::StorageRow(_) => Collection::Rows,
         }
     }
 
@@ -73,6 +79,8 @@ impl Row {
             Self::Place(row) => (places::TABLE.columns[index].value)(row),
             Self::Door(row) => (doors::TABLE.columns[index].value)(row),
             Self::Location(row) => (locations::TABLE.columns[index].value)(row),
+            Self::Aisle(row) => (aisles::TABLE.columns[index].value)(row),
+            Self::StorageRow(row) => (storage_rows::TABLE.columns[index].value)(row),
         }
     }
 }

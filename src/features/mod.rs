@@ -57,6 +57,8 @@ pub fn features(view: &AnalysedMap<'_>, collection: Collection) -> Vec<Feature> 
         Collection::Places => wrap(rows::places::read(view), Row::Place),
         Collection::Doors => wrap(rows::doors::read(view), Row::Door),
         Collection::Locations => wrap(rows::locations::read(view), Row::Location),
+        Collection::Aisles => wrap(rows::aisles::read(view), Row::Aisle),
+        Collection::Rows => wrap(rows::storage_rows::read(view), Row::StorageRow),
     }
 }
 

@@ -56,6 +56,8 @@ pub enum Kind {
     Integers,
     /// Numbers.
     Numbers,
+    /// Texts.
+    Texts,
     /// Some of these words.
     Words(&'static [&'static str]),
     /// x and y, map frame, metres.

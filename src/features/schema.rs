@@ -6,7 +6,9 @@ use super::collection::Collection;
 use super::geometry::GeometryType;
 use super::id::FeatureId;
 use super::property::Property;
-use super::rows::{doors, edges, faces, lines, links, locations, nodes, places, regions, vertices};
+use super::rows::{
+    aisles, doors, edges, faces, lines, links, locations, nodes, places, regions, storage_rows, vertices,
+};
 use super::table::Table;
 
 /// What the features of a collection are.
@@ -35,6 +37,8 @@ static SCHEMAS: LazyLock<[CollectionSchema; Collection::ALL.len()]> = LazyLock::
         Collection::Places => schema(&places::TABLE),
         Collection::Doors => schema(&doors::TABLE),
         Collection::Locations => schema(&locations::TABLE),
+        Collection::Aisles => schema(&aisles::TABLE),
+        Collection::Rows => schema(&storage_rows::TABLE),
     })
 });
 

@@ -4,10 +4,10 @@ use std::sync::OnceLock;
 
 use expect_test::expect;
 use stillage_core::geometry::{Point, ring_area};
-use stillage_core::layout::{self, Location};
+use stillage_core::layout::{self, Layout, LayoutSpec};
 use stillage_core::semantics::{self, Assignment, RuleSet, SemanticMap};
 use stillage_core::watch::Watch;
-use stillage_core::{Analysis, AnalysisOptions, GridFrame, Occupancy, OccupancyGrid};
+use stillage_core::{Analysis, AnalysisOptions, GridFrame, Occupancy, OccupancyGrid, SiteCells};
 
 use super::*;
 
@@ -33,7 +33,7 @@ fn hall() -> OccupancyGrid {
 struct Whole {
     analysis: Analysis,
     semantic: SemanticMap,
-    locations: Vec<Location>,
+    layout: Layout,
 }
 
 /// Analysed once for all tests.
@@ -44,22 +44,24 @@ fn whole() -> &'static Whole {
         options.categorization.stride = 4;
         options.categorization.beams = 60;
         let spec = options.check().unwrap();
-        let analysis = stillage_core::analyze(&hall(), &spec, &Watch::unwatched()).unwrap();
+        let grid = hall();
+        let analysis = stillage_core::analyze(&grid, &spec, &Watch::unwatched()).unwrap();
         let rule_set = RuleSet::warehouse();
         let label =
             |suggestion: semantics::Suggestion| (suggestion.category, rule_set.label(suggestion.label).id.clone());
         let assignment = semantics::suggest(&analysis, &rule_set).into_iter().map(label).collect();
         let assignment = Assignment { assignment, ..Assignment::default() };
         let semantic = semantics::apply(&analysis, &rule_set, &assignment).unwrap();
-        let locations = layout::locations(&analysis, &semantic);
-        Whole { analysis, semantic, locations }
+        let cells = SiteCells::of(&grid, &analysis);
+        let layout = layout::layout(&cells.map(&grid, &analysis, &semantic), &LayoutSpec::of(&analysis.options));
+        Whole { analysis, semantic, layout }
     })
 }
 
 /// The hall, analysed.
 pub(crate) fn hall_view() -> AnalysedMap<'static> {
     let whole = whole();
-    AnalysedMap { analysis: &whole.analysis, semantic: &whole.semantic, locations: &whole.locations }
+    AnalysedMap { analysis: &whole.analysis, semantic: &whole.semantic, layout: &whole.layout }
 }
 
 /// Every collection of the hall.
@@ -106,7 +108,9 @@ fn each_collection_has_its_properties() {
         regions (Polygon): id, orientations, share, box
         places (Polygon): id, label, labelName, functionality, areaM2, room, faces
         doors (LineString): id, widthM, from, to, links
-        locations (Polygon): code, face, label, labelName, aisle, bay, side, centre, widthM, depthM, headingDeg, occupancy, accessEdges, accessFrom, approach
+        locations (Polygon): code, face, part, label, labelName, aisle, bay, row, depthInRow, side, centre, widthM, depthM, headingDeg, areaM2, occupancy, occupiedFraction, occupancyConfidence, accessEdges, accessFrom, corridor, approach
+        aisles (LineString): id, lengthM, widthM, headingDeg, place, left, right
+        rows (LineString): id, aisle, side, lengthM, depthM, layers, locations
     "#]].assert_eq(&lists.concat());
 }
 
@@ -131,6 +135,7 @@ fn values_are_what_the_schema_says() {
                     | (Value::Integer(_), Kind::Integer)
                     | (Value::Number(_), Kind::Number)
                     | (Value::Text(_), Kind::Text)
+                    | (Value::Texts(_), Kind::Texts)
                     | (Value::Integers(_), Kind::Integers)
                     | (Value::Numbers(_), Kind::Numbers)
                     | (Value::Position(_), Kind::Position)

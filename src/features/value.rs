@@ -21,6 +21,8 @@ pub enum Value<'a> {
     Integers(&'a [u32]),
     /// Numbers.
     Numbers(&'a [f64]),
+    /// Texts.
+    Texts(&'a [String]),
     /// Words.
     Words(&'a [&'static str]),
     /// x and y, map frame, metres.
@@ -88,6 +90,7 @@ impl Serialize for Value<'_> {
             Self::Text(value) => value.serialize(serializer),
             Self::Integers(value) => value.serialize(serializer),
             Self::Numbers(value) => value.serialize(serializer),
+            Self::Texts(value) => value.serialize(serializer),
             Self::Words(value) => value.serialize(serializer),
             Self::Position(value) => value.serialize(serializer),
             Self::Pose(value) => value.serialize(serializer),
@@ -153,6 +156,12 @@ impl<'a> From<&'a [u32]> for Value<'a> {
 impl<'a> From<&'a [f64]> for Value<'a> {
     fn from(value: &'a [f64]) -> Self {
         Self::Numbers(value)
+    }
+}
+
+impl<'a> From<&'a [String]> for Value<'a> {
+    fn from(value: &'a [String]) -> Self {
+        Self::Texts(value)
     }
 }
 

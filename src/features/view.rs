@@ -4,21 +4,21 @@ use std::sync::Arc;
 
 use stillage_core::arrangement::EdgeId;
 use stillage_core::geometry::fold_half_turn;
-use stillage_core::layout::Location;
+use stillage_core::layout::Layout;
 use stillage_core::semantics::{LabelId, SemanticMap};
 use stillage_core::{Analysis, Point};
 
 use super::words;
 
-/// An analysed map with its labels and locations.
+/// An analysed map with its labels and its storage layout.
 #[derive(Debug, Clone, Copy)]
 pub struct AnalysedMap<'a> {
     /// The geometric level.
     pub analysis: &'a Analysis,
     /// The human level.
     pub semantic: &'a SemanticMap,
-    /// The storage locations, by code.
-    pub locations: &'a [Location],
+    /// Storage locations, aisles and rows.
+    pub layout: &'a Layout,
 }
 
 /// What a label says of a face, place or location.
@@ -67,6 +67,11 @@ impl AnalysedMap<'_> {
         let turned = (self.analysis.frame.angle_to_map(angle).to_degrees() + 180.0).rem_euclid(360.0) - 180.0;
         let degrees = rounded(turned);
         if degrees >= 180.0 { degrees - 360.0 } else { degrees }
+    }
+
+    /// The codes of some locations, by their indices.
+    pub(super) fn codes(&self, locations: &[usize]) -> Vec<String> {
+        locations.iter().map(|&index| self.layout.locations[index].code.clone()).collect()
     }
 
     /// Whether an edge has a dual: edges on the outer boundary have none.

@@ -1,7 +1,7 @@
 //! The words that stand for the values of the core's enumerations.
 
 use stillage_core::annotation::Evidence;
-use stillage_core::layout::{LocationOccupancy, Side};
+use stillage_core::layout::{OccupancyState, Side};
 use stillage_core::semantics::{Cogency, Connectivity, Functionality};
 
 /// Words of [`evidence`].
@@ -53,11 +53,11 @@ pub const fn side(side: Side) -> &'static str {
 }
 
 /// Whether goods stand in a location.
-pub const fn occupancy(occupancy: LocationOccupancy) -> &'static str {
+pub const fn occupancy(occupancy: OccupancyState) -> &'static str {
     match occupancy {
-        LocationOccupancy::Occupied => "occupied",
-        LocationOccupancy::Empty => "empty",
-        LocationOccupancy::Unknown => "unknown",
+        OccupancyState::Occupied => "occupied",
+        OccupancyState::Empty => "empty",
+        OccupancyState::Unknown => "unknown",
     }
 }
 

@@ -1,8 +1,8 @@
 //! Pictures, read back.
 
-use stillage_core::layout;
+use stillage_core::layout::{self, LayoutSpec};
 use stillage_core::semantics::{self, Assignment, RuleSet};
-use stillage_core::{AnalysisOptions, Watch};
+use stillage_core::{AnalysisOptions, SiteCells, Watch};
 
 use super::*;
 
@@ -83,7 +83,8 @@ fn regions_lie_over_the_map() {
 fn the_semantic_map_is_enlarged_and_has_a_legend() {
     let (grid, analysis) = room();
     let map = semantics::apply(&analysis, &RuleSet::warehouse(), &Assignment::default()).unwrap();
-    let locations = layout::locations(&analysis, &map);
+    let cells = SiteCells::of(&grid, &analysis);
+    let locations = layout::layout(&cells.map(&grid, &analysis, &map), &LayoutSpec::of(&analysis.options)).locations;
     let picture = semantic_png(&grid, &analysis, &map, &locations);
     assert_eq!(picture, semantic_png(&grid, &analysis, &map, &locations));
     let picture = read(&picture).into_rgb8();

@@ -138,7 +138,7 @@ impl Diagnostics {
                 ("edges", analysis.subdivision.edge_count()),
                 ("faces", analysis.subdivision.faces().len()),
                 ("places", context.semantic.places.len()),
-                ("locations", context.locations.len()),
+                ("locations", context.layout.locations.len()),
             ]),
             diagnostics: analysis.diagnostics.iter().map(Into::into).collect(),
             warnings: context.record.warnings.iter().map(Into::into).collect(),

@@ -108,7 +108,7 @@ async fn jobs_are_there_and_those_not_done_are_done() {
     let hall = app.context(&me, before[5].map).await.expect("it answers again");
     let mut options = AnalysisOptions::default();
     options.decomposition.vehicle_width_m = VehicleWidth::Fixed(1.7);
-    assert_eq!((&hall.analysis.options, hall.cells.as_slice().len()), (&options, 240));
+    assert_eq!((&hall.analysis.options, hall.cells.faces.as_slice().len()), (&options, 240));
     let seeds: Vec<u64> =
         app.analyses(&me, before[5].map).await.unwrap().iter().map(|made| made.options.seed).collect();
     assert_eq!(seeds, [1, 9, 1], "the old ones are there");

@@ -14,7 +14,7 @@
 //!                                                                                                            │
 //!                     rule set, assignment (one human decision per category) ─ semantics ─ SemanticMap ──────┘
 //!                                                                                               │
-//!                                                                                       layout, routing
+//!                                                                                       layout, graph, routing
 //! ```
 //!
 //! Everything up to the [`Analysis`] is the geometric level, without human input: [`analyze`]. The rest is the human
@@ -88,7 +88,12 @@ pub mod analysis;
 // The human level.
 pub mod semantics;
 
+pub mod clearance;
+pub mod site_map;
+
 pub mod layout;
+
+pub mod graph;
 
 pub mod routing;
 
@@ -106,5 +111,6 @@ mod test_maps;
 pub use analysis::{Analysis, analyze};
 pub use geometry::{Point, Vector};
 pub use grid::{GridFrame, Occupancy, OccupancyGrid};
+pub use site_map::{SiteCells, SiteMap};
 pub use spec::{AnalysisOptions, AnalysisSpec};
 pub use watch::{Stage, StopFlag, Stopped, Watch};

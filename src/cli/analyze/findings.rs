@@ -1,7 +1,7 @@
 //! What `stillage analyze` found.
 
 use stillage_core::analysis::Diagnostic;
-use stillage_core::layout::Location;
+use stillage_core::layout::Layout;
 use stillage_core::semantics::{Assignment, SemanticMap, Suggestion};
 use stillage_core::{Analysis, OccupancyGrid};
 
@@ -13,7 +13,7 @@ pub(super) struct Findings {
     pub(super) suggestions: Vec<Suggestion>,
     pub(super) assignment: Assignment,
     pub(super) semantic: SemanticMap,
-    pub(super) locations: Vec<Location>,
+    pub(super) layout: Layout,
     /// Remarks of the ingest and the analysis.
     pub(super) diagnostics: Vec<Diagnostic>,
 }

@@ -7,9 +7,9 @@ use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
 use stillage_core::analysis::Diagnostic;
-use stillage_core::layout;
+use stillage_core::layout::{self, LayoutSpec};
 use stillage_core::semantics::{self, Assignment, RuleSet};
-use stillage_core::{Analysis, OccupancyGrid};
+use stillage_core::{Analysis, OccupancyGrid, SiteCells};
 
 use super::computation::{self, Computed};
 use super::failure::Failure;
@@ -75,7 +75,8 @@ fn read_semantics(
     let suggestions = semantics::suggest(&analysis, rule_set);
     let assignment = assignment.unwrap_or_else(|| Assignment::suggested(&suggestions, rule_set));
     let semantic = semantics::apply(&analysis, rule_set, &assignment).map_err(|problems| input::misfit(&problems))?;
-    let locations = layout::locations(&analysis, &semantic);
+    let cells = SiteCells::of(&grid, &analysis);
+    let layout = layout::layout(&cells.map(&grid, &analysis, &semantic), &LayoutSpec::of(&analysis.options));
     diagnostics.extend(analysis.diagnostics.iter().cloned());
-    Ok(Findings { name, grid, analysis, suggestions, assignment, semantic, locations, diagnostics })
+    Ok(Findings { name, grid, analysis, suggestions, assignment, semantic, layout, diagnostics })
 }

@@ -72,7 +72,7 @@ fn parent(folder: &Path) -> &Path {
 /// Name and content of each file.
 fn files(findings: &Findings, stages: &[StageReport]) -> Vec<(PathBuf, Vec<u8>)> {
     let Findings { grid, analysis, semantic, .. } = findings;
-    let view = AnalysedMap { analysis, semantic, locations: &findings.locations };
+    let view = AnalysedMap { analysis, semantic, layout: &findings.layout };
     let layer = |collection: Collection| {
         let members: geojson::Members<'_> = &[("crs", &geojson::EPSG_3857)];
         let bytes = geojson::feature_collection(&features(&view, collection), &Transform::map_frame(), members);
@@ -82,7 +82,7 @@ fn files(findings: &Findings, stages: &[StageReport]) -> Vec<(PathBuf, Vec<u8>)>
     files.push(("image.png".into(), render::image(grid)));
     files.push(("categories.png".into(), render::categories(analysis)));
     files.push(("regions.png".into(), render::regions(analysis, grid)));
-    let locations = &findings.locations;
+    let locations = &findings.layout.locations;
     files.push(("semantic.png".into(), render::semantic_png(grid, analysis, semantic, locations)));
     files.push(("semantic.svg".into(), render::semantic_svg(grid, analysis, semantic, locations)));
     files.push(("locations.csv".into(), csv::locations(&features(&view, Collection::Locations))));
@@ -126,7 +126,7 @@ fn report(findings: &Findings, stages: &[StageReport]) -> Value {
             "vertices": analysis.subdivision.vertex_count(),
             "regions": analysis.regions.regions.len(),
             "places": semantic.places.len(),
-            "locations": findings.locations.len(),
+            "locations": findings.layout.locations.len(),
         },
         "clustering": analysis.categories.fit,
         "relaxation": {"cells": analysis.categories.relaxation, "faces": analysis.face_relaxation},

@@ -138,7 +138,7 @@ pub const TABLE: Table<FaceRow> = Table {
 pub fn read(view: &AnalysedMap<'_>) -> Vec<(Geometry, FaceRow)> {
     let subdivision = &view.analysis.subdivision;
     let mut codes = vec![None; subdivision.face_count()];
-    for location in view.locations {
+    for location in &view.layout.locations {
         codes[location.face.index()] = Some(&location.code);
     }
     let labels = view.labels();

@@ -7,6 +7,7 @@ use stillage_core::layout::{ApproachPose, Location};
 use super::common::{LABEL, LABEL_NAME};
 use crate::features::geometry::{Geometry, GeometryType};
 use crate::features::property::{Kind, Property};
+use crate::features::rings::polygons;
 use crate::features::shape;
 use crate::features::table::{Column, Table};
 use crate::features::value::Pose;
@@ -20,12 +21,18 @@ pub struct LocationRow {
     pub code: String,
     /// Id of its face.
     pub face: u32,
+    /// Which part of the face it is.
+    pub part: u32,
     /// Its label.
     pub label: Arc<LabelWords>,
     /// Number of its aisle, 0 without one.
     pub aisle: u32,
     /// Number of its bay in the aisle.
     pub bay: u32,
+    /// Number of its row, 0 without one.
+    pub row: u32,
+    /// How deep in the row it lies, from 1.
+    pub depth_in_row: u32,
     /// `left` or `right` of the aisle.
     pub side: Option<&'static str>,
     /// x and y of its centre.
@@ -36,13 +43,21 @@ pub struct LocationRow {
     pub depth: f64,
     /// Direction from the access edge into it, degrees, `[-180, 180)`.
     pub heading: f64,
+    /// Square metres.
+    pub area: f64,
     /// `occupied`, `empty` or `unknown`.
     pub occupancy: &'static str,
+    /// Share of its known cells that are occupied.
+    pub occupied: f64,
+    /// How sure the occupancy is.
+    pub occupancy_confidence: f64,
     /// Ids of the edges through which it is reached, the best first.
     pub access_edges: Vec<u32>,
     /// Id of the drivable face before the best access edge.
     pub access_from: Option<u32>,
-    /// Where a robot stands to reach it.
+    /// Id of the place before it.
+    pub corridor: Option<u32>,
+    /// Where a vehicle stands to reach it.
     pub approach: Option<Pose>,
 }
 
@@ -56,6 +71,10 @@ pub const TABLE: Table<LocationRow> = Table {
             location.code.as_str().into()
         }),
         Column::new(Property::new("face", Kind::Integer, "Face", "Id of its face"), |location| location.face.into()),
+        Column::new(
+            Property::new("part", Kind::Integer, "Part", "Which part of its face it is, from 0; 0 for a whole face"),
+            |location| location.part.into(),
+        ),
         Column::new(LABEL, |location| location.label.id.as_str().into()),
         Column::new(LABEL_NAME, |location| location.label.name.as_str().into()),
         Column::new(
@@ -65,6 +84,13 @@ pub const TABLE: Table<LocationRow> = Table {
         Column::new(
             Property::new("bay", Kind::Integer, "Bay", "Number in its aisle: odd on the left, even on the right"),
             |location| location.bay.into(),
+        ),
+        Column::new(Property::new("row", Kind::Integer, "Row", "Number of its row; 0 without access"), |location| {
+            location.row.into()
+        }),
+        Column::new(
+            Property::new("depthInRow", Kind::Integer, "Depth in row", "1 at the aisle, 2 behind that, and so on"),
+            |location| location.depth_in_row.into(),
         ),
         Column::new(
             Property::new("side", Kind::Word(words::SIDES), "Side", "Side of the aisle, along its direction")
@@ -92,6 +118,9 @@ pub const TABLE: Table<LocationRow> = Table {
             .unit("deg"),
             |location| location.heading.into(),
         ),
+        Column::new(Property::new("areaM2", Kind::Number, "Area", "Its area").unit("m2"), |location| {
+            location.area.into()
+        }),
         Column::new(
             Property::new(
                 "occupancy",
@@ -100,6 +129,24 @@ pub const TABLE: Table<LocationRow> = Table {
                 "Whether goods were seen in it, none were seen, or nobody looked",
             ),
             |location| location.occupancy.into(),
+        ),
+        Column::new(
+            Property::new(
+                "occupiedFraction",
+                Kind::Number,
+                "Occupied fraction",
+                "Share of its known cells that are occupied, away from its border",
+            ),
+            |location| location.occupied.into(),
+        ),
+        Column::new(
+            Property::new(
+                "occupancyConfidence",
+                Kind::Number,
+                "Occupancy confidence",
+                "How surely the occupancy is told, from 0 to 1",
+            ),
+            |location| location.occupancy_confidence.into(),
         ),
         Column::new(
             Property::new(
@@ -121,7 +168,23 @@ pub const TABLE: Table<LocationRow> = Table {
             |location| location.access_from.into(),
         ),
         Column::new(
-            Property::new("approach", Kind::Pose, "Approach", "Where a robot stands to reach it, map frame").nullable(),
+            Property::new(
+                "corridor",
+                Kind::Integer,
+                "Corridor",
+                "Id of the place before it: a corridor, a junction, a room",
+            )
+            .nullable(),
+            |location| location.corridor.into(),
+        ),
+        Column::new(
+            Property::new(
+                "approach",
+                Kind::Pose,
+                "Approach",
+                "Where a vehicle stands to reach it, map frame; none where it finds no room",
+            )
+            .nullable(),
             |location| location.approach.into(),
         ),
     ],
@@ -138,18 +201,29 @@ pub fn read(view: &AnalysedMap<'_>) -> Vec<(Geometry, LocationRow)> {
     let row = |location: &Location| LocationRow {
         code: location.code.clone(),
         face: location.face.0,
+        part: location.part,
         label: labels.of(location.label),
         aisle: location.aisle,
         bay: location.bay,
+        row: location.row,
+        depth_in_row: location.depth_in_row,
         side: location.side.map(words::side),
         centre: view.rounded_position(location.center),
         width: rounded(location.width),
         depth: rounded(location.depth),
         heading: view.heading_degrees(location.heading),
-        occupancy: words::occupancy(location.occupancy),
+        area: rounded(location.area),
+        occupancy: words::occupancy(location.occupancy.state),
+        occupied: rounded(location.occupancy.fraction),
+        occupancy_confidence: rounded(location.occupancy.confidence),
         access_edges: location.access_edges.iter().map(|edge| edge.0).collect(),
         access_from: location.access_from.map(|face| face.0),
+        corridor: location.corridor,
         approach: location.approach.map(approach),
     };
-    view.locations.iter().map(|location| (shape::of_face(view, location.face), row(location))).collect()
+    let shape = |location: &Location| {
+        let outline = location.outline.iter().map(|&point| view.position(point)).collect();
+        if location.parts > 1 { Geometry::area(polygons(vec![outline])) } else { shape::of_face(view, location.face) }
+    };
+    view.layout.locations.iter().map(|location| (shape(location), row(location))).collect()
 }

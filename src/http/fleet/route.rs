@@ -8,7 +8,7 @@ use axum::response::{IntoResponse, Response};
 use serde::{Deserialize, Serialize};
 use stillage_core::Point;
 use stillage_core::arrangement::FaceId;
-use stillage_core::routing::{self, RoutingMap, Waypoint};
+use stillage_core::routing::{self, Waypoint};
 use utoipa::{IntoParams, ToSchema};
 
 use crate::app::{App, Caller, MapContext};
@@ -79,9 +79,9 @@ impl End {
             }
             Self::Face(face) => Err(Problem::not_found(format!("there is no face {face}"))),
             Self::Location(code) => {
-                let location = context.locations.iter().find(|location| location.code == *code);
+                let location = context.layout.locations.iter().find(|location| location.code == *code);
                 let missing = || Problem::not_found(format!("there is no location {code}"));
-                location.cloned().map(Waypoint::Location).ok_or_else(missing)
+                location.cloned().map(|location| Waypoint::Location(Box::new(location))).ok_or_else(missing)
             }
         }
     }
@@ -133,13 +133,7 @@ pub async fn get(
     off_the_runtime(move || {
         let transform = Transform::new(query.crs.0, context.record.georeference);
         let [from, to] = [&query.from, &query.to].map(|end| end.waypoint(&context, &transform));
-        let map = RoutingMap {
-            grid: &context.grid,
-            cells: &context.cells,
-            analysis: &context.analysis,
-            semantic: &context.semantic,
-        };
-        let route = routing::route(map, &from?, &to?)?;
+        let route = routing::route(context.site(), &from?, &to?)?;
         let headers =
             [(header::CONTENT_TYPE, GEO_JSON.parse().expect("is a header")), (CONTENT_CRS, query.crs.header())];
         Ok((headers, write(&context, &transform, &route)).into_response())

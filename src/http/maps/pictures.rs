@@ -113,8 +113,8 @@ pub async fn semantic(
     Path(path): Path<MapPath>,
     if_none_match: IfNoneMatch,
 ) -> Result<Response, Problem> {
-    let draw = |MapContext { grid, analysis, semantic, locations, .. }: &MapContext| {
-        render::semantic_png(grid, analysis, semantic, locations)
+    let draw = |MapContext { grid, analysis, semantic, layout, .. }: &MapContext| {
+        render::semantic_png(grid, analysis, semantic, &layout.locations)
     };
     picture(app, caller, path.map_id, if_none_match, "semantic.png", PNG, draw).await
 }
@@ -133,8 +133,8 @@ pub async fn semantic_svg(
     Path(path): Path<MapPath>,
     if_none_match: IfNoneMatch,
 ) -> Result<Response, Problem> {
-    let draw = |MapContext { grid, analysis, semantic, locations, .. }: &MapContext| {
-        render::semantic_svg(grid, analysis, semantic, locations)
+    let draw = |MapContext { grid, analysis, semantic, layout, .. }: &MapContext| {
+        render::semantic_svg(grid, analysis, semantic, &layout.locations)
     };
     picture(app, caller, path.map_id, if_none_match, "semantic.svg", SVG, draw).await
 }

@@ -1,7 +1,7 @@
 //! Whether goods stand on a place: what was found against what is true. Cost: O(places).
 
 use crate::annotation::FaceAnnotation;
-use crate::layout::{LocationOccupancy, occupancy};
+use crate::layout::{OccupancyState, occupancy};
 
 /// How the occupancy of places agrees with the truth.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -21,10 +21,10 @@ impl OccupancyScores {
     pub(super) fn of<'a>(places: impl Iterator<Item = (bool, &'a FaceAnnotation)>) -> Option<Self> {
         let mut found = [[0; 3]; 2];
         for (is_occupied, face) in places {
-            let read = match occupancy(face) {
-                LocationOccupancy::Occupied => 0,
-                LocationOccupancy::Empty => 1,
-                LocationOccupancy::Unknown => 2,
+            let read = match occupancy(face).state {
+                OccupancyState::Occupied => 0,
+                OccupancyState::Empty => 1,
+                OccupancyState::Unknown => 2,
             };
             found[usize::from(!is_occupied)][read] += 1;
         }

@@ -1,137 +1,189 @@
-//! How one location is reached: its access edges, its frame, and where a robot stands before it.
+//! From which side each storage face is reached.
 //!
-//! Source: the storage-access edges of the paper's section II-C; the frame and the approach are our own.
-//! Cost: O(edges of the face and of the face it is reached from). Limits: the approach is computed from faces, not from
-//! cells; routing finds out whether its cell is free.
+//! Method: the storage-access edges of a face (paper, section II-C) are grouped by the direction they face. A side counts
+//! by the length along which a vehicle finds room before it. Places of one row are reached from one side: a place follows
+//! its neighbours beside it where it has a side that faces their way. Cost: O(edges x samples). Limits: three rounds of
+//! following, so only the two places at each end of a row can be mended.
 
-use super::location::ApproachPose;
-use crate::analysis::Analysis;
+use std::f64::consts::{FRAC_PI_4, PI};
+
+use rayon::prelude::*;
+
 use crate::arrangement::{EdgeId, FaceId, HalfEdgeId};
-use crate::geometry::{OrientedBox, Point, Vector, direction, polygon, segment};
-use crate::semantics::{Cogency, SemanticMap};
+use crate::geometry::{DisjointSets, Point, Vector, direction};
+use crate::semantics::Cogency;
+use crate::site_map::SiteMap;
 
-/// Distance of the middle of a robot from the access edge before which it stands, metres: our choice, half a robot of
-/// 1.2 m and 0.2 m to spare. Where the face before the edge is less than twice as deep, half its depth is taken.
-const STANDING_DISTANCE_M: f64 = 0.8;
+/// Edges whose directions differ by less than this face the same way, radians: half the angle between two sides.
+const SAME_WAY: f64 = FRAC_PI_4;
+/// Distance between two points of an edge before which room is looked for, metres: the width of a wheel.
+const SAMPLE_M: f64 = 0.1;
+/// How far before an edge a vehicle may stand beyond its own radius, metres: goods may overhang the border by this.
+const REACH_M: f64 = 0.6;
+/// How often places follow their neighbours.
+const ROUNDS: usize = 3;
+/// A side that nothing can drive up to counts as this share of its length: better than none.
+const BLOCKED_SIDE: f64 = 0.01;
 
-/// Place, size and access of one location.
+/// One side of a storage face that borders drivable ground.
 #[derive(Debug, Clone)]
-pub(super) struct Access {
-    /// The storage face.
-    pub face: FaceId,
-    /// Its centroid.
-    pub center: Point,
-    /// Extent along the best access edge, metres.
-    pub width: f64,
-    /// Extent across it, metres.
-    pub depth: f64,
-    /// Direction into the location, radians.
-    pub heading: f64,
-    /// All access edges, the best first.
-    pub edges: Vec<EdgeId>,
-    /// More about the best one.
-    pub best: Option<BestAccess>,
+pub(super) struct AccessSide {
+    /// Direction out of the face, radians.
+    pub outward: f64,
+    /// Its half-edges, those with the most room first; the storage face lies on their left.
+    pub halves: Vec<HalfEdgeId>,
+    /// Length along which there is room before it, metres.
+    room: f64,
 }
 
-/// The access edge that decides the frame of a location.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct BestAccess {
-    /// The drivable face before it.
-    pub from: FaceId,
-    /// Its middle.
-    pub middle: Point,
-    /// Where a robot stands.
-    pub approach: ApproachPose,
+impl AccessSide {
+    /// Ids of its edges, those with the most room first.
+    pub fn edges(&self) -> Vec<EdgeId> {
+        self.halves.iter().map(|half| half.edge()).collect()
+    }
 }
 
-impl Access {
-    /// Finds the access of a storage face.
-    pub fn of(face: FaceId, analysis: &Analysis, semantic: &SemanticMap) -> Self {
-        let halves = access_half_edges(face, analysis, semantic);
-        let annotation = &analysis.faces[face.index()];
-        let rings = analysis.subdivision.rings(face);
-        let frame = halves.first().map(|&half| AccessFrame::of(half, analysis));
-        // Without an access edge, the location is taken to be entered at its short side.
-        let inward = frame.as_ref().map_or_else(|| direction(annotation.heading), |frame| frame.inward);
-        let heading = inward.y.atan2(inward.x);
-        let outline = rings.first().into_iter().flatten().copied();
-        let half_extents = OrientedBox::around(outline, heading).map_or([0.0; 2], |extent| extent.half_extents);
-        Self {
-            face,
-            center: center(&rings),
-            width: 2.0 * half_extents[1],
-            depth: 2.0 * half_extents[0],
-            heading,
-            edges: halves.iter().map(|half| half.edge()).collect(),
-            best: frame.map(|frame| frame.access(heading, analysis)),
+/// The sides of each face from which it can be reached, that from which it is reached first.
+pub(super) fn sides_of(map: &SiteMap<'_>, faces: &[FaceId], radius: f64) -> Vec<Vec<AccessSide>> {
+    let mut sides: Vec<Vec<AccessSide>> = faces.par_iter().map(|&face| sides_of_face(map, face, radius)).collect();
+    follow_neighbours(map, faces, &mut sides);
+    agree_along_rows(map, faces, &mut sides);
+    sides
+}
+
+fn sides_of_face(map: &SiteMap<'_>, face: FaceId, radius: f64) -> Vec<AccessSide> {
+    let subdivision = &map.analysis.subdivision;
+    let gives_access = |half: &HalfEdgeId| {
+        let before = subdivision.half_edge(half.twin()).face;
+        map.semantic.cogency[half.edge().index()] == Cogency::StorageAccess && map.is_drivable(before)
+    };
+    let mut measured: Vec<(f64, f64, HalfEdgeId)> = subdivision
+        .boundary(face)
+        .filter(gives_access)
+        .map(|half| {
+            let out = outward(map, half);
+            (room_before(map, half, out, radius), out.y.atan2(out.x), half)
+        })
+        .collect();
+    measured.sort_by(|first, second| second.0.total_cmp(&first.0).then(first.2.cmp(&second.2)));
+    let mut sides: Vec<AccessSide> = Vec::new();
+    for (room, out, half) in measured {
+        match sides.iter_mut().find(|side| turn_between(side.outward, out) < SAME_WAY) {
+            Some(side) => {
+                side.room += room;
+                side.halves.push(half);
+            }
+            None => sides.push(AccessSide { outward: out, halves: vec![half], room }),
+        }
+    }
+    sides.sort_by(|first, second| second.room.total_cmp(&first.room).then(first.halves[0].cmp(&second.halves[0])));
+    sides
+}
+
+/// Unit vector out of a storage face across one of its half-edges.
+pub(super) fn outward(map: &SiteMap<'_>, half: HalfEdgeId) -> Vector {
+    let subdivision = &map.analysis.subdivision;
+    let along =
+        subdivision.position(subdivision.target(half)) - subdivision.position(subdivision.half_edge(half).origin);
+    // The storage face lies on the left.
+    Vector::new(along.y, -along.x).try_normalize(0.0).unwrap_or_else(Vector::x)
+}
+
+/// Length of an edge before which a vehicle can stand, metres.
+fn room_before(map: &SiteMap<'_>, half: HalfEdgeId, out: Vector, radius: f64) -> f64 {
+    let [start, end] = map.analysis.subdivision.segment(half.edge());
+    let length = (end - start).norm();
+    let samples = (length / SAMPLE_M).ceil().max(1.0) as usize;
+    let has_room = |&sample: &usize| {
+        let place = start + (end - start) * ((sample as f64 + 0.5) / samples as f64);
+        let steps = (REACH_M / map.grid.resolution()).ceil() as usize;
+        (0..=steps).any(|step| {
+            let stand = place + out * (radius + step as f64 * map.grid.resolution());
+            map.clearance.at(stand) >= radius && map.is_drivable(map.face_at(stand))
+        })
+    };
+    let open = (0..samples).filter(has_room).count();
+    length * (open as f64 / samples as f64).max(BLOCKED_SIDE)
+}
+
+/// The angle between two directions, radians.
+fn turn_between(first: f64, second: f64) -> f64 {
+    ((first - second + PI).rem_euclid(2.0 * PI) - PI).abs()
+}
+
+/// The storage faces beside each one: pairs of indices and the edge between them.
+fn neighbours(map: &SiteMap<'_>, faces: &[FaceId]) -> Vec<([usize; 2], [Point; 2])> {
+    let subdivision = &map.analysis.subdivision;
+    let mut index = vec![usize::MAX; subdivision.face_count()];
+    for (at, face) in faces.iter().enumerate() {
+        index[face.index()] = at;
+    }
+    let pair = |edge: EdgeId| {
+        let [left, right] = subdivision.sides(edge).map(|face| index[face.index()]);
+        (left != usize::MAX && right != usize::MAX && left != right).then(|| ([left, right], subdivision.segment(edge)))
+    };
+    subdivision.edges().filter_map(pair).collect()
+}
+
+/// Whether a border between two places runs along the direction from which one of them is reached: they lie side by side.
+fn is_beside(outward: f64, [start, end]: [Point; 2]) -> bool {
+    (end - start).try_normalize(0.0).is_some_and(|along| along.dot(&direction(outward)).abs() > SAME_WAY.cos())
+}
+
+/// Lets places at the ends of rows, which have a side to the cross aisle, follow the places beside them.
+fn follow_neighbours(map: &SiteMap<'_>, faces: &[FaceId], sides: &mut [Vec<AccessSide>]) {
+    let pairs = neighbours(map, faces);
+    for _ in 0..ROUNDS {
+        let mut votes: Vec<Vec<f64>> = vec![Vec::new(); sides.len()];
+        for &([one, other], border) in &pairs {
+            for (voter, follower) in [(one, other), (other, one)] {
+                let Some(way) = sides[voter].first().map(|side| side.outward) else { continue };
+                if is_beside(way, border) {
+                    votes[follower].push(way);
+                }
+            }
+        }
+        for (own, votes) in sides.iter_mut().zip(&votes) {
+            let Some(first) = own.first() else { continue };
+            let is_backed = votes.iter().any(|&way| turn_between(way, first.outward) < SAME_WAY);
+            let backed =
+                own.iter().position(|side| votes.iter().any(|&way| turn_between(way, side.outward) < SAME_WAY));
+            if let (false, Some(backed)) = (is_backed, backed) {
+                own[..=backed].rotate_right(1);
+            }
         }
     }
 }
 
-/// The half-edges of a face over which it is reached; first the one with the greatest passable length.
-fn access_half_edges(face: FaceId, analysis: &Analysis, semantic: &SemanticMap) -> Vec<HalfEdgeId> {
-    let subdivision = &analysis.subdivision;
-    let gives_access = |half: &HalfEdgeId| {
-        let before = subdivision.half_edge(half.twin()).face;
-        semantic.cogency[half.edge().index()] == Cogency::StorageAccess && semantic.label(before).is_drivable()
-    };
-    // Open length counts whole, unknown length half, obstructed length nothing.
-    let passable = |half: HalfEdgeId| {
-        let annotation = &analysis.edges[half.edge().index()];
-        subdivision.length(half.edge()) * (1.0 + annotation.open - annotation.support) / 2.0
-    };
-    let length = |half: HalfEdgeId| subdivision.length(half.edge());
-    let mut halves: Vec<HalfEdgeId> = subdivision.boundary(face).filter(gives_access).collect();
-    halves.sort_by(|&first, &second| {
-        let by_passable = passable(second).total_cmp(&passable(first));
-        by_passable.then(length(second).total_cmp(&length(first))).then(first.cmp(&second))
-    });
-    halves
-}
-
-/// Place and direction of the best access edge.
-struct AccessFrame {
-    from: FaceId,
-    middle: Point,
-    /// Unit vector into the location.
-    inward: Vector,
-}
-
-impl AccessFrame {
-    fn of(half: HalfEdgeId, analysis: &Analysis) -> Self {
-        let subdivision = &analysis.subdivision;
-        let start = subdivision.position(subdivision.half_edge(half).origin);
-        let end = subdivision.position(subdivision.target(half));
-        let along = end - start;
-        // The location lies on the left of its half-edge.
-        let inward = Vector::new(-along.y, along.x).try_normalize(0.0).unwrap_or_else(Vector::x);
-        Self { from: subdivision.half_edge(half.twin()).face, middle: nalgebra::center(&start, &end), inward }
+/// Rows that are open on both sides are reached from the one with more room, all along.
+fn agree_along_rows(map: &SiteMap<'_>, faces: &[FaceId], sides: &mut [Vec<AccessSide>]) {
+    let mut chains = DisjointSets::new(faces.len());
+    for ([one, other], border) in neighbours(map, faces) {
+        let beside = |at: usize| sides[at].first().is_some_and(|side| is_beside(side.outward, border));
+        if beside(one) && beside(other) {
+            chains.join(one, other);
+        }
     }
-
-    fn access(self, heading: f64, analysis: &Analysis) -> BestAccess {
-        let outward = -self.inward;
-        let room = room_ahead(self.middle, outward, self.from, analysis);
-        let position = self.middle + outward * STANDING_DISTANCE_M.min(room / 2.0);
-        BestAccess { from: self.from, middle: self.middle, approach: ApproachPose { position, heading } }
+    let roots: Vec<usize> = (0..faces.len()).map(|at| chains.find(at)).collect();
+    // Room by the way of the chain's first place, and against it.
+    let mut room = vec![[0.0; 2]; faces.len()];
+    let ways: Vec<Option<f64>> = roots.iter().map(|&root| sides[root].first().map(|side| side.outward)).collect();
+    for (at, &root) in roots.iter().enumerate() {
+        let Some(way) = ways[root] else { continue };
+        for side in &sides[at] {
+            let turn = turn_between(side.outward, way);
+            if turn < SAME_WAY {
+                room[root][0] += side.room;
+            } else if turn > PI - SAME_WAY {
+                room[root][1] += side.room;
+            }
+        }
     }
-}
-
-/// How far a face reaches from a point of its boundary, metres.
-fn room_ahead(from: Point, ahead: Vector, face: FaceId, analysis: &Analysis) -> f64 {
-    // Edges nearer than this, in metres, are the one that the point lies on: lines of an analysis are 10 mm apart at
-    // least.
-    const SAME_EDGE_M: f64 = 1e-6;
-    let subdivision = &analysis.subdivision;
-    let hits = subdivision.boundary(face).filter_map(|half| {
-        // Parallel edges give no number, and no hit.
-        let [distance, share] = segment::crossing(from, ahead, subdivision.segment(half.edge()));
-        (distance > SAME_EDGE_M && (0.0..=1.0).contains(&share)).then_some(distance)
-    });
-    let room = hits.fold(f64::INFINITY, f64::min);
-    if room.is_finite() { room } else { 0.0 }
-}
-
-/// Centroid of a face; its first point where it has no area.
-fn center(rings: &[Vec<Point>]) -> Point {
-    polygon::centroid(rings).or_else(|| rings.iter().flatten().next().copied()).unwrap_or_else(Point::origin)
+    for (at, &root) in roots.iter().enumerate() {
+        let Some(way) = ways[root] else { continue };
+        let way = if room[root][1] > room[root][0] { way + PI } else { way };
+        if let Some(best) = sides[at].iter().position(|side| turn_between(side.outward, way) < SAME_WAY) {
+            sides[at][..=best].rotate_right(1);
+        }
+    }
 }

@@ -1,23 +1,18 @@
-//! Numbers of aisles and bays.
+//! Which fronts lie along one aisle, and in which order the aisles are counted.
 //!
-//! Method: the fronts (best access edges) of all locations are grouped by direction, and within a direction by the
-//! drivable place before them. Sorted across that direction, the fronts of one aisle are first those on its right side,
-//! then those on its left; the next aisle begins after a left side that is followed by a right one, or where two fronts
-//! of the same side are too far apart. So one drivable place that joins many corridors is still cut into its aisles.
-//!
-//! Aisles are numbered by direction, then from the bottom (or the left) of the map; bays by their position along the
-//! aisle's direction, which points to the right (or up). Source: warehouse practice (odd left, even right); the
-//! grouping is our own. Cost: O(n log n) for n locations. Limits: directions closer than [`SAME_DIRECTION`] are one; a
-//! curved aisle is cut into several.
+//! Method: the fronts of all locations are grouped by direction, and within a direction by the drivable place before
+//! them. Sorted across that direction, the fronts of one aisle are first those on its right side, then those on its left;
+//! the next aisle begins after a left side that is followed by a right one, or where two fronts of the same side are too
+//! far apart. So one drivable place that joins many corridors is still cut into its aisles. Aisles are numbered by
+//! direction, then from the bottom (or the left) of the map, or from the entrance where one is given; they point right or
+//! up, or away from the entrance. Source: warehouse practice; the grouping is our own. Cost: O(n log n) for n locations.
+//! Limits: directions closer than [`SAME_DIRECTION`] are one; a curved aisle is cut into several.
 
 use std::collections::BTreeMap;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
-use super::access::{Access, BestAccess};
 use super::location::Side;
-use crate::arrangement::FaceId;
 use crate::geometry::{Point, direction, fold_half_turn, normal};
-use crate::semantics::SemanticMap;
 
 /// Largest step between neighbouring directions of one group, radians: half the smallest angle between two dominant
 /// orientations (6 degrees by default).
@@ -28,69 +23,30 @@ const NEXT_AISLE_M: f64 = 2.0;
 /// Greatest offset between aisles in one line, metres: less than half the narrowest aisle (1.2 m).
 const SAME_LINE_M: f64 = 0.5;
 
-/// The number of one location.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Slot {
-    /// From 1; 0 without access.
-    pub aisle: u32,
-    /// From 1: odd on the left, even on the right; consecutive in aisle 0.
-    pub bay: u32,
-    /// `None` without access.
-    pub side: Option<Side>,
-}
-
-/// One location at its aisle.
+/// The front of one location at its aisle.
 #[derive(Debug, Clone, Copy)]
-struct Front {
+pub(super) struct AisleFront {
     /// Index of the location.
-    location: usize,
-    face: FaceId,
-    middle: Point,
+    pub location: usize,
+    pub middle: Point,
     /// Into the location, radians.
-    heading: f64,
+    pub heading: f64,
     /// The drivable place before it.
-    place: u32,
+    pub place: u32,
 }
 
 /// Fronts along one aisle.
-struct Aisle {
+pub(super) struct FrontLine {
     /// Where the aisle points, radians.
-    angle: f64,
-    fronts: Vec<Front>,
+    pub angle: f64,
+    /// The drivable place it runs through.
+    pub place: u32,
+    pub fronts: Vec<AisleFront>,
 }
 
-/// Gives every location its number.
-pub(super) fn number(semantic: &SemanticMap, accesses: &[Access]) -> Vec<Slot> {
-    let front = |(location, access): (usize, &Access)| {
-        let BestAccess { from, middle, .. } = access.best?;
-        let place = semantic.face_places[from.index()]?;
-        Some(Front { location, face: access.face, middle, heading: access.heading, place })
-    };
-    let fronts: Vec<Front> = accesses.iter().enumerate().filter_map(front).collect();
-    let aisles: Vec<Aisle> = by_direction(fronts).into_iter().flat_map(aisles_along).collect();
-
-    let mut slots = vec![Slot { aisle: 0, bay: 0, side: None }; accesses.len()];
-    for (index, aisle) in aisles.iter().enumerate() {
-        for (location, side, bay) in aisle.bays() {
-            slots[location] = Slot { aisle: index as u32 + 1, bay, side: Some(side) };
-        }
-    }
-    number_the_rest(accesses, &mut slots);
-    slots
-}
-
-/// Counts the locations without an aisle from the bottom of the map, then from the left.
-fn number_the_rest(accesses: &[Access], slots: &mut [Slot]) {
-    let mut rest: Vec<usize> = (0..slots.len()).filter(|&location| slots[location].side.is_none()).collect();
-    let center = |location: usize| accesses[location].center;
-    rest.sort_by(|&first, &second| {
-        let (first_center, second_center) = (center(first), center(second));
-        let upwards = first_center.y.total_cmp(&second_center.y);
-        upwards.then(first_center.x.total_cmp(&second_center.x)).then(first.cmp(&second))
-    });
-    for (index, location) in rest.into_iter().enumerate() {
-        slots[location].bay = index as u32 + 1;
-    }
+/// Groups fronts into aisles, in the order of their numbers.
+pub(super) fn aisles_of(fronts: Vec<AisleFront>, entrance: Option<Point>) -> Vec<FrontLine> {
+    by_direction(fronts).into_iter().flat_map(|group| aisles_along(group, entrance)).collect()
 }
 
 /// Turns an undirected angle so that it points to the right, or else up: into `[-pi/4, 3 pi/4)`.
@@ -99,9 +55,9 @@ fn right_or_up(angle: f64) -> f64 {
 }
 
 /// Groups fronts by the direction they run along, ascending from right to up.
-fn by_direction(mut fronts: Vec<Front>) -> Vec<(f64, Vec<Front>)> {
+fn by_direction(mut fronts: Vec<AisleFront>) -> Vec<(f64, Vec<AisleFront>)> {
     // Angles are measured from the middle of the widest gap between them, so that no group is cut in two.
-    let mut angles: Vec<f64> = fronts.iter().map(Front::line_angle).collect();
+    let mut angles: Vec<f64> = fronts.iter().map(AisleFront::line_angle).collect();
     angles.sort_by(f64::total_cmp);
     let gaps = (0..angles.len()).map(|index| match angles.get(index + 1) {
         Some(next) => (next - angles[index], angles[index]),
@@ -110,11 +66,11 @@ fn by_direction(mut fronts: Vec<Front>) -> Vec<(f64, Vec<Front>)> {
     let widest = gaps.max_by(|first, second| first.0.total_cmp(&second.0));
     let Some((gap, before)) = widest else { return Vec::new() };
     let seam = before + gap / 2.0;
-    let from_seam = |front: &Front| (front.line_angle() - seam).rem_euclid(PI);
+    let from_seam = |front: &AisleFront| (front.line_angle() - seam).rem_euclid(PI);
 
     fronts.sort_by(|first, second| from_seam(first).total_cmp(&from_seam(second)));
     let groups = fronts.chunk_by(|first, second| from_seam(second) - from_seam(first) <= SAME_DIRECTION);
-    let mut directions: Vec<(f64, Vec<Front>)> = groups
+    let mut directions: Vec<(f64, Vec<AisleFront>)> = groups
         .map(|group| {
             let mean = group.iter().map(from_seam).sum::<f64>() / group.len() as f64;
             (right_or_up(seam + mean), group.to_vec())
@@ -124,40 +80,68 @@ fn by_direction(mut fronts: Vec<Front>) -> Vec<(f64, Vec<Front>)> {
     directions
 }
 
-/// Cuts fronts of one direction into aisles, ascending from the bottom or the left of the map; aisles in one line
-/// follow each other in their direction.
-fn aisles_along((angle, fronts): (f64, Vec<Front>)) -> Vec<Aisle> {
-    let mut by_place: BTreeMap<u32, Vec<Front>> = BTreeMap::new();
+/// Cuts fronts of one direction into aisles, ascending from the bottom or the left of the map, or from the side that is
+/// nearer to the entrance; aisles in one line follow each other in their direction.
+fn aisles_along((angle, fronts): (f64, Vec<AisleFront>), entrance: Option<Point>) -> Vec<FrontLine> {
+    let mut by_place: BTreeMap<u32, Vec<AisleFront>> = BTreeMap::new();
     for front in fronts {
         by_place.entry(front.place).or_default().push(front);
     }
-    let mut aisles: Vec<Aisle> = by_place.into_values().flat_map(|fronts| aisles_of_place(angle, fronts)).collect();
-    let across = right_or_up(angle + FRAC_PI_2);
+    let cut = |(place, fronts): (u32, Vec<AisleFront>)| aisles_of_place(angle, place, fronts);
+    let mut aisles: Vec<FrontLine> = by_place.into_iter().flat_map(cut).collect();
+    let (across, along) = (right_or_up(angle + FRAC_PI_2), right_or_up(angle));
     sort_along(&mut aisles, across);
-    let across = direction(across);
-    for line in aisles.chunk_by_mut(|first, second| across.dot(&(second.center() - first.center())) <= SAME_LINE_M) {
-        sort_along(line, angle);
+    let axis = direction(across);
+    for line in aisles.chunk_by_mut(|first, second| axis.dot(&(second.center() - first.center())) <= SAME_LINE_M) {
+        sort_along(line, along);
+    }
+    if let Some(entrance) = entrance {
+        begin_at(&mut aisles, entrance, [along, across]);
     }
     aisles
 }
 
-fn sort_along(aisles: &mut [Aisle], angle: f64) {
-    let position = |aisle: &Aisle| direction(angle).dot(&aisle.center().coords);
+/// Turns the order of aisles, and each aisle, so that they begin at the side of the entrance.
+fn begin_at(aisles: &mut [FrontLine], entrance: Point, [along, across]: [f64; 2]) {
+    let is_past_the_middle = |angle: f64, points: &mut dyn Iterator<Item = Point>| {
+        let places: Vec<f64> = points.map(|point| direction(angle).dot(&point.coords)).collect();
+        let low = places.iter().copied().fold(f64::INFINITY, f64::min);
+        let high = places.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        direction(angle).dot(&entrance.coords) > f64::midpoint(low, high)
+    };
+    if is_past_the_middle(across, &mut aisles.iter().map(FrontLine::center)) {
+        aisles.reverse();
+    } else if is_past_the_middle(along, &mut aisles.iter().map(FrontLine::center)) {
+        // Aisles in one line are counted from the entrance, too.
+        let axis = direction(across);
+        for line in aisles.chunk_by_mut(|first, second| axis.dot(&(second.center() - first.center())) <= SAME_LINE_M) {
+            line.reverse();
+        }
+    }
+    for aisle in aisles {
+        if is_past_the_middle(aisle.angle, &mut aisle.fronts.iter().map(|front| front.middle)) {
+            aisle.angle += PI;
+        }
+    }
+}
+
+fn sort_along(aisles: &mut [FrontLine], angle: f64) {
+    let position = |aisle: &FrontLine| direction(angle).dot(&aisle.center().coords);
     aisles.sort_by(|first, second| {
-        position(first).total_cmp(&position(second)).then(first.first_face().cmp(&second.first_face()))
+        position(first).total_cmp(&position(second)).then(first.first_location().cmp(&second.first_location()))
     });
 }
 
 /// Cuts the fronts of one place where, going across, the next aisle begins.
-fn aisles_of_place(angle: f64, fronts: Vec<Front>) -> Vec<Aisle> {
-    let mut place = Aisle { angle, fronts };
+fn aisles_of_place(angle: f64, place: u32, fronts: Vec<AisleFront>) -> Vec<FrontLine> {
+    let mut whole = FrontLine { angle, place, fronts };
     // The mean direction of the place: over 100 m, an error of one degree would mix neighbouring aisles.
-    place.angle += place.mean(|front| fold_half_turn(front.line_angle() - angle));
-    let Aisle { angle, mut fronts } = place;
-    let offset = |front: &Front| normal(angle).dot(&front.middle.coords);
-    fronts.sort_by(|first, second| offset(first).total_cmp(&offset(second)).then(first.face.cmp(&second.face)));
+    whole.angle += whole.mean(|front| fold_half_turn(front.line_angle() - angle));
+    let FrontLine { angle, mut fronts, .. } = whole;
+    let offset = |front: &AisleFront| normal(angle).dot(&front.middle.coords);
+    fronts.sort_by(|first, second| offset(first).total_cmp(&offset(second)).then(first.location.cmp(&second.location)));
 
-    let mut aisles: Vec<Aisle> = Vec::new();
+    let mut aisles: Vec<FrontLine> = Vec::new();
     // Offsets of the last right and the last left front of the current aisle.
     let mut last: [Option<f64>; 2] = [None; 2];
     for front in fronts {
@@ -166,7 +150,7 @@ fn aisles_of_place(angle: f64, fronts: Vec<Front>) -> Vec<Aisle> {
         let follows_the_left = !is_left && last[1].is_some();
         let is_far = last[same_side].is_some_and(|last| at - last > NEXT_AISLE_M);
         if aisles.is_empty() || follows_the_left || is_far {
-            aisles.push(Aisle { angle, fronts: Vec::new() });
+            aisles.push(FrontLine { angle, place, fronts: Vec::new() });
             last = [None; 2];
         }
         last[same_side] = Some(at);
@@ -175,19 +159,21 @@ fn aisles_of_place(angle: f64, fronts: Vec<Front>) -> Vec<Aisle> {
     aisles
 }
 
-impl Front {
+impl AisleFront {
     /// Direction of the access edge, undirected, radians in `[-pi/2, pi/2)`.
     fn line_angle(&self) -> f64 {
         fold_half_turn(self.heading + FRAC_PI_2)
     }
 
-    fn side(&self, aisle_angle: f64) -> Side {
+    /// Its side of an aisle that points somewhere.
+    pub fn side(&self, aisle_angle: f64) -> Side {
         if direction(self.heading).dot(&normal(aisle_angle)) > 0.0 { Side::Left } else { Side::Right }
     }
 }
 
-impl Aisle {
-    fn mean(&self, value: impl Fn(&Front) -> f64) -> f64 {
+impl FrontLine {
+    /// Mean of a value of its fronts.
+    pub fn mean(&self, value: impl Fn(&AisleFront) -> f64) -> f64 {
         self.fronts.iter().map(value).sum::<f64>() / self.fronts.len() as f64
     }
 
@@ -196,27 +182,23 @@ impl Aisle {
         Point::new(self.mean(|front| front.middle.x), self.mean(|front| front.middle.y))
     }
 
-    fn first_face(&self) -> Option<FaceId> {
-        self.fronts.iter().map(|front| front.face).min()
+    fn first_location(&self) -> Option<usize> {
+        self.fronts.iter().map(|front| front.location).min()
     }
 
-    /// (location, side, bay) of every front: odd numbers on the left, even ones on the right, along the aisle.
-    fn bays(&self) -> Vec<(usize, Side, u32)> {
-        let along = direction(self.angle);
-        let mut fronts: Vec<&Front> = self.fronts.iter().collect();
+    /// How far along the aisle a front lies, metres.
+    pub fn abscissa(&self, front: &AisleFront) -> f64 {
+        direction(self.angle).dot(&front.middle.coords)
+    }
+
+    /// The fronts on one side, along the aisle.
+    pub fn side(&self, side: Side) -> Vec<AisleFront> {
+        let mut fronts: Vec<AisleFront> =
+            self.fronts.iter().copied().filter(|front| front.side(self.angle) == side).collect();
         fronts.sort_by(|first, second| {
-            let abscissa = |front: &Front| along.dot(&front.middle.coords);
-            abscissa(first).total_cmp(&abscissa(second)).then(first.face.cmp(&second.face))
+            self.abscissa(first).total_cmp(&self.abscissa(second)).then(first.location.cmp(&second.location))
         });
-        let (mut next_left, mut next_right) = (1, 2);
-        let mut number = |front: &Front| {
-            let side = front.side(self.angle);
-            let next = if side == Side::Left { &mut next_left } else { &mut next_right };
-            let bay = *next;
-            *next += 2;
-            (front.location, side, bay)
-        };
-        fronts.into_iter().map(&mut number).collect()
+        fronts
     }
 }
 
@@ -225,14 +207,14 @@ mod tests {
     use super::*;
     use crate::geometry::line_angle_between;
 
-    fn front(heading_degrees: f64, place: u32, x: f64, y: f64) -> Front {
-        Front { location: 0, face: FaceId(1), middle: Point::new(x, y), heading: heading_degrees.to_radians(), place }
+    fn front(heading_degrees: f64, x: f64, y: f64) -> AisleFront {
+        AisleFront { location: 0, middle: Point::new(x, y), heading: heading_degrees.to_radians(), place: 0 }
     }
 
     #[test]
     fn directions_that_differ_by_noise_are_one_also_where_angles_wrap() {
         for middle in [-135.0_f64, -90.0, -45.0, 0.0, 45.0, 90.0, 135.0, 180.0] {
-            let fronts = [-1.0, 0.0, 1.0].map(|noise| front(middle + noise, 0, 0.0, 0.0)).to_vec();
+            let fronts = [-1.0, 0.0, 1.0].map(|noise| front(middle + noise, 0.0, 0.0)).to_vec();
             let groups = by_direction(fronts);
             assert_eq!(groups.len(), 1, "around {middle} degrees");
             assert!(line_angle_between(groups[0].0, (middle + 90.0).to_radians()) < 1e-9);
@@ -241,37 +223,48 @@ mod tests {
 
     #[test]
     fn aisles_point_to_the_right_or_up() {
-        let angle = |heading| by_direction(vec![front(heading, 0, 0.0, 0.0)])[0].0.to_degrees().round() as i32;
+        let angle = |heading| by_direction(vec![front(heading, 0.0, 0.0)])[0].0.to_degrees().round() as i32;
         assert_eq!([0.0, 90.0, 180.0, -90.0, 120.0, 60.0].map(angle), [90, 0, 90, 0, 30, -30]);
+    }
+
+    /// Aisles with fronts 3 m apart across each and 6 m from aisle to aisle, four places long.
+    fn slanted(degrees: f64) -> Vec<AisleFront> {
+        let (along, across) = (direction(degrees.to_radians()), normal(degrees.to_radians()));
+        (0..3)
+            .flat_map(|aisle| [(-90.0, 0.0), (90.0, 3.0)].map(|(side, at)| (side, f64::from(aisle) * 6.0 + at)))
+            .flat_map(|(side, offset)| {
+                (0..4).map(move |bay| {
+                    let middle = across * offset + along * f64::from(bay);
+                    front(degrees + side, middle.x, middle.y)
+                })
+            })
+            .collect()
     }
 
     #[test]
     fn slanted_aisles_of_one_place_stay_apart() {
-        // At 30 degrees, with fronts 3 m apart across each aisle and 6 m from aisle to aisle.
-        let (along, across) = (direction(PI / 6.0), normal(PI / 6.0));
-        let at = |heading, offset: f64, abscissa: f64| {
-            let middle = across * offset + along * abscissa;
-            front(heading, 0, middle.x, middle.y)
-        };
-        let fronts = (0..3)
-            .flat_map(|aisle| {
-                [(-60.0, 0.0), (120.0, 3.0)].map(|(heading, side)| (heading, f64::from(aisle) * 6.0 + side))
-            })
-            .flat_map(|(heading, offset)| (0..4).map(move |bay| at(heading, offset, f64::from(bay))))
-            .collect();
-        let groups = by_direction(fronts);
-        assert_eq!(groups.len(), 1);
-        let aisles = aisles_along(groups[0].clone());
+        let aisles = aisles_of(slanted(30.0), None);
         assert_eq!(aisles.len(), 3);
         for aisle in aisles {
-            let mut bays: Vec<u32> = aisle.bays().into_iter().map(|(_, _, bay)| bay).collect();
-            bays.sort_unstable();
-            assert_eq!(bays, (1..=8).collect::<Vec<_>>());
+            assert_eq!([Side::Left, Side::Right].map(|side| aisle.side(side).len()), [4, 4]);
         }
     }
 
     #[test]
-    fn no_fronts_have_no_direction() {
-        assert!(by_direction(Vec::new()).is_empty());
+    fn aisles_begin_at_the_entrance() {
+        let first = |entrance: Option<Point>| {
+            let aisles = aisles_of(slanted(0.0), entrance);
+            let front = aisles[0].side(Side::Left)[0];
+            (front.middle.x.round() as i32, front.middle.y.round() as i32)
+        };
+        assert_eq!(first(None), (0, 3));
+        assert_eq!(first(Some(Point::new(-9.0, 0.0))), (0, 3));
+        assert_eq!(first(Some(Point::new(9.0, 0.0))), (3, 0), "the left side is the lower one on the way back");
+        assert_eq!(first(Some(Point::new(-9.0, 30.0))), (0, 15));
+    }
+
+    #[test]
+    fn no_fronts_have_no_aisles() {
+        assert!(aisles_of(Vec::new(), None).is_empty());
     }
 }

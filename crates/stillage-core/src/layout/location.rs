@@ -17,30 +17,40 @@ pub enum Side {
     Right,
 }
 
-/// Where a robot stands to reach a location.
+/// Where a vehicle stands to reach a location.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct ApproachPose {
-    /// Position in the corridor, grid frame, metres.
+    /// Position of its middle in the corridor, grid frame, metres.
     pub position: Point,
     /// Direction towards the location, radians, grid frame.
     pub heading: f64,
 }
 
-/// A storage face with what an inventory system needs of it.
+/// One place for goods with what an inventory system needs of it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Location {
-    /// `aisle-bay`, unique in its map, like `03-012`. Locations without access have aisle 0.
+    /// Its name in other systems, unique in its map, like `03-012`.
     pub code: String,
-    /// The storage face.
+    /// The storage face that it is, or is a part of.
     pub face: FaceId,
+    /// Which part of the face it is, from 0 along the row; 0 for a whole face.
+    pub part: u32,
+    /// Of how many parts its face is.
+    pub parts: u32,
+    /// Its border, grid frame, counter-clockwise, metres; the first point is not repeated.
+    pub outline: Vec<Point>,
     /// Its label.
     pub label: LabelId,
-    /// Aisle number from 1, 0 without access.
+    /// Number of its aisle, from 1; 0 without access.
     pub aisle: u32,
-    /// Bay number within the aisle: odd on the left, even on the right.
+    /// Number of its bay within the aisle: odd on the left, even on the right.
     pub bay: u32,
-    /// Side of the aisle, `None` without access.
+    /// Number of its row, from 1; 0 without access.
+    pub row: u32,
+    /// Side of the aisle; `None` without access.
     pub side: Option<Side>,
+    /// How deep in the row it lies: 1 at the aisle, 2 behind that, and so on.
+    pub depth_in_row: u32,
     /// Centre, grid frame, metres.
     pub center: Point,
     /// Extent along the access edge, metres.
@@ -49,12 +59,16 @@ pub struct Location {
     pub depth: f64,
     /// Direction from the access edge into the location, radians, grid frame.
     pub heading: f64,
+    /// Area, square metres.
+    pub area: f64,
     /// Whether goods stand there.
     pub occupancy: LocationOccupancy,
-    /// Edges through which it is reached, the best first.
+    /// Edges through which it is reached, the best first. Those of the location in front for one that lies behind.
     pub access_edges: Vec<EdgeId>,
     /// The drivable face behind the first access edge.
     pub access_from: Option<FaceId>,
-    /// Where a robot stands to reach it.
+    /// The place (corridor, junction or room) of that face.
+    pub corridor: Option<u32>,
+    /// Where a vehicle stands to reach it; `None` where nothing as wide as the vehicle has room before it.
     pub approach: Option<ApproachPose>,
 }

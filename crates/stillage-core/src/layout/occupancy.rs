@@ -13,7 +13,7 @@ const UNKNOWN_SHARE: f64 = 0.5;
 /// Whether goods stand in a location.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum LocationOccupancy {
+pub enum OccupancyState {
     /// Obstacles inside.
     Occupied,
     /// Seen to be free inside.
@@ -22,14 +22,44 @@ pub enum LocationOccupancy {
     Unknown,
 }
 
-/// Whether goods stand on a face. Goods hide what is behind them, so a few occupied cells outweigh many unknown ones.
-pub(crate) fn occupancy(face: &FaceAnnotation) -> LocationOccupancy {
-    let known = 1.0 - face.unknown_fraction;
-    if face.inside_occupied_fraction > OCCUPIED_SHARE * known {
-        LocationOccupancy::Occupied
-    } else if face.unknown_fraction > UNKNOWN_SHARE {
-        LocationOccupancy::Unknown
-    } else {
-        LocationOccupancy::Empty
+/// Whether goods stand in a location, and how surely.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct LocationOccupancy {
+    /// What is said of it.
+    pub state: OccupancyState,
+    /// Share of its known cells that are occupied and lie away from its border, 0 to 1; 0 where no cell is known.
+    pub fraction: f64,
+    /// How surely, 0 to 1: for empty locations the share of cells that were seen, for unknown ones the share that was
+    /// not, for occupied ones how far the fraction lies above the least one that counts.
+    pub confidence: f64,
+}
+
+/// Shares of the cells of a place.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct CellShares {
+    /// Unknown.
+    pub unknown: f64,
+    /// Occupied and away from the border.
+    pub inside_occupied: f64,
+}
+
+impl LocationOccupancy {
+    /// Reads the shares of cells. Goods hide what is behind them, so a few occupied cells outweigh many unknown ones.
+    pub(super) fn of(shares: CellShares) -> Self {
+        let known = 1.0 - shares.unknown;
+        let fraction = if known > 0.0 { (shares.inside_occupied / known).min(1.0) } else { 0.0 };
+        let (state, confidence) = if fraction > OCCUPIED_SHARE {
+            (OccupancyState::Occupied, 1.0 - OCCUPIED_SHARE / (2.0 * fraction))
+        } else if shares.unknown > UNKNOWN_SHARE {
+            (OccupancyState::Unknown, shares.unknown)
+        } else {
+            (OccupancyState::Empty, known)
+        };
+        Self { state, fraction, confidence }
     }
+}
+
+/// Whether goods stand on a face.
+pub(crate) fn occupancy(face: &FaceAnnotation) -> LocationOccupancy {
+    LocationOccupancy::of(CellShares { unknown: face.unknown_fraction, inside_occupied: face.inside_occupied_fraction })
 }

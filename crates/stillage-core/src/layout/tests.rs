@@ -1,7 +1,5 @@
 //! Locations of drawn warehouses.
 
-use super::aisles::Slot;
-use super::codes::Codes;
 use super::*;
 use crate::geometry::Point;
 use crate::semantics::RuleSet;
@@ -53,10 +51,14 @@ fn warehouse() -> DrawnMap {
 
 fn check(map: &DrawnMap, expected: &Expect) -> Vec<Location> {
     let semantic = map.semantic(&RuleSet::warehouse());
-    let locations = map.locations(&semantic);
+    let Layout { locations, aisles, rows } = map.layout(&semantic);
     let codes: BTreeSet<&str> = locations.iter().map(|location| location.code.as_str()).collect();
     assert_eq!(codes.len(), locations.len(), "codes are unique");
     assert!(locations.is_sorted_by_key(|location| location.code.clone()), "locations come by code");
+    let listed: usize = aisles.iter().map(|aisle| aisle.left.len() + aisle.right.len()).sum();
+    let in_rows: usize = rows.iter().map(|row| row.locations.len()).sum();
+    let numbered = locations.iter().filter(|location| location.aisle > 0).count();
+    assert_eq!([listed, in_rows], [numbered; 2], "aisles and rows name every location that has an aisle");
     let storage = map.analysis.subdivision.faces().filter(|&face| semantic.label(face).is_storage()).count();
     assert_eq!(locations.len(), storage, "every storage face is a location");
 
@@ -69,7 +71,7 @@ fn check(map: &DrawnMap, expected: &Expect) -> Vec<Location> {
         let degrees = location.heading.to_degrees().round() as i32;
         format!(
             "{} at {:.1},{:.1} {:.1}x{:.1} {degrees:>4} {:?} {approach}\n",
-            location.code, center.x, center.y, location.width, location.depth, location.occupancy,
+            location.code, center.x, center.y, location.width, location.depth, location.occupancy.state,
         )
     };
     expected.assert_eq(&locations.iter().map(line).collect::<String>());
@@ -81,38 +83,38 @@ fn locations_are_numbered_aisle_by_aisle_odd_on_the_left() {
     check(
         &warehouse(),
         &expect![[r#"
-            01-001 at 0.5,3.5 1.0x1.0   90 Occupied from 0.5,2.2
-            01-002 at 0.5,0.5 1.0x1.0  -90 Occupied from 0.5,1.8
-            01-003 at 1.5,3.5 1.0x1.0   90 Occupied from 1.5,2.2
-            01-004 at 1.5,0.5 1.0x1.0  -90 Occupied from 1.5,1.8
-            01-005 at 2.5,3.5 1.0x1.0   90 Occupied from 2.5,2.2
-            01-006 at 2.5,0.5 1.0x1.0  -90 Occupied from 2.5,1.8
-            01-007 at 3.5,3.5 1.0x1.0   90 Occupied from 3.5,2.2
-            01-008 at 3.5,0.5 1.0x1.0  -90 Occupied from 3.5,1.8
-            02-001 at 6.5,3.5 1.0x1.0   90 Occupied from 6.5,2.2
-            02-002 at 6.5,0.5 1.0x1.0  -90 Occupied from 6.5,1.8
-            02-003 at 7.5,3.5 1.0x1.0   90 Occupied from 7.5,2.2
-            02-004 at 7.5,0.5 1.0x1.0  -90 Occupied from 7.5,1.8
-            02-005 at 8.5,3.5 1.0x1.0   90 Occupied from 8.5,2.2
-            02-006 at 8.5,0.5 1.0x1.0  -90 Occupied from 8.5,1.8
-            02-007 at 9.5,3.5 1.0x1.0   90 Occupied from 9.5,2.2
-            02-008 at 9.5,0.5 1.0x1.0  -90 Occupied from 9.5,1.8
-            03-001 at 0.5,7.5 1.0x1.0   90 Occupied from 0.5,6.2
-            03-002 at 0.5,4.5 1.0x1.0  -90 Occupied from 0.5,5.8
-            03-003 at 1.5,7.5 1.0x1.0   90 Occupied from 1.5,6.2
-            03-004 at 1.5,4.5 1.0x1.0  -90 Empty from 1.5,5.8
-            03-005 at 2.5,7.5 1.0x1.0   90 Occupied from 2.5,6.2
-            03-006 at 2.5,4.5 1.0x1.0  -90 Occupied from 2.5,5.8
-            03-007 at 3.5,7.5 1.0x1.0   90 Occupied from 3.5,6.2
-            03-008 at 3.5,4.5 1.0x1.0  -90 Occupied from 3.5,5.8
-            04-001 at 6.5,7.5 1.0x1.0   90 Occupied from 6.5,6.2
-            04-002 at 6.5,4.5 1.0x1.0  -90 Occupied from 6.5,5.8
-            04-003 at 7.5,7.5 1.0x1.0   90 Occupied from 7.5,6.2
-            04-004 at 7.5,4.5 1.0x1.0  -90 Unknown from 7.5,5.8
-            04-005 at 8.5,7.5 1.0x1.0   90 Occupied from 8.5,6.2
-            04-006 at 8.5,4.5 1.0x1.0  -90 Occupied from 8.5,5.8
-            04-007 at 9.5,7.5 1.0x1.0   90 Occupied from 9.5,6.2
-            04-008 at 9.5,4.5 1.0x1.0  -90 Occupied from 9.5,5.8
+            01-001 at 0.5,3.5 1.0x1.0   90 Occupied from 0.8,2.8
+            01-002 at 0.5,0.5 1.0x1.0  -90 Occupied from 0.5,1.5
+            01-003 at 1.5,3.5 1.0x1.0   90 Occupied from 1.8,2.8
+            01-004 at 1.5,0.5 1.0x1.0  -90 Occupied from 1.5,1.5
+            01-005 at 2.5,3.5 1.0x1.0   90 Occupied from 2.8,2.8
+            01-006 at 2.5,0.5 1.0x1.0  -90 Occupied from 2.5,1.5
+            01-007 at 3.5,3.5 1.0x1.0   90 Occupied from 3.8,2.8
+            01-008 at 3.5,0.5 1.0x1.0  -90 Occupied from 3.5,1.5
+            02-001 at 6.5,3.5 1.0x1.0   90 Occupied from 6.8,2.8
+            02-002 at 6.5,0.5 1.0x1.0  -90 Occupied from 6.5,1.5
+            02-003 at 7.5,3.5 1.0x1.0   90 Occupied from 7.2,2.8
+            02-004 at 7.5,0.5 1.0x1.0  -90 Occupied from 7.5,1.5
+            02-005 at 8.5,3.5 1.0x1.0   90 Occupied from 8.8,2.8
+            02-006 at 8.5,0.5 1.0x1.0  -90 Occupied from 8.5,1.5
+            02-007 at 9.5,3.5 1.0x1.0   90 Occupied from 9.8,2.8
+            02-008 at 9.5,0.5 1.0x1.0  -90 Occupied from 9.8,1.8
+            03-001 at 0.5,7.5 1.0x1.0   90 Occupied from 0.8,6.8
+            03-002 at 0.5,4.5 1.0x1.0  -90 Occupied from 0.5,5.5
+            03-003 at 1.5,7.5 1.0x1.0   90 Occupied from 1.8,6.8
+            03-004 at 1.5,4.5 1.0x1.0  -90 Empty from 1.5,5.5
+            03-005 at 2.5,7.5 1.0x1.0   90 Occupied from 2.8,6.8
+            03-006 at 2.5,4.5 1.0x1.0  -90 Occupied from 2.5,5.5
+            03-007 at 3.5,7.5 1.0x1.0   90 Occupied from 3.2,6.8
+            03-008 at 3.5,4.5 1.0x1.0  -90 Occupied from 3.5,5.5
+            04-001 at 6.5,7.5 1.0x1.0   90 Occupied from 6.8,6.8
+            04-002 at 6.5,4.5 1.0x1.0  -90 Occupied from 6.5,5.5
+            04-003 at 7.5,7.5 1.0x1.0   90 Occupied from 7.8,6.8
+            04-004 at 7.5,4.5 1.0x1.0  -90 Unknown from 7.5,5.5
+            04-005 at 8.5,7.5 1.0x1.0   90 Occupied from 8.8,6.8
+            04-006 at 8.5,4.5 1.0x1.0  -90 Occupied from 8.5,5.5
+            04-007 at 9.5,7.5 1.0x1.0   90 Occupied from 9.8,6.8
+            04-008 at 9.5,4.5 1.0x1.0  -90 Occupied from 9.8,5.8
         "#]],
     );
 }
@@ -136,15 +138,15 @@ fn upright_aisles_are_numbered_from_the_left_and_run_up() {
     check(
         &map,
         &expect![[r#"
-        01-001 at 0.2,0.5 1.0x0.5  180 Occupied from 1.2,0.5
-        01-002 at 2.2,0.5 1.0x0.5    0 Occupied from 1.2,0.5
-        01-003 at 0.2,1.5 1.0x0.5  180 Occupied from 1.2,1.5
-        01-004 at 2.2,1.5 1.0x0.5    0 Occupied from 1.2,1.5
-        02-001 at 2.8,0.5 1.0x0.5  180 Occupied from 3.5,0.5
-        02-002 at 4.2,0.5 1.0x0.5    0 Occupied from 3.5,0.5
-        02-003 at 2.8,1.5 1.0x0.5  180 Occupied from 3.5,1.5
-        02-004 at 4.2,1.5 1.0x0.5    0 Occupied from 3.5,1.5
-    "#]],
+            01-001 at 0.2,0.5 1.0x0.5  180 Occupied from 1.2,0.2
+            01-002 at 2.2,0.5 1.0x0.5    0 Occupied from 1.8,0.2
+            01-003 at 0.2,1.5 1.0x0.5  180 Occupied from 1.2,1.8
+            01-004 at 2.2,1.5 1.0x0.5    0 Occupied from 1.8,1.8
+            02-001 at 2.8,0.5 1.0x0.5  180 Occupied from 3.8,0.8
+            02-002 at 4.2,0.5 1.0x0.5    0 Occupied from 3.8,0.2
+            02-003 at 2.8,1.5 1.0x0.5  180 Occupied from 3.8,1.8
+            02-004 at 4.2,1.5 1.0x0.5    0 Occupied from 3.8,1.8
+        "#]],
     );
 }
 
@@ -176,20 +178,20 @@ fn one_place_of_many_corridors_falls_into_its_aisles() {
     check(
         &map,
         &expect![[r#"
-        01-001 at 0.5,1.8 1.0x0.5   90 Occupied from 0.5,1.0
-        01-002 at 0.5,0.2 1.0x0.5  -90 Occupied from 0.5,1.0
-        01-003 at 1.5,1.8 1.0x0.5   90 Occupied from 1.5,1.0
-        01-004 at 1.5,0.2 1.0x0.5  -90 Occupied from 1.5,1.0
-        02-001 at 0.5,3.8 1.0x0.5   90 Occupied from 0.5,3.0
-        02-002 at 0.5,2.2 1.0x0.5  -90 Occupied from 0.5,3.0
-        02-003 at 1.5,3.8 1.0x0.5   90 Occupied from 1.5,3.0
-        02-004 at 1.5,2.2 1.0x0.5  -90 Occupied from 1.5,3.0
-    "#]],
+            01-001 at 0.5,1.8 1.0x0.5   90 Occupied from 0.8,1.2
+            01-002 at 0.5,0.2 1.0x0.5  -90 Occupied from 0.8,1.2
+            01-003 at 1.5,1.8 1.0x0.5   90 Occupied from 1.8,1.2
+            01-004 at 1.5,0.2 1.0x0.5  -90 Occupied from 1.8,1.2
+            02-001 at 0.5,3.8 1.0x0.5   90 Occupied from 0.8,3.2
+            02-002 at 0.5,2.2 1.0x0.5  -90 Occupied from 0.8,3.2
+            02-003 at 1.5,3.8 1.0x0.5   90 Occupied from 1.2,3.2
+            02-004 at 1.5,2.2 1.0x0.5  -90 Occupied from 1.8,3.2
+        "#]],
     );
 }
 
 #[test]
-fn a_location_behind_another_has_no_access() {
+fn a_location_behind_another_is_reached_through_it() {
     let map = DrawnMap::new(
         "
         ##
@@ -207,12 +209,13 @@ fn a_location_behind_another_has_no_access() {
     let locations = check(
         &map,
         &expect![[r#"
-        00-001 at 0.5,1.8 0.5x1.0    0 Occupied no access
-        01-001 at 0.5,1.2 1.0x0.5   90 Occupied from 0.5,0.5
-    "#]],
+            01-001 at 0.5,1.2 1.0x0.5   90 Occupied from 0.8,0.8
+            01-001-2 at 0.5,1.8 1.0x0.5   90 Occupied from 0.8,0.8
+        "#]],
     );
-    assert_eq!(locations[0].side, None);
-    assert!(locations[0].access_edges.is_empty());
+    let depths: Vec<u32> = locations.iter().map(|location| location.depth_in_row).collect();
+    assert_eq!(depths, [1, 2]);
+    assert_eq!(locations[0].access_edges, locations[1].access_edges);
 }
 
 #[test]
@@ -232,24 +235,75 @@ fn the_robot_stands_inside_a_face_too_narrow_for_its_distance() {
     check(
         &map,
         &expect![[r#"
-        01-001 at 0.5,1.2 1.0x0.5   90 Occupied from 0.5,0.8
-    "#]],
+            01-001 at 0.5,1.2 1.0x0.5   90 Occupied from 0.8,0.8
+        "#]],
     );
-}
-
-#[test]
-fn codes_grow_with_their_numbers() {
-    let slot = |aisle, bay| Slot { aisle, bay, side: Some(Side::Left) };
-    let codes = |slots: &[Slot]| {
-        let codes = Codes::for_slots(slots);
-        slots.iter().map(|&slot| codes.of(slot)).collect::<Vec<_>>()
-    };
-    assert_eq!(codes(&[slot(3, 12)]), ["03-012"]);
-    assert_eq!(codes(&[slot(3, 12), slot(120, 1000)]), ["003-0012", "120-1000"]);
 }
 
 #[test]
 fn a_map_without_storage_has_no_locations() {
     let map = DrawnMap::new("..", "cc");
-    assert!(map.locations(&map.semantic(&RuleSet::office())).is_empty());
+    assert!(map.layout(&map.semantic(&RuleSet::office())).locations.is_empty());
+}
+
+#[test]
+fn a_long_rack_is_cut_into_places_for_a_load() {
+    let map = DrawnMap::new(
+        "
+        ############
+        ##....####..
+        ............
+        ............
+        ............
+        ",
+        "
+        pppppppppppp
+        pppppppppppp
+        cccccccccccc
+        cccccccccccc
+        cccccccccccc
+        ",
+    );
+    let semantic = map.semantic(&RuleSet::warehouse());
+    let spec = LayoutSpec { vehicle_radius: 0.2, ..LayoutSpec::of(&map.analysis.options) };
+    let cut = |place_width| layout(&map.site(&semantic), &LayoutSpec { place_width, ..spec.clone() }).locations;
+    assert_eq!((cut(None).len(), cut(Some(6.0)).len(), cut(Some(3.0)).len()), (1, 1, 2));
+    let places = cut(Some(2.0));
+    let line = |place: &Location| format!("{} {:.1} m at {:.1}", place.code, place.width, place.center.x);
+    let lines: Vec<String> = places.iter().map(line).collect();
+    assert_eq!(lines, ["01-001 2.0 m at 1.0", "01-003 2.0 m at 3.0", "01-005 2.0 m at 5.0"]);
+    assert!(places.iter().all(|place| (place.area - 2.0).abs() < 1e-9 && place.outline.len() == 4));
+}
+
+#[test]
+fn places_at_the_end_of_a_row_are_reached_like_the_others() {
+    // A row alone on open floor: the outer places have a long side to the left and the right.
+    let map = DrawnMap::new(
+        "
+        ............
+        ............
+        ............
+        ...######...
+        ...######...
+        ...######...
+        ............
+        ............
+        ............
+        ",
+        "
+        cccccccccccc
+        cccccccccccc
+        cccccccccccc
+        cccppqqppccc
+        cccppqqppccc
+        cccppqqppccc
+        cccccccccccc
+        cccccccccccc
+        cccccccccccc
+        ",
+    );
+    let locations = map.layout(&map.semantic(&RuleSet::warehouse())).locations;
+    let headings: BTreeSet<i32> = locations.iter().map(|place| place.heading.to_degrees().round() as i32).collect();
+    assert_eq!((locations.len(), headings.len()), (3, 1), "{headings:?}");
+    assert_eq!(headings.into_iter().next().map(i32::abs), Some(90));
 }

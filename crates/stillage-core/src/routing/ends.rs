@@ -4,11 +4,12 @@
 //! route ends on the largest one, although another may be nearer.
 
 use super::no_route::{NoRoute, RouteEnd};
-use super::routing_map::RoutingMap;
+use super::window::window_of;
 use crate::arrangement::{EdgeId, FaceId};
 use crate::geometry::Point;
 use crate::grid::Occupancy;
 use crate::layout::Location;
+use crate::site_map::SiteMap;
 
 /// Where a route begins or ends.
 #[derive(Debug, Clone, PartialEq)]
@@ -18,7 +19,7 @@ pub enum Waypoint {
     /// A drivable face (the point well inside it).
     Face(FaceId),
     /// A storage location: the route ends at its storage-access edge.
-    Location(Location),
+    Location(Box<Location>),
 }
 
 /// One end of a route, on a free cell of a drivable face.
@@ -35,7 +36,7 @@ pub(super) struct End {
 }
 
 impl End {
-    pub fn find(map: &RoutingMap<'_>, waypoint: &Waypoint, end: RouteEnd) -> Result<Self, NoRoute> {
+    pub fn find(map: &SiteMap<'_>, waypoint: &Waypoint, end: RouteEnd) -> Result<Self, NoRoute> {
         match waypoint {
             Waypoint::Point(point) => at_point(map, *point, end),
             Waypoint::Face(face) => in_face(map, *face, end),
@@ -44,7 +45,7 @@ impl End {
     }
 }
 
-fn at_point(map: &RoutingMap<'_>, point: Point, end: RouteEnd) -> Result<End, NoRoute> {
+fn at_point(map: &SiteMap<'_>, point: Point, end: RouteEnd) -> Result<End, NoRoute> {
     let (column, row) = map.grid.cell_at(point).ok_or(NoRoute::Outside(end))?;
     let cell = row * map.grid.width() + column;
     let face = map.cells.as_slice()[cell];
@@ -53,7 +54,7 @@ fn at_point(map: &RoutingMap<'_>, point: Point, end: RouteEnd) -> Result<End, No
     if is_free { Ok(End { point, cell, face, access: None }) } else { Err(NoRoute::Blocked(end)) }
 }
 
-fn in_face(map: &RoutingMap<'_>, face: FaceId, end: RouteEnd) -> Result<End, NoRoute> {
+fn in_face(map: &SiteMap<'_>, face: FaceId, end: RouteEnd) -> Result<End, NoRoute> {
     check_drivable(map, face, end)?;
     let point = map.analysis.graph.position(face);
     match at_point(map, point, end) {
@@ -63,7 +64,7 @@ fn in_face(map: &RoutingMap<'_>, face: FaceId, end: RouteEnd) -> Result<End, NoR
 }
 
 /// The end before the best access edge that has free ground in front.
-fn before_location(map: &RoutingMap<'_>, location: &Location, end: RouteEnd) -> Result<End, NoRoute> {
+fn before_location(map: &SiteMap<'_>, location: &Location, end: RouteEnd) -> Result<End, NoRoute> {
     let subdivision = &map.analysis.subdivision;
     let no_access = NoRoute::NoAccess { end, code: location.code.clone() };
     let mut problem = None;
@@ -82,7 +83,7 @@ fn before_location(map: &RoutingMap<'_>, location: &Location, end: RouteEnd) -> 
     Err(problem.unwrap_or(no_access))
 }
 
-fn check_drivable(map: &RoutingMap<'_>, face: FaceId, end: RouteEnd) -> Result<(), NoRoute> {
+fn check_drivable(map: &SiteMap<'_>, face: FaceId, end: RouteEnd) -> Result<(), NoRoute> {
     if face == FaceId::OUTER || face.index() >= map.semantic.labels.len() {
         return Err(NoRoute::Outside(end));
     }
@@ -91,7 +92,7 @@ fn check_drivable(map: &RoutingMap<'_>, face: FaceId, end: RouteEnd) -> Result<(
 }
 
 /// The free cell of a face nearest to a point, on the largest piece of the face's free ground.
-fn nearest_free_cell(map: &RoutingMap<'_>, face: FaceId, point: Point) -> Option<End> {
+fn nearest_free_cell(map: &SiteMap<'_>, face: FaceId, point: Point) -> Option<End> {
     let pieces = free_pieces(map, face);
     // Of pieces of one size the first, that is, the lowest.
     let largest = pieces.into_iter().reduce(|best, piece| if piece.len() > best.len() { piece } else { best })?;
@@ -105,10 +106,10 @@ fn nearest_free_cell(map: &RoutingMap<'_>, face: FaceId, point: Point) -> Option
 }
 
 /// The free cells of a face, by pieces that are connected over cell sides.
-fn free_pieces(map: &RoutingMap<'_>, face: FaceId) -> Vec<Vec<usize>> {
+fn free_pieces(map: &SiteMap<'_>, face: FaceId) -> Vec<Vec<usize>> {
     let mut members = vec![false; map.analysis.subdivision.face_count()];
     members[face.index()] = true;
-    let window = map.window_of(&members);
+    let window = window_of(map, &members);
     let (columns, width) = (window.columns.len(), map.grid.width());
     let mut waits = vec![false; columns * window.rows.len()];
     let index = |column: usize, row: usize| (row - window.rows.start) * columns + column - window.columns.start;

@@ -8,7 +8,7 @@
 //! | [`search`] | the shortest path over the eight neighbours of cells |
 //! | [`sight`] | the path pulled tight, and the faces and edges that it crosses |
 //! | [`no_route`] | why there is none |
-//! | [`routing_map`] | what routing reads of a map |
+//! | [`window`] | the cells around some faces |
 //!
 //! Source: A* (Hart, Nilsson and Raphael 1968, doi 10.1109/TSSC.1968.300136) on the cells, then string pulling with an
 //! exact line of sight (Amanatides and Woo 1987). The paper adds where a path may go at all: over links that are
@@ -21,10 +21,10 @@
 mod ends;
 mod no_route;
 mod route;
-mod routing_map;
 mod search;
 mod sight;
 mod step_rule;
+mod window;
 
 #[cfg(test)]
 mod tests;
@@ -32,4 +32,3 @@ mod tests;
 pub use ends::Waypoint;
 pub use no_route::{NoRoute, RouteEnd};
 pub use route::{Route, route};
-pub use routing_map::RoutingMap;

@@ -2,11 +2,12 @@
 
 use super::ends::{End, Waypoint};
 use super::no_route::{NoRoute, RouteEnd};
-use super::routing_map::RoutingMap;
 use super::step_rule::StepRule;
+use super::window::window_of;
 use super::{search, sight};
 use crate::arrangement::{EdgeId, FaceId};
 use crate::geometry::Point;
+use crate::site_map::SiteMap;
 
 /// A way through the map.
 #[derive(Debug, Clone, PartialEq)]
@@ -28,7 +29,7 @@ pub struct Route {
 ///
 /// # Errors
 /// [`NoRoute`] says why there is none.
-pub fn route(map: RoutingMap<'_>, from: &Waypoint, to: &Waypoint) -> Result<Route, NoRoute> {
+pub fn route(map: SiteMap<'_>, from: &Waypoint, to: &Waypoint) -> Result<Route, NoRoute> {
     let start = End::find(&map, from, RouteEnd::Start)?;
     let goal = End::find(&map, to, RouteEnd::Goal)?;
     let rule = StepRule::new(map);
@@ -36,7 +37,7 @@ pub fn route(map: RoutingMap<'_>, from: &Waypoint, to: &Waypoint) -> Result<Rout
     if !reachable[goal.face.index()] {
         return Err(NoRoute::Disconnected { from: start.face, to: goal.face });
     }
-    let window = map.window_of(&reachable);
+    let window = window_of(&map, &reachable);
     let cells = search::shortest(&rule, &window, start.cell, goal.cell).ok_or(NoRoute::Obstructed)?;
 
     let inner = cells.iter().skip(1).take(cells.len().saturating_sub(2));

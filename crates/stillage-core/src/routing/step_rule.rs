@@ -5,21 +5,21 @@
 //! O(boundary) where a face thinner than a cell lies between them.
 //! Limits: two faces that share a drivable edge somewhere are taken to share it wherever their cells touch.
 
-use super::routing_map::RoutingMap;
 use crate::arrangement::{EdgeId, FaceId};
 use crate::geometry::{Point, segment};
 use crate::grid::Occupancy;
+use crate::site_map::SiteMap;
 
 /// The rule of a path's steps. Cells are indices, row-major, lowest row first.
 pub(super) struct StepRule<'a> {
-    map: RoutingMap<'a>,
+    map: SiteMap<'a>,
     drivable: Vec<bool>,
     /// Pairs of faces joined by a drivable link, both ways round, ascending.
     joined: Vec<(FaceId, FaceId)>,
 }
 
 impl<'a> StepRule<'a> {
-    pub fn new(map: RoutingMap<'a>) -> Self {
+    pub fn new(map: SiteMap<'a>) -> Self {
         let subdivision = &map.analysis.subdivision;
         let mut drivable: Vec<bool> =
             map.semantic.labels.iter().map(|&label| map.semantic.rule_set.label(label).is_drivable()).collect();

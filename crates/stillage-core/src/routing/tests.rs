@@ -65,7 +65,10 @@ fn check_invariants(map: &DrawnMap, semantic: &SemanticMap, route: &Route) {
         for (row, column) in (0..map.grid.height()).flat_map(|row| (0..map.grid.width()).map(move |c| (row, c))) {
             if passes_through(pair[0], pair[1], column, row) {
                 assert_eq!(map.grid.row(row)[column], Occupancy::Free, "cell {column},{row} of {pair:?}");
-                assert!(semantic.label(map.cells.at(column, row)).is_drivable(), "cell {column},{row} of {pair:?}");
+                assert!(
+                    semantic.label(map.cells.faces.at(column, row)).is_drivable(),
+                    "cell {column},{row} of {pair:?}"
+                );
             }
         }
     }
@@ -97,7 +100,7 @@ fn draw(map: &DrawnMap, route: &Route) -> String {
 
 fn check(map: &DrawnMap, from: &Waypoint, to: &Waypoint, expected: &Expect) {
     let semantic = map.semantic(&RuleSet::warehouse());
-    let report = match route(map.routing(&semantic), from, to) {
+    let report = match route(map.site(&semantic), from, to) {
         Ok(route) => {
             check_invariants(map, &semantic, &route);
             let faces: String = route.faces.iter().map(|&face| map.letter(face)).collect();
@@ -116,7 +119,9 @@ fn point(map: &DrawnMap, column: usize, line: usize) -> Waypoint {
 fn location(map: &DrawnMap, column: usize, line: usize) -> Waypoint {
     let semantic = map.semantic(&RuleSet::warehouse());
     let face = map.face_at(column, line);
-    Waypoint::Location(map.locations(&semantic).into_iter().find(|location| location.face == face).unwrap())
+    Waypoint::Location(Box::new(
+        map.layout(&semantic).locations.into_iter().find(|location| location.face == face).unwrap(),
+    ))
 }
 
 #[test]
@@ -297,7 +302,7 @@ fn a_face_thinner_than_a_cell_is_crossed_if_it_is_drivable() {
     let through = |label: &str| {
         let assignment = [(0, "co".to_owned()), (sliver, label.to_owned())].into();
         let semantic = apply(&map.analysis, &rules, &Assignment { assignment, ..Assignment::default() }).unwrap();
-        route(map.routing(&semantic), &ends[0], &ends[1])
+        route(map.site(&semantic), &ends[0], &ends[1])
     };
     let route = through("ju").unwrap();
     assert_eq!((route.faces.len(), route.edges.len()), (3, 2));
@@ -358,8 +363,8 @@ fn each_reason_for_no_route_is_told() {
         &here,
         &location(&map, 5, 0),
         &expect![[r#"
-        location 00-001, the goal, has no storage-access edge
-    "#]],
+            the goal lies in face 6, which is labelled pallet cell and not drivable
+        "#]],
     );
     check(
         &map,
@@ -385,12 +390,12 @@ fn all_pairs_of_faces_and_locations_have_sound_routes() {
     let semantic = map.semantic(&RuleSet::warehouse());
     let faces = map.analysis.subdivision.faces().filter(|&face| semantic.label(face).is_drivable());
     let mut ends: Vec<Waypoint> = faces.map(Waypoint::Face).collect();
-    ends.extend(map.locations(&semantic).into_iter().map(Waypoint::Location));
+    ends.extend(map.layout(&semantic).locations.into_iter().map(|location| Waypoint::Location(Box::new(location))));
     for from in &ends {
         for to in &ends {
-            let there = route(map.routing(&semantic), from, to).unwrap();
+            let there = route(map.site(&semantic), from, to).unwrap();
             check_invariants(&map, &semantic, &there);
-            let back = route(map.routing(&semantic), to, from).unwrap();
+            let back = route(map.site(&semantic), to, from).unwrap();
             assert!((there.length - back.length).abs() < 0.1 * there.length + 0.1, "{from:?} {to:?}");
         }
     }
@@ -418,7 +423,7 @@ proptest! {
             map.point_at(column, line) + offset
         };
         let [start, goal] = ends.map(end);
-        match route(map.routing(&semantic), &Waypoint::Point(start), &Waypoint::Point(goal)) {
+        match route(map.site(&semantic), &Waypoint::Point(start), &Waypoint::Point(goal)) {
             Ok(route) => {
                 check_invariants(&map, &semantic, &route);
                 prop_assert_eq!((route.path[0], *route.path.last().unwrap()), (start, goal));
@@ -443,7 +448,7 @@ fn hang_together(map: &DrawnMap, semantic: &SemanticMap, start: Point, goal: Poi
             let (column, row) = (column as i64 + right, row as i64 + up);
             let side = (column as usize, row as usize);
             let free = map.grid.at(column, row) == Occupancy::Free;
-            if free && semantic.label(map.cells.at(side.0, side.1)).is_drivable() && !seen.contains(&side) {
+            if free && semantic.label(map.cells.faces.at(side.0, side.1)).is_drivable() && !seen.contains(&side) {
                 seen.push(side);
             }
         }

@@ -357,7 +357,7 @@ mod tests {
             Assignment { assignment: [(1, "ju".to_owned())].into(), overrides: [(corridor.0, "co".to_owned())].into() };
         let semantic = apply(&map.analysis, &RuleSet::warehouse(), &assignment).unwrap();
         let labels: String =
-            map.draw(|column, row| semantic.label(map.cells.at(column, row)).id.chars().next().unwrap());
+            map.draw(|column, row| semantic.label(map.cells.faces.at(column, row)).id.chars().next().unwrap());
         expect![[r#"
             uuuujjjjuuu
             uuuujjjjuuu

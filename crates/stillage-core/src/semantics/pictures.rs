@@ -5,27 +5,31 @@ use crate::analysis::Analysis;
 use crate::annotation;
 use crate::arrangement::{self, CellFaces, EdgeSource, FaceId, SourceSegment};
 use crate::categorization::{Categorization, Category, CategoryMap};
+use crate::clearance::Clearance;
 use crate::clustering::FitReport;
 use crate::declutter::Removed;
 use crate::geometry::{OrientedBox, Point};
 use crate::grid::{Occupancy, OccupancyGrid};
-use crate::layout::{self, Location};
+use crate::layout::{Layout, LayoutSpec, layout};
 use crate::orientation::Orientations;
 use crate::rooms::RoomMap;
-use crate::routing::RoutingMap;
 use crate::segmentation::{Region, RegionMap};
 use crate::semantics::{Assignment, RuleSet, SemanticMap, apply};
+use crate::site_map::{SiteCells, SiteMap};
 use crate::spec::{AnalysisOptions, AnnotationMethod};
 use crate::watch::Watch;
 
 /// Side of a cell, metres: coarse, so that a pallet place is four characters.
 pub(crate) const RESOLUTION: f64 = 0.5;
 
+/// Half the width of a vehicle, metres: it fits into an aisle of one cell.
+pub(crate) const VEHICLE_RADIUS: f64 = 0.2;
+
 /// An analysis whose faces were drawn: a face for each piece of one letter.
 pub(crate) struct DrawnMap {
     pub grid: OccupancyGrid,
     pub analysis: Analysis,
-    pub cells: CellFaces,
+    pub cells: SiteCells,
     /// Letter of every cell, row-major, lowest row first.
     letters: Vec<u8>,
 }
@@ -96,6 +100,7 @@ impl DrawnMap {
             face_relaxation: None,
             diagnostics: Vec::new(),
         };
+        let cells = SiteCells { faces: cells, clearance: Clearance::of(&grid) };
         Self { grid, analysis, cells, letters }
     }
 
@@ -112,17 +117,18 @@ impl DrawnMap {
         apply(&self.analysis, rule_set, &Assignment { assignment, ..Assignment::default() }).unwrap()
     }
 
-    pub fn locations(&self, semantic: &SemanticMap) -> Vec<Location> {
-        layout::locations(&self.analysis, semantic)
+    pub fn layout(&self, semantic: &SemanticMap) -> Layout {
+        let spec = LayoutSpec::of(&self.analysis.options);
+        layout(&self.site(semantic), &LayoutSpec { vehicle_radius: VEHICLE_RADIUS, ..spec })
     }
 
-    pub fn routing<'a>(&'a self, semantic: &'a SemanticMap) -> RoutingMap<'a> {
-        RoutingMap { grid: &self.grid, cells: &self.cells, analysis: &self.analysis, semantic }
+    pub fn site<'a>(&'a self, semantic: &'a SemanticMap) -> SiteMap<'a> {
+        self.cells.map(&self.grid, &self.analysis, semantic)
     }
 
     /// The face of the cell at a column and row of the drawing, the first line on top.
     pub fn face_at(&self, column: usize, line: usize) -> FaceId {
-        self.cells.at(column, self.grid.height() - 1 - line)
+        self.cells.faces.at(column, self.grid.height() - 1 - line)
     }
 
     /// Centre of the cell at a column and row of the drawing, the first line on top.
@@ -132,7 +138,7 @@ impl DrawnMap {
 
     /// The letter a face was drawn with.
     pub fn letter(&self, face: FaceId) -> char {
-        let cell = self.cells.as_slice().iter().position(|&other| other == face);
+        let cell = self.cells.faces.as_slice().iter().position(|&other| other == face);
         cell.map_or('?', |cell| self.letters[cell].into())
     }
 

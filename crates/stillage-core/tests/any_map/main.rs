@@ -14,11 +14,11 @@ use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use rayon::ThreadPool;
 use stillage_core::arrangement::{CellFaces, FaceId};
-use stillage_core::layout::{self, Location};
-use stillage_core::routing::{self, RoutingMap, Waypoint};
+use stillage_core::layout::{self, LayoutSpec, Location};
+use stillage_core::routing::{self, Waypoint};
 use stillage_core::semantics::{self, Assignment, RuleSet, SemanticMap};
 use stillage_core::watch::Observer;
-use stillage_core::{Analysis, AnalysisSpec, OccupancyGrid, Stage, StopFlag, Stopped, Watch, analyze};
+use stillage_core::{Analysis, AnalysisSpec, OccupancyGrid, SiteCells, Stage, StopFlag, Stopped, Watch, analyze};
 
 /// Cases of a run that nobody asked to be longer.
 const CASES: u32 = 64;
@@ -100,14 +100,16 @@ fn check_meaning(grid: &OccupancyGrid, analysis: &Analysis) -> Result<(), TestCa
     for (number, place) in (0_u32..).zip(&semantic.places) {
         prop_assert!(place.faces.iter().all(|face| semantic.face_places[face.index()] == Some(number)));
     }
-    let locations = layout::locations(analysis, &semantic);
+    let cells = SiteCells::of(grid, analysis);
+    let map = cells.map(grid, analysis, &semantic);
+    let locations = layout::layout(&map, &LayoutSpec::of(&analysis.options)).locations;
     prop_assert!(locations.windows(2).all(|pair| pair[0].code < pair[1].code), "{:?}", locations);
-    let cells = CellFaces::rasterize(&analysis.subdivision, grid.width(), grid.height(), grid.resolution());
-    let map = RoutingMap { grid, cells: &cells, analysis, semantic: &semantic };
     let ends = [locations.first(), locations.last()].map(Option::<&Location>::cloned);
     let faces = [analysis.subdivision.faces().next(), analysis.subdivision.faces().last()];
-    let ways =
-        [waypoints(ends.map(|end| end.map(Waypoint::Location))), waypoints(faces.map(|face| face.map(Waypoint::Face)))];
+    let ways = [
+        waypoints(ends.map(|end| end.map(|location| Waypoint::Location(Box::new(location))))),
+        waypoints(faces.map(|face| face.map(Waypoint::Face))),
+    ];
     for [from, to] in ways.into_iter().flatten() {
         if let Ok(route) = routing::route(map, &from, &to) {
             let length: f64 = route.path.windows(2).map(|step| (step[1] - step[0]).norm()).sum();
