@@ -12,6 +12,7 @@ use stillage_core::{Analysis, OccupancyGrid, SiteCells};
 use uuid::Uuid;
 
 use super::map_context::{FeatureCache, MapContext};
+use super::routers::RouterCache;
 use super::{AnalysisRecord, App, AppError, Caller, MapRecord, SemanticsOrigin, SemanticsRecord};
 use crate::blocking::off_the_runtime;
 use crate::ingest::{self, Limits, MapSource};
@@ -100,6 +101,7 @@ impl GeometricLevel {
             suggestions,
             layout,
             features: FeatureCache::default(),
+            routers: RouterCache::default(),
         })
     }
 }

@@ -3,10 +3,12 @@
 use std::sync::{Arc, OnceLock};
 
 use stillage_core::layout::Layout;
+use stillage_core::routing::{Blocked, Router};
 use stillage_core::semantics::{SemanticMap, Suggestion};
 use stillage_core::{Analysis, OccupancyGrid, SiteCells, SiteMap};
 use uuid::Uuid;
 
+use super::routers::RouterCache;
 use crate::features::{self, AnalysedMap, Collection, Feature};
 use crate::records::{MapRecord, SemanticsRecord};
 
@@ -33,6 +35,8 @@ pub struct MapContext {
     pub layout: Layout,
     /// Its collections, made when they are first asked for.
     pub(super) features: FeatureCache,
+    /// Its routers, likewise.
+    pub(super) routers: RouterCache,
 }
 
 /// The features of the collections that were asked for.
@@ -50,6 +54,13 @@ impl MapContext {
     #[must_use]
     pub fn site(&self) -> SiteMap<'_> {
         self.cells.map(&self.grid, &self.analysis, &self.semantic)
+    }
+
+    /// The router for vehicles of a radius in metres around what is blocked. The first call makes it, O(cells): keep it
+    /// off the runtime.
+    #[must_use]
+    pub fn router(&self, radius: f64, blocked: Blocked) -> Arc<Router> {
+        self.routers.router(&self.site(), radius, blocked)
     }
 
     /// The features of a collection, by id. The first call makes them: keep it off the runtime.

@@ -23,6 +23,7 @@ mod grid;
 mod jobs;
 mod map_context;
 mod maps;
+mod routers;
 mod rule_sets;
 mod semantics;
 mod service;

@@ -63,7 +63,8 @@ impl AnalysedMap<'_> {
     }
 
     /// A direction in the grid frame -> degrees in the map frame, `[-180, 180)`.
-    pub(super) fn heading_degrees(&self, angle: f64) -> f64 {
+    #[must_use]
+    pub fn heading_degrees(&self, angle: f64) -> f64 {
         let turned = (self.analysis.frame.angle_to_map(angle).to_degrees() + 180.0).rem_euclid(360.0) - 180.0;
         let degrees = rounded(turned);
         if degrees >= 180.0 { degrees - 360.0 } else { degrees }

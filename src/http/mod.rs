@@ -79,6 +79,7 @@ fn answered_in_time() -> OpenApiRouter<Arc<App>> {
         .routes(routes!(ogc::items::list))
         .routes(routes!(ogc::items::get))
         .routes(routes!(fleet::route::get))
+        .routes(routes!(fleet::distance_matrix::create))
         .routes(routes!(ogc::jobs::list))
         .routes(routes!(ogc::jobs::get, ogc::jobs::dismiss))
         .routes(routes!(ogc::jobs::events))

@@ -169,7 +169,14 @@ async fn valid(site: &Site, operation: &str) -> (Sent, &'static [u16]) {
             let every = json!({"assignment": site.api.all_labelled(map, "co").await});
             let labelled = Sent::new(Method::PUT, format!("{map}/semantics")).json(&every).with("if-match", "*");
             assert_eq!(labelled.to(&site.api).await.status, 200);
-            get(format!("{map}/routes?from=-1,3.5&to=12,0&crs=EPSG:3857"))
+            get(format!("{map}/routes?from=-1,3.5&to=12,0&crs=EPSG:3857&footprintRadiusM=0.2"))
+        }
+        "getDistanceMatrix" => {
+            let every = json!({"assignment": site.api.all_labelled(map, "co").await});
+            let labelled = Sent::new(Method::PUT, format!("{map}/semantics")).json(&every).with("if-match", "*");
+            assert_eq!(labelled.to(&site.api).await.status, 200);
+            let ends = json!({"from": ["-1,3.5", "face:1"], "to": ["12,0"], "crs": "EPSG:3857"});
+            (Sent::new(Method::POST, format!("{map}/distance-matrix")).json(&ends), &[200])
         }
         "listRuleSets" => get("/v1/rule-sets".into()),
         "createRuleSet" => (Sent::new(Method::POST, "/v1/rule-sets").json(&rule_set("new")), &[201]),

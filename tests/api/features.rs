@@ -7,8 +7,20 @@ use crate::client::{Api, HALL, METADATA, pgm, upload};
 
 const CRS84: &str = "http://www.opengis.net/def/crs/OGC/1.3/CRS84";
 const EPSG_3857: &str = "http://www.opengis.net/def/crs/EPSG/0/3857";
-const COLLECTIONS: [&str; 10] =
-    ["faces", "edges", "vertices", "nodes", "links", "lines", "regions", "places", "doors", "locations"];
+const COLLECTIONS: [&str; 12] = [
+    "faces",
+    "edges",
+    "vertices",
+    "nodes",
+    "links",
+    "lines",
+    "regions",
+    "places",
+    "doors",
+    "locations",
+    "aisles",
+    "rows",
+];
 
 /// Follows the pages of a list; ids in their order.
 async fn ids(api: &Api, path: &str) -> Vec<Value> {

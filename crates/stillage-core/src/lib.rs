@@ -14,7 +14,7 @@
 //!                                                                                                            │
 //!                     rule set, assignment (one human decision per category) ─ semantics ─ SemanticMap ──────┘
 //!                                                                                               │
-//!                                                                                       layout, graph, routing
+//!                                                                                       layout, routing, graph
 //! ```
 //!
 //! Everything up to the [`Analysis`] is the geometric level, without human input: [`analyze`]. The rest is the human
@@ -93,9 +93,9 @@ pub mod site_map;
 
 pub mod layout;
 
-pub mod graph;
-
 pub mod routing;
+
+pub mod graph;
 
 pub mod evaluation;
 

@@ -1,4 +1,4 @@
-//! Routes between two places of a map.
+//! Routes between two ends.
 
 use std::sync::Arc;
 
@@ -7,14 +7,16 @@ use axum::http::header;
 use axum::response::{IntoResponse, Response};
 use serde::{Deserialize, Serialize};
 use stillage_core::Point;
-use stillage_core::arrangement::FaceId;
-use stillage_core::routing::{self, Waypoint};
+use stillage_core::routing::{self, Route, SpeedProfile, instructions};
 use utoipa::{IntoParams, ToSchema};
 
+use super::no_route;
+use super::vehicle::{self, Ids, LabelCosts, Numbers, ProfileName};
+use super::waypoint::End;
 use crate::app::{App, Caller, MapContext};
 use crate::blocking::off_the_runtime;
 use crate::coordinates::Transform;
-use crate::features::Geometry;
+use crate::features::{Geometry, Pose};
 use crate::formats::geojson;
 use crate::http::docs::refusals::{NotAnalysed, NotFound};
 use crate::http::extract::crs::CrsName;
@@ -23,68 +25,67 @@ use crate::http::links::GEO_JSON;
 use crate::http::ogc::items::CONTENT_CRS;
 use crate::http::problem::Problem;
 
-/// From where to where.
+/// Routes that are found at most for one request.
+const MOST_ALTERNATIVES: usize = 5;
+
+/// From where to where, for which vehicle.
 #[derive(Debug, Deserialize, IntoParams)]
 #[into_params(parameter_in = Query)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, rename_all = "camelCase")]
 pub struct RouteQuery {
-    /// Where it begins: `x,y` in the coordinates of `crs`, `face:ID`, or `location:CODE`.
-    #[param(value_type = String, pattern = "^(face:[0-9]{1,9}|location:.+|-?[0-9]{1,9}([.][0-9]+)?,-?[0-9]{1,9}([.][0-9]+)?)$", example = "face:3")]
+    /// Where it begins: `x,y` in the coordinates of `crs`, `face:ID`, `place:ID` or `location:CODE`.
+    #[param(example = "face:3")]
     from: End,
-    /// Where it ends, likewise. At a location a route ends before the location's access edge.
-    #[param(value_type = String, pattern = "^(face:[0-9]{1,9}|location:.+|-?[0-9]{1,9}([.][0-9]+)?,-?[0-9]{1,9}([.][0-9]+)?)$", example = "location:01-002")]
+    /// Where it ends, likewise. At a location a route ends where the vehicle stands to serve it.
+    #[param(example = "location:01-002")]
     to: End,
     /// System of the coordinates, of `from` and `to` and of the answer alike. CRS84 (longitude, latitude) when absent,
     /// as everywhere; `EPSG:3857` for the metres of the map frame (of a map without georeference).
     #[serde(default)]
     #[param(value_type = Option<CrsName>)]
     crs: CrsName,
+    /// Distance that the middle of the vehicle keeps from obstacles, metres; half the vehicle width of the analysis when
+    /// absent, 0 for a point.
+    #[param(value_type = Option<f64>, minimum = 0, maximum = 10)]
+    #[serde(rename = "footprintRadiusM")]
+    footprint_radius: Option<f64>,
+    /// Outline of the vehicle in place of its radius: x and y of its corners in metres, x forwards from its middle. The
+    /// circle around it is kept clear, so that it can turn anywhere.
+    #[param(value_type = Option<String>, pattern = "^-?[0-9.]+(,-?[0-9.]+)*$")]
+    footprint: Option<Numbers>,
+    /// What is best: `shortest`, or `clearance` for distance from obstacles.
+    #[serde(default)]
+    #[param(inline)]
+    profile: ProfileName,
+    /// Factors on the length of ways over labels, from 1: `ju:2,ro:5`.
+    #[serde(default)]
+    #[param(value_type = Option<String>, pattern = "^[^:,]+:[0-9.]+(,[^:,]+:[0-9.]+)*$")]
+    label_costs: LabelCosts,
+    /// Ids of faces that may not be driven on.
+    #[serde(default)]
+    #[param(value_type = Option<String>, pattern = "^[0-9]{1,9}(,[0-9]{1,9})*$")]
+    blocked_faces: Ids,
+    /// Ids of edges that may not be crossed.
+    #[serde(default)]
+    #[param(value_type = Option<String>, pattern = "^[0-9]{1,9}(,[0-9]{1,9})*$")]
+    blocked_edges: Ids,
+    /// How many routes that differ are wanted; the others come as `alternatives` of the best.
+    #[serde(default = "one")]
+    #[param(value_type = Option<usize>, minimum = 1, maximum = 5)]
+    alternatives: usize,
+    /// Greatest speed for the time, metres per second; 1.5 when absent.
+    #[param(value_type = Option<f64>, exclusive_minimum = 0, maximum = 20)]
+    speed_mps: Option<f64>,
+    /// Speeding up and braking, metres per second squared; 0.5 when absent.
+    #[param(value_type = Option<f64>, exclusive_minimum = 0, maximum = 20)]
+    acceleration_mps2: Option<f64>,
+    /// Turning on the spot, degrees per second; 45 when absent.
+    #[param(value_type = Option<f64>, exclusive_minimum = 0, maximum = 720)]
+    turn_rate_degps: Option<f64>,
 }
 
-/// An end of a route as a parameter.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
-#[serde(try_from = "String")]
-enum End {
-    Position([f64; 2]),
-    Face(u32),
-    Location(String),
-}
-
-impl TryFrom<String> for End {
-    type Error = &'static str;
-
-    fn try_from(text: String) -> Result<Self, Self::Error> {
-        if let Some(code) = text.strip_prefix("location:") {
-            return Ok(Self::Location(code.to_owned()));
-        }
-        if let Some(face) = text.strip_prefix("face:") {
-            return face.parse().map(Self::Face).map_err(|_| "must name a face by its number, like face:3");
-        }
-        let number = |part: &str| part.trim().parse::<f64>().ok().filter(|number| number.is_finite());
-        let position = text.split_once(',').and_then(|(x, y)| Some([number(x)?, number(y)?]));
-        position.map(Self::Position).ok_or("must be x,y or face:ID or location:CODE")
-    }
-}
-
-impl End {
-    /// The waypoint in the map.
-    fn waypoint(&self, context: &MapContext, transform: &Transform) -> Result<Waypoint, Problem> {
-        match self {
-            Self::Position(position) => {
-                let in_map = transform.inverse(*position);
-                Ok(Waypoint::Point(context.analysis.frame.to_grid(in_map)))
-            }
-            Self::Face(face) if (1..context.analysis.subdivision.face_count()).contains(&(*face as usize)) => {
-                Ok(Waypoint::Face(FaceId(*face)))
-            }
-            Self::Face(face) => Err(Problem::not_found(format!("there is no face {face}"))),
-            Self::Location(code) => {
-                let location = context.layout.locations.iter().find(|location| location.code == *code);
-                let missing = || Problem::not_found(format!("there is no location {code}"));
-                location.cloned().map(|location| Waypoint::Location(Box::new(location))).ok_or_else(missing)
-            }
-        }
-    }
+const fn one() -> usize {
+    1
 }
 
 /// A way through the map, in GeoJSON.
@@ -107,17 +108,61 @@ pub struct RouteView {
 pub struct RouteProperties {
     /// Length of the path, metres.
     length_m: f64,
+    /// Time for it, seconds: with the speeds asked for, stopping at sharp turns.
+    time_s: f64,
+    /// Distance that the middle of the vehicle keeps from obstacles, metres.
+    footprint_radius_m: f64,
+    /// Least distance between the path and an obstacle, metres, to within a cell.
+    clearance_m: f64,
     /// Faces crossed, in order.
     faces: Vec<u32>,
     /// Edges crossed between them, in order.
     edges: Vec<u32>,
+    /// Where the vehicle looks at the goal, map frame; at locations only.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    goal_heading_deg: Option<f64>,
+    /// Turn by turn.
+    instructions: Vec<InstructionView>,
+    /// Other routes: their coordinates, lengths and times.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    alternatives: Vec<AlternativeView>,
+}
+
+/// One step of turn-by-turn instructions.
+#[derive(Debug, Serialize, ToSchema)]
+#[serde(rename_all = "camelCase")]
+pub struct InstructionView {
+    /// `depart`, `left`, `right`, `turn-around` or `arrive`.
+    action: &'static str,
+    /// For people.
+    text: String,
+    /// Where, map frame, metres, and where to look afterwards.
+    #[schema(value_type = Object)]
+    pose: Pose,
+    /// Way to the next instruction, metres.
+    length_m: f64,
+}
+
+/// Another route.
+#[derive(Debug, Serialize, ToSchema)]
+#[serde(rename_all = "camelCase")]
+pub struct AlternativeView {
+    /// Length of the path, metres.
+    length_m: f64,
+    /// Time for it, seconds.
+    time_s: f64,
+    /// Faces crossed, in order.
+    faces: Vec<u32>,
+    /// The path, as the coordinates of a `LineString`.
+    coordinates: Vec<[f64; 2]>,
 }
 
 /// Find a route
 ///
-/// The shortest way over connected links between drivable places, on free cells. Where there is none, the 404 says why
-/// by its type: `/problems/route-outside`, `route-not-drivable`, `route-blocked`, `route-no-access`,
-/// `route-disconnected` or `route-obstructed`.
+/// The best way over connected links between drivable places, clear of obstacles by the footprint of the vehicle. A vehicle
+/// that stands beside drivable ground first drives out to it. Where there is no way, the 404 says why by its type, where,
+/// and what would do: `/problems/route-outside`, `route-blocked`, `route-too-narrow`, `route-not-drivable`,
+/// `route-no-access`, `route-cut-off` or `route-disconnected`.
 #[utoipa::path(get, path = "/v1/maps/{mapId}/routes", tag = "fleet", operation_id = "getRoute",
     params(MapPath, RouteQuery),
     responses((status = 200, description = "The route", body = RouteView, content_type = "application/geo+json",
@@ -129,50 +174,136 @@ pub async fn get(
     Path(path): Path<MapPath>,
     Query(query): Query<RouteQuery>,
 ) -> Result<Response, Problem> {
+    if !(1..=MOST_ALTERNATIVES).contains(&query.alternatives) {
+        let detail = format!("{} is outside 1 to {MOST_ALTERNATIVES}", query.alternatives);
+        return Err(Problem::parameter("alternatives", detail));
+    }
+    let speeds = vehicle::speeds(query.speed_mps, query.acceleration_mps2, query.turn_rate_degps)?;
     let context = app.context(&caller, path.map_id.0).await?;
     off_the_runtime(move || {
         let transform = Transform::new(query.crs.0, context.record.georeference);
-        let [from, to] = [&query.from, &query.to].map(|end| end.waypoint(&context, &transform));
-        let route = routing::route(context.site(), &from?, &to?)?;
+        let routes = find(&context, &query, &transform)?;
         let headers =
             [(header::CONTENT_TYPE, GEO_JSON.parse().expect("is a header")), (CONTENT_CRS, query.crs.header())];
-        Ok((headers, write(&context, &transform, &route)).into_response())
+        let writer = RouteWriter { context: &context, transform: &transform, speeds };
+        Ok((headers, writer.write(&routes)).into_response())
     })
     .await
 }
 
-fn write(context: &MapContext, transform: &Transform, route: &routing::Route) -> Vec<u8> {
-    let mut points: Vec<Point> = route.path.iter().map(|&point| context.analysis.frame.to_map(point)).collect();
-    // A way from a place to itself is still a line for GeoJSON.
-    if let [only] = points[..] {
-        points.push(only);
-    }
-    let properties = RouteProperties {
-        length_m: route.length,
-        faces: route.faces.iter().map(|face| face.0).collect(),
-        edges: route.edges.iter().map(|edge| edge.0).collect(),
-    };
-    let document = geojson::GeoJsonFeature {
-        id: None,
-        geometry: &Geometry::LineString(points),
-        properties: &properties,
-        members: &[],
-    };
-    geojson::document(&document, transform)
+/// The best route with its radius, and the others.
+struct Found {
+    radius: f64,
+    routes: Vec<Route>,
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
+fn find(context: &MapContext, query: &RouteQuery, transform: &Transform) -> Result<Found, Problem> {
+    let radius = vehicle::radius(context, query.footprint_radius, query.footprint.as_ref())?;
+    let preferences = vehicle::preferences(context, query.profile, &query.label_costs)?;
+    let blocked = vehicle::blocked(context, &query.blocked_faces.0, &query.blocked_edges.0)?;
+    let [from, to] = [&query.from, &query.to].map(|end| end.waypoint(context, transform));
+    let (from, to) = (from?, to?);
+    let router = context.router(radius, blocked);
+    let site = context.site();
+    let routes = if query.alternatives == 1 {
+        router.route(&site, &from, &to, &preferences).map(|route| vec![route])
+    } else {
+        router.alternatives(&site, &from, &to, &preferences, query.alternatives)
+    };
+    let routes = routes.map_err(|reason| no_route::problem(&reason, context, transform, radius))?;
+    Ok(Found { radius, routes })
+}
 
-    #[test]
-    fn ends_are_positions_faces_or_locations() {
-        let end = |text: &str| End::try_from(text.to_owned()).ok();
-        assert_eq!(end("1.5,-2"), Some(End::Position([1.5, -2.0])));
-        assert_eq!(end("face:3"), Some(End::Face(3)));
-        assert_eq!(end("location:01-002"), Some(End::Location("01-002".to_owned())));
-        for wrong in ["", "1", "1,2,3", "x,y", "NaN,0", "face:x", "face:-1", "place:3"] {
-            assert_eq!(end(wrong), None, "{wrong}");
+/// Writes routes as GeoJSON.
+struct RouteWriter<'a> {
+    context: &'a MapContext,
+    transform: &'a Transform,
+    speeds: SpeedProfile,
+}
+
+impl RouteWriter<'_> {
+    fn write(&self, found: &Found) -> Vec<u8> {
+        let [best, others @ ..] = found.routes.as_slice() else { return Vec::new() };
+        let properties = RouteProperties {
+            length_m: rounded(best.length),
+            time_s: rounded(self.speeds.time(best)),
+            footprint_radius_m: found.radius,
+            clearance_m: rounded(best.clearance),
+            faces: best.faces.iter().map(|face| face.0).collect(),
+            edges: best.edges.iter().map(|edge| edge.0).collect(),
+            goal_heading_deg: best.goal_heading.map(|heading| self.context.view().heading_degrees(heading)),
+            instructions: self.instructions(best),
+            alternatives: others.iter().map(|route| self.alternative(route)).collect(),
+        };
+        let points = best.path.iter().map(|&point| self.context.analysis.frame.to_map(point)).collect();
+        let document = geojson::GeoJsonFeature {
+            id: None,
+            geometry: &Geometry::LineString(points),
+            properties: &properties,
+            members: &[],
+        };
+        geojson::document(&document, self.transform)
+    }
+
+    fn alternative(&self, route: &Route) -> AlternativeView {
+        let frame = &self.context.analysis.frame;
+        AlternativeView {
+            length_m: rounded(route.length),
+            time_s: rounded(self.speeds.time(route)),
+            faces: route.faces.iter().map(|face| face.0).collect(),
+            coordinates: route.path.iter().map(|&point| self.transform.forward(frame.to_map(point))).collect(),
         }
     }
+
+    fn instructions(&self, route: &Route) -> Vec<InstructionView> {
+        let steps = instructions(route);
+        let step = |step: &routing::Instruction| {
+            let (action, words) = words(step.action);
+            let ahead = if step.length > 0.0 { format!(", drive {:.1} m", step.length) } else { String::new() };
+            InstructionView {
+                action,
+                text: format!("{words}{}{ahead}", self.ground_after(step)),
+                pose: self.pose(step.at, step.heading),
+                length_m: rounded(step.length),
+            }
+        };
+        steps.iter().map(step).collect()
+    }
+
+    /// What lies ahead of a step: ` into the corridor (place 12)`.
+    fn ground_after(&self, step: &routing::Instruction) -> String {
+        /// How far ahead the ground is read, metres: beyond the turn.
+        const AHEAD_M: f64 = 1.0;
+        if step.length == 0.0 {
+            return String::new();
+        }
+        let ahead = stillage_core::Vector::new(step.heading.cos(), step.heading.sin()) * AHEAD_M.min(step.length);
+        let face = self.context.site().face_at(step.at + ahead);
+        let place = self.context.semantic.face_places.get(face.index()).copied().flatten();
+        match place {
+            Some(place) => format!(" in the {} (place {place})", self.context.semantic.label(face).name.to_lowercase()),
+            None => String::new(),
+        }
+    }
+
+    fn pose(&self, at: Point, heading: f64) -> Pose {
+        let at = self.context.analysis.frame.to_map(at);
+        Pose { x: rounded(at.x), y: rounded(at.y), heading_deg: self.context.view().heading_degrees(heading) }
+    }
+}
+
+/// The word of an action, and what a person is told.
+const fn words(action: routing::Action) -> (&'static str, &'static str) {
+    match action {
+        routing::Action::Depart => ("depart", "begin"),
+        routing::Action::Left => ("left", "turn left"),
+        routing::Action::Right => ("right", "turn right"),
+        routing::Action::TurnAround => ("turn-around", "turn around"),
+        routing::Action::Arrive => ("arrive", "arrive"),
+    }
+}
+
+/// To a tenth of a millimetre.
+fn rounded(value: f64) -> f64 {
+    (value * 1e4).round() / 1e4
 }

@@ -3,7 +3,6 @@
 use axum::http::header;
 use axum::response::{IntoResponse, Response};
 use serde::Serialize;
-use stillage_core::routing::NoRoute;
 use utoipa::ToSchema;
 
 use super::types::ProblemType;
@@ -184,20 +183,6 @@ impl From<AppError> for Problem {
                 Self::new(ProblemType::Internal, "the service failed: its log says why, under this request's id")
             }
         }
-    }
-}
-
-impl From<NoRoute> for Problem {
-    fn from(reason: NoRoute) -> Self {
-        let kind = match reason {
-            NoRoute::Outside(_) => ProblemType::RouteOutside,
-            NoRoute::NotDrivable { .. } => ProblemType::RouteNotDrivable,
-            NoRoute::Blocked(_) => ProblemType::RouteBlocked,
-            NoRoute::NoAccess { .. } => ProblemType::RouteNoAccess,
-            NoRoute::Disconnected { .. } => ProblemType::RouteDisconnected,
-            NoRoute::Obstructed => ProblemType::RouteObstructed,
-        };
-        Self::new(kind, reason.to_string())
     }
 }
 

@@ -41,12 +41,14 @@ problem_types! {
     RouteNotDrivable = "route-not-drivable", NOT_FOUND, "No route: an end lies in a place that is not drivable";
     /// A route begins or ends on an obstacle.
     RouteBlocked = "route-blocked", NOT_FOUND, "No route: an end lies on a cell that is not free";
-    /// The storage location cannot be reached from anywhere.
-    RouteNoAccess = "route-no-access", NOT_FOUND, "No route: the location has no storage access";
+    /// The vehicle is too wide for an end or for every way.
+    RouteTooNarrow = "route-too-narrow", NOT_FOUND, "No route: the vehicle is too wide";
+    /// No vehicle of this width can stand before the storage location.
+    RouteNoAccess = "route-no-access", NOT_FOUND, "No route: the vehicle cannot stand before the location";
+    /// What the request blocks leaves no way.
+    RouteCutOff = "route-cut-off", NOT_FOUND, "No route: the request blocks every way";
     /// No chain of drivable places.
     RouteDisconnected = "route-disconnected", NOT_FOUND, "No route: no drivable places join the ends";
-    /// Obstacles close the way.
-    RouteObstructed = "route-obstructed", NOT_FOUND, "No route: obstacles close the way";
     /// The method does not apply.
     MethodNotAllowed = "method-not-allowed", METHOD_NOT_ALLOWED, "The resource does not answer this method";
     /// No representation that the client accepts.

@@ -3,7 +3,15 @@
 //! | module | what comes out |
 //! | --- | --- |
 //! | [`navigation_graph`] | nodes and directed lanes |
+//! | [`build`] | the graph of a map |
+//! | [`face_ways`] | the course of vehicles through one face |
 
+mod build;
+mod face_ways;
 mod navigation_graph;
 
+#[cfg(test)]
+mod tests;
+
+pub use build::navigation_graph;
 pub use navigation_graph::{GraphNode, Lane, LaneKind, NavigationGraph, NodeKind};

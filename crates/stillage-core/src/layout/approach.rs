@@ -4,8 +4,7 @@
 //! usual standing distance, and nearest to the middle of the front. Cost: O(candidates), some hundreds per location.
 //! Limits: the vehicle is a disc.
 
-use super::draft::{Draft, Front};
-use super::location::ApproachPose;
+use super::location::{ApproachPose, Location};
 use crate::geometry::{Point, direction, normal};
 use crate::site_map::SiteMap;
 
@@ -18,14 +17,32 @@ const ASIDE: f64 = 2.0;
 /// Distance between candidates, metres; never less than a cell.
 const STEP_M: f64 = 0.05;
 
-/// Where a vehicle of a radius stands before a location; `None` where it finds no room.
-pub(super) fn approach(map: &SiteMap<'_>, draft: &Draft, radius: f64) -> Option<ApproachPose> {
-    let Front { middle, .. } = draft.front?;
-    let (outward, aside) = (-direction(draft.heading), normal(draft.heading));
+/// The front of a location, as far as the approach needs it.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct ApproachFront {
+    /// Its middle.
+    pub middle: Point,
+    /// Into the location, radians.
+    pub heading: f64,
+    /// Metres.
+    pub width: f64,
+}
+
+/// Where a vehicle of a radius in metres stands to serve a location; `None` where it finds no room.
+#[must_use]
+pub fn approach_before(map: &SiteMap<'_>, location: &Location, radius: f64) -> Option<ApproachPose> {
+    let front = ApproachFront { middle: location.front?, heading: location.heading, width: location.width };
+    approach(map, front, radius)
+}
+
+/// Where a vehicle of a radius stands before a front.
+pub(super) fn approach(map: &SiteMap<'_>, front: ApproachFront, radius: f64) -> Option<ApproachPose> {
+    let ApproachFront { middle, heading, width } = front;
+    let (outward, aside) = (-direction(heading), normal(heading));
     let step = STEP_M.max(map.grid.resolution());
     let usual = radius + GAP_M;
     let along = (0..=((usual + FARTHEST_M) / step) as i32).map(|count| f64::from(count) * step);
-    let reach = (draft.width / 2.0 / step).floor() as i32;
+    let reach = (width / 2.0 / step).floor() as i32;
     let mut best: Option<(f64, ApproachPose)> = None;
     for distance in along {
         for offset in (-reach..=reach).map(|count| f64::from(count) * step) {
@@ -34,7 +51,7 @@ pub(super) fn approach(map: &SiteMap<'_>, draft: &Draft, radius: f64) -> Option<
                 continue;
             }
             if let Some(position) = standing(map, middle + outward * distance + aside * offset, radius) {
-                best = Some((cost, ApproachPose { position, heading: draft.heading }));
+                best = Some((cost, ApproachPose { position, heading }));
             }
         }
     }

@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use super::access;
 use super::aisle::{Aisle, Row};
 use super::aisles::{AisleFront, FrontLine, aisles_of};
-use super::approach::approach;
+use super::approach::{ApproachFront, approach};
 use super::code_template::CodeNumbers;
 use super::depths::{DepthInRow, depths};
 use super::draft::{Draft, drafts_of};
@@ -154,7 +154,11 @@ impl<'a> Numbering<'a> {
         let location = |&index: &usize| {
             let first = depths[index].map_or(index, |depth| depth.first);
             let (own, served) = (&drafts[index], &drafts[first]);
-            let approach = approach(map, served, spec.vehicle_radius);
+            let front = served.front.map(|front| front.middle);
+            let approach = front.and_then(|middle| {
+                let front = ApproachFront { middle, heading: served.heading, width: served.width };
+                approach(map, front, spec.vehicle_radius)
+            });
             let from = served.front.map(|front| front.from);
             let corridor = from.and_then(|face| map.semantic.face_places[face.index()]);
             let Numbers { aisle, bay, row, side, depth } = numbers[index];
@@ -179,6 +183,7 @@ impl<'a> Numbering<'a> {
                 access_edges: served.edges.clone(),
                 access_from: from,
                 corridor,
+                front,
                 approach,
             }
         };

@@ -69,6 +69,8 @@ pub struct Location {
     pub access_from: Option<FaceId>,
     /// The place (corridor, junction or room) of that face.
     pub corridor: Option<u32>,
+    /// The middle of the border over which it is reached; that of the location in front for one that lies behind.
+    pub front: Option<Point>,
     /// Where a vehicle stands to reach it; `None` where nothing as wide as the vehicle has room before it.
     pub approach: Option<ApproachPose>,
 }

@@ -35,6 +35,7 @@ mod rows;
 mod tests;
 
 pub use aisle::{Aisle, Row};
+pub use approach::approach_before;
 pub use code_template::{CodeTemplate, LONGEST_CODE, TemplateProblem};
 pub use layout::{Layout, layout};
 pub use layout_spec::LayoutSpec;

@@ -1,142 +1,238 @@
-//! The ends of a route: for each waypoint a point on a free cell of a drivable face.
+//! The ends of a route: for each waypoint a point on which the vehicle may stand.
 //!
-//! Cost: O(cells in the bounding box of the face). Limits: where the free cells of a face lie in several pieces, the
-//! route ends on the largest one, although another may be nearer.
+//! A vehicle that stands on free ground beside the drivable faces (in a room, on a sliver before a rack, in an empty place)
+//! first drives out to them, over ground on which it fits, however that is labelled, but not through storage. Cost: O(cells
+//! within [`LEAD_M`]). Limits: it drives to the nearest drivable ground, which may lead nowhere.
 
-use super::no_route::{NoRoute, RouteEnd};
-use super::window::window_of;
-use crate::arrangement::{EdgeId, FaceId};
+use std::collections::{HashMap, VecDeque};
+
+use super::drive_grid::DriveGrid;
+use super::face_steps::Blocked;
+use super::no_route::{EndGround, NoRoute, RouteEnd};
+use super::sight::Sight;
+use crate::arrangement::FaceId;
 use crate::geometry::Point;
 use crate::grid::Occupancy;
-use crate::layout::Location;
+use crate::layout::{Location, approach_before};
 use crate::site_map::SiteMap;
 
+/// How far a vehicle may drive over ground that is not drivable by its label, metres: out of a large room.
+const LEAD_M: f64 = 50.0;
+/// How far a point that would do is looked for, metres: half the width of a wide aisle and a place.
+const NEAR_M: f64 = 5.0;
+
 /// Where a route begins or ends.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Waypoint {
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Waypoint<'a> {
     /// A point, grid frame, metres.
     Point(Point),
-    /// A drivable face (the point well inside it).
+    /// A drivable face (a point well inside it).
     Face(FaceId),
-    /// A storage location: the route ends at its storage-access edge.
-    Location(Box<Location>),
+    /// A storage location: the point where a vehicle stands to serve it.
+    Location(&'a Location),
 }
 
-/// One end of a route, on a free cell of a drivable face.
-#[derive(Debug, Clone, Copy)]
+/// One end of a route.
+#[derive(Debug, Clone)]
 pub(super) struct End {
-    /// First or last point of the path.
-    pub point: Point,
-    /// Its cell, row-major.
+    /// From the end itself to the cell at which the drivable ground begins.
+    pub lead: Vec<Point>,
+    /// That cell.
     pub cell: usize,
-    /// The face of that cell.
-    pub face: FaceId,
-    /// The storage-access edge of a location.
-    pub access: Option<EdgeId>,
+    /// Where the vehicle looks there, radians; at locations only.
+    pub heading: Option<f64>,
 }
 
-impl End {
-    pub fn find(map: &SiteMap<'_>, waypoint: &Waypoint, end: RouteEnd) -> Result<Self, NoRoute> {
+/// What the ends of a route are looked up in.
+pub(super) struct EndFinder<'a> {
+    pub map: &'a SiteMap<'a>,
+    pub grid: &'a DriveGrid,
+    /// All floor on which the vehicle fits, whatever its label.
+    pub floor: &'a DriveGrid,
+    pub radius: f64,
+    pub blocked: &'a Blocked,
+}
+
+impl EndFinder<'_> {
+    pub fn find(&self, waypoint: &Waypoint<'_>, end: RouteEnd) -> Result<End, NoRoute> {
         match waypoint {
-            Waypoint::Point(point) => at_point(map, *point, end),
-            Waypoint::Face(face) => in_face(map, *face, end),
-            Waypoint::Location(location) => before_location(map, location, end),
+            Waypoint::Point(point) => self.at_point(*point, end),
+            Waypoint::Face(face) => self.in_face(*face, end),
+            Waypoint::Location(location) => self.before_location(location, end),
         }
     }
-}
 
-fn at_point(map: &SiteMap<'_>, point: Point, end: RouteEnd) -> Result<End, NoRoute> {
-    let (column, row) = map.grid.cell_at(point).ok_or(NoRoute::Outside(end))?;
-    let cell = row * map.grid.width() + column;
-    let face = map.cells.as_slice()[cell];
-    check_drivable(map, face, end)?;
-    let is_free = map.grid.cells()[cell] == Occupancy::Free;
-    if is_free { Ok(End { point, cell, face, access: None }) } else { Err(NoRoute::Blocked(end)) }
-}
-
-fn in_face(map: &SiteMap<'_>, face: FaceId, end: RouteEnd) -> Result<End, NoRoute> {
-    check_drivable(map, face, end)?;
-    let point = map.analysis.graph.position(face);
-    match at_point(map, point, end) {
-        Ok(found) if found.face == face => Ok(found),
-        _ => nearest_free_cell(map, face, point).ok_or(NoRoute::Blocked(end)),
-    }
-}
-
-/// The end before the best access edge that has free ground in front.
-fn before_location(map: &SiteMap<'_>, location: &Location, end: RouteEnd) -> Result<End, NoRoute> {
-    let subdivision = &map.analysis.subdivision;
-    let no_access = NoRoute::NoAccess { end, code: location.code.clone() };
-    let mut problem = None;
-    for &edge in location.access_edges.iter().filter(|edge| edge.index() < subdivision.edge_count()) {
-        let Some(face) = subdivision.sides(edge).into_iter().find(|&side| side != location.face) else { continue };
-        if let Err(not_drivable) = check_drivable(map, face, end) {
-            problem.get_or_insert(not_drivable);
-            continue;
+    fn at_point(&self, point: Point, end: RouteEnd) -> Result<End, NoRoute> {
+        let cannot_stand = |ground| NoRoute::CannotStand { end, ground, nearest: self.nearest(point) };
+        let cell = self.grid.cell_at(point).ok_or_else(|| cannot_stand(EndGround::Outside))?;
+        if self.grid.fits(cell) {
+            let lead = self.onto(point, cell);
+            return Ok(End { lead, cell, heading: None });
         }
-        let [first, second] = subdivision.segment(edge);
-        match nearest_free_cell(map, face, nalgebra::center(&first, &second)) {
-            Some(found) => return Ok(End { access: Some(edge), ..found }),
-            None => problem = Some(NoRoute::Blocked(end)),
+        if let Some(beside) = self.fitting_beside(point, cell) {
+            return Ok(End { lead: vec![point, self.grid.center(beside)], cell: beside, heading: None });
         }
-    }
-    Err(problem.unwrap_or(no_access))
-}
-
-fn check_drivable(map: &SiteMap<'_>, face: FaceId, end: RouteEnd) -> Result<(), NoRoute> {
-    if face == FaceId::OUTER || face.index() >= map.semantic.labels.len() {
-        return Err(NoRoute::Outside(end));
-    }
-    let label = map.semantic.label(face);
-    if label.is_drivable() { Ok(()) } else { Err(NoRoute::NotDrivable { end, face, label: label.name.clone() }) }
-}
-
-/// The free cell of a face nearest to a point, on the largest piece of the face's free ground.
-fn nearest_free_cell(map: &SiteMap<'_>, face: FaceId, point: Point) -> Option<End> {
-    let pieces = free_pieces(map, face);
-    // Of pieces of one size the first, that is, the lowest.
-    let largest = pieces.into_iter().reduce(|best, piece| if piece.len() > best.len() { piece } else { best })?;
-    let width = map.grid.width();
-    let center = |cell: usize| map.grid.center(cell % width, cell / width);
-    let distance = |cell: usize| (center(cell) - point).norm_squared();
-    let cell = largest
-        .into_iter()
-        .min_by(|&first, &second| distance(first).total_cmp(&distance(second)).then(first.cmp(&second)))?;
-    Some(End { point: center(cell), cell, face, access: None })
-}
-
-/// The free cells of a face, by pieces that are connected over cell sides.
-fn free_pieces(map: &SiteMap<'_>, face: FaceId) -> Vec<Vec<usize>> {
-    let mut members = vec![false; map.analysis.subdivision.face_count()];
-    members[face.index()] = true;
-    let window = window_of(map, &members);
-    let (columns, width) = (window.columns.len(), map.grid.width());
-    let mut waits = vec![false; columns * window.rows.len()];
-    let index = |column: usize, row: usize| (row - window.rows.start) * columns + column - window.columns.start;
-    for row in window.rows.clone() {
-        for column in window.columns.clone() {
-            let cell = row * width + column;
-            waits[index(column, row)] = map.cells.as_slice()[cell] == face && map.grid.cells()[cell] == Occupancy::Free;
+        match self.map.grid.cells()[cell] {
+            Occupancy::Occupied => return Err(cannot_stand(EndGround::Occupied)),
+            Occupancy::Unknown => return Err(cannot_stand(EndGround::Unknown)),
+            Occupancy::Free => {}
         }
-    }
-    let mut pieces = Vec::new();
-    for (row, column) in window.rows.clone().flat_map(|row| window.columns.clone().map(move |column| (row, column))) {
-        if !std::mem::take(&mut waits[index(column, row)]) {
-            continue;
+        if !self.stands(cell) {
+            return Err(cannot_stand(EndGround::Narrow(self.map.clearance.of_cell(cell))));
         }
-        let (mut piece, mut open) = (Vec::new(), vec![(column, row)]);
-        while let Some((column, row)) = open.pop() {
-            piece.push(row * width + column);
-            let sides = [(1, 0), (-1, 0), (0, 1), (0, -1)];
-            for (right, up) in sides {
-                let Some(side) = column.checked_add_signed(right).zip(row.checked_add_signed(up)) else { continue };
-                let inside = window.columns.contains(&side.0) && window.rows.contains(&side.1);
-                if inside && std::mem::take(&mut waits[index(side.0, side.1)]) {
-                    open.push(side);
+        let face = self.map.cells.as_slice()[cell];
+        if self.blocked.faces.contains(&face) {
+            return Err(NoRoute::EndBlocked { end, face });
+        }
+        let lead = self.lead_out(cell).ok_or_else(|| {
+            let label = self.map.semantic.label(face).name.clone();
+            NoRoute::NotDrivable { end, face, label, nearest: self.nearest(point) }
+        })?;
+        let last = *lead.last().expect("a lead has a cell");
+        let points: Vec<Point> = lead.into_iter().map(|cell| self.grid.center(cell)).collect();
+        let sight = Sight { grid: self.floor, clearance: &[], preferred: 0 };
+        let mut lead = sight.pull_tight(&points);
+        if point != lead[0] && self.map.clearance.of_cell(cell) - (point - lead[0]).norm() >= self.radius {
+            lead.insert(0, point);
+        }
+        Ok(End { lead, cell: last, heading: None })
+    }
+
+    /// The point itself and the middle of its cell; the middle alone where the vehicle fits there only.
+    fn onto(&self, point: Point, cell: usize) -> Vec<Point> {
+        let middle = self.grid.center(cell);
+        if self.grid.is_whole(cell) && point != middle { vec![point, middle] } else { vec![middle] }
+    }
+
+    /// The nearest fitting cell around a point at which the vehicle fits although it does not on the middle of the point's
+    /// cell.
+    fn fitting_beside(&self, point: Point, cell: usize) -> Option<usize> {
+        let face = self.map.cells.as_slice()[cell];
+        let is_ground = self.map.grid.cells()[cell] == Occupancy::Free && self.map.is_drivable(face);
+        if !is_ground || self.blocked.faces.contains(&face) || !self.is_clear(point) {
+            return None;
+        }
+        let (column, row) = (cell % self.grid.width, cell / self.grid.width);
+        let range = |place: usize, count: usize| place.saturating_sub(1)..(place + 2).min(count);
+        let columns = range(column, self.grid.width);
+        let around = range(row, self.grid.height)
+            .flat_map(|row| columns.clone().map(move |column| row * self.grid.width + column));
+        let distance = |cell: &usize| (self.grid.center(*cell) - point).norm_squared();
+        let fitting = around.filter(|&cell| self.grid.fits(cell) && self.map.cells.as_slice()[cell] == face);
+        fitting.min_by(|one, other| distance(one).total_cmp(&distance(other)).then(one.cmp(other)))
+    }
+
+    /// Whether the vehicle touches nothing at a point: cell by cell. O(cells under the vehicle).
+    fn is_clear(&self, point: Point) -> bool {
+        let resolution = self.grid.resolution;
+        let range = |place: f64| {
+            ((place - self.radius) / resolution).floor() as i64..=((place + self.radius) / resolution).floor() as i64
+        };
+        let gap = |place: f64, cell: i64| {
+            let low = cell as f64 * resolution;
+            (low - place).max(place - low - resolution).max(0.0)
+        };
+        range(point.y).all(|row| {
+            range(point.x).all(|column| {
+                self.map.grid.at(column, row) == Occupancy::Free
+                    || gap(point.x, column).hypot(gap(point.y, row)) >= self.radius
+            })
+        })
+    }
+
+    fn in_face(&self, face: FaceId, end: RouteEnd) -> Result<End, NoRoute> {
+        if self.blocked.faces.contains(&face) {
+            return Err(NoRoute::EndBlocked { end, face });
+        }
+        if face == FaceId::OUTER || face.index() >= self.map.semantic.labels.len() {
+            return Err(NoRoute::CannotStand { end, ground: EndGround::Outside, nearest: None });
+        }
+        let point = self.map.analysis.graph.position(face);
+        if !self.map.is_drivable(face) {
+            let label = self.map.semantic.label(face).name.clone();
+            return Err(NoRoute::NotDrivable { end, face, label, nearest: self.nearest(point) });
+        }
+        let is_there = |cell: usize| self.grid.fits(cell) && self.map.cells.as_slice()[cell] == face;
+        let cell =
+            self.grid.cell_at(point).filter(|&cell| is_there(cell)).or_else(|| self.ring_search(point, is_there));
+        let narrow = || EndGround::Narrow(self.map.clearance.at(point));
+        let cell = cell.ok_or_else(|| NoRoute::CannotStand { end, ground: narrow(), nearest: self.nearest(point) })?;
+        Ok(End { lead: vec![self.grid.center(cell)], cell, heading: None })
+    }
+
+    fn before_location(&self, location: &Location, end: RouteEnd) -> Result<End, NoRoute> {
+        let fits = |point: Point| self.grid.cell_at(point).is_some_and(|cell| self.grid.fits(cell));
+        let known = location.approach.filter(|pose| fits(pose.position));
+        let pose = known.or_else(|| approach_before(self.map, location, self.radius));
+        let no_approach = || NoRoute::NoApproach { end, code: location.code.clone() };
+        let pose = pose.ok_or_else(no_approach)?;
+        let cell = self.grid.cell_at(pose.position).ok_or_else(no_approach)?;
+        let face = self.map.cells.as_slice()[cell];
+        if self.blocked.faces.contains(&face) {
+            return Err(NoRoute::EndBlocked { end, face });
+        }
+        if !self.grid.fits(cell) {
+            return Err(no_approach());
+        }
+        Ok(End { lead: self.onto(pose.position, cell), cell, heading: Some(pose.heading) })
+    }
+
+    /// Whether the vehicle touches nothing on the middle of a cell, however that is labelled.
+    fn stands(&self, cell: usize) -> bool {
+        let is_free = self.map.grid.cells()[cell] == Occupancy::Free;
+        is_free && self.map.clearance.of_cell(cell) >= self.radius
+    }
+
+    /// The cells from one beside the drivable ground to the nearest on it, over floor and over the face that it begins on.
+    fn lead_out(&self, start: usize) -> Option<Vec<usize>> {
+        let (width, faces) = (self.grid.width, self.map.cells.as_slice());
+        let reach = (LEAD_M / self.grid.resolution) as usize;
+        let is_open = |cell: usize| self.floor.fits(cell) || faces[cell] == faces[start] && self.stands(cell);
+        let mut before = HashMap::from([(start, start)]);
+        let mut open = VecDeque::from([start]);
+        while let Some(cell) = open.pop_front() {
+            if self.grid.fits(cell) {
+                let mut lead = vec![cell];
+                while lead[lead.len() - 1] != start {
+                    lead.push(before[&lead[lead.len() - 1]]);
+                }
+                lead.reverse();
+                return Some(lead);
+            }
+            let (column, row) = (cell % width, cell / width);
+            let sides = [
+                (column + 1 < width).then(|| cell + 1),
+                (row + 1 < self.grid.height).then(|| cell + width),
+                (column > 0).then(|| cell.wrapping_sub(1)),
+                (row > 0).then(|| cell.wrapping_sub(width)),
+            ];
+            for next in sides.into_iter().flatten() {
+                let away = (next % width).abs_diff(start % width).max((next / width).abs_diff(start / width));
+                if away <= reach && is_open(next) && !before.contains_key(&next) {
+                    before.insert(next, cell);
+                    open.push_back(next);
                 }
             }
         }
-        pieces.push(piece);
+        None
     }
-    pieces
+
+    /// The nearest point at which the vehicle could begin or end, within [`NEAR_M`].
+    fn nearest(&self, point: Point) -> Option<Point> {
+        self.ring_search(point, |cell| self.grid.fits(cell)).map(|cell| self.grid.center(cell))
+    }
+
+    /// The nearest cell within [`NEAR_M`] of a point that will do.
+    fn ring_search(&self, point: Point, will_do: impl Fn(usize) -> bool) -> Option<usize> {
+        let resolution = self.grid.resolution;
+        let range = |place: f64, count: usize| {
+            let at = |place: f64| ((place / resolution).floor().max(0.0) as usize).min(count);
+            at(place - NEAR_M)..at(place + NEAR_M + resolution)
+        };
+        let (columns, rows) = (range(point.x, self.grid.width), range(point.y, self.grid.height));
+        let cells = rows.flat_map(|row| columns.clone().map(move |column| row * self.grid.width + column));
+        let distance = |cell: &usize| (self.grid.center(*cell) - point).norm_squared();
+        let fitting = cells.filter(|&cell| will_do(cell));
+        fitting.min_by(|one, other| distance(one).total_cmp(&distance(other)).then(one.cmp(other)))
+    }
 }

@@ -1,34 +1,52 @@
-//! Routes over drivable links, on free cells.
+//! Routes over drivable links, clear of obstacles.
 //!
 //! | module | what comes out |
 //! | --- | --- |
-//! | [`mod@route`] | the route between two waypoints |
-//! | [`ends`] | the free cells at which it begins and ends |
-//! | [`step_rule`] | whether a path may lead from one cell to the next; which faces are reachable at all |
-//! | [`search`] | the shortest path over the eight neighbours of cells |
+//! | [`router`] | routes for vehicles of one radius |
+//! | [`alternatives`], [`matrix`] | routes that differ; lengths between many ends |
+//! | [`mod@route`], [`no_route`] | a route, and what it should be like; why there is none |
+//! | [`ends`] | where it begins and ends |
+//! | [`face_steps`] | whether a path may lead from face to face |
+//! | [`drive_grid`] | the cells that the vehicle may be on, and the steps between them |
+//! | [`tiles`], [`tile_search`], [`tile_ways`], [`road_map`] | the portals between square tiles; ways within a tile; the ways between all portals |
+//! | [`search`] | the cheapest way over portals |
+//! | [`ground_cost`] | what a metre costs |
 //! | [`sight`] | the path pulled tight, and the faces and edges that it crosses |
-//! | [`no_route`] | why there is none |
-//! | [`window`] | the cells around some faces |
+//! | [`guidance`] | instructions along a route, and its time |
+//! | [`bottleneck`] | the narrowest point of the widest way |
 //!
-//! Source: A* (Hart, Nilsson and Raphael 1968, doi 10.1109/TSSC.1968.300136) on the cells, then string pulling with an
-//! exact line of sight (Amanatides and Woo 1987). The paper adds where a path may go at all: over links that are
-//! connected, between drivable faces, so never through storage; a storage-access edge ends a route.
+//! Source: hierarchical path finding (Botea, Müller and Schaeffer 2004) with landmarks (Goldberg and Harrelson 2005), then
+//! string pulling with an exact line of sight (Amanatides and Woo 1987). The paper adds where a path may go at all: over
+//! links that are connected, between drivable faces, so never through storage.
 //!
-//! Cost: O(faces + edges + cells of the reachable faces). Memory: 5 bytes per cell of their bounding box. Limits: the
-//! path is that of a point, it may touch obstacles. It is the shortest over the eight neighbours of cells, then
-//! straightened; the way around another side of an obstacle may be shorter by up to 8 %.
+//! Cost: O(cells) for each radius, then milliseconds for a route. Memory: some 3 bytes per cell for each radius. Limits: the
+//! vehicle is a disc; paths are locally the shortest, the way around another side of an obstacle may be shorter by some
+//! percent.
 
+mod alternatives;
+mod bottleneck;
+mod drive_grid;
 mod ends;
+mod face_steps;
+mod ground_cost;
+mod guidance;
+mod matrix;
 mod no_route;
+mod road_map;
 mod route;
+mod router;
 mod search;
 mod sight;
-mod step_rule;
-mod window;
+mod tile_search;
+mod tile_ways;
+mod tiles;
 
 #[cfg(test)]
 mod tests;
 
 pub use ends::Waypoint;
-pub use no_route::{NoRoute, RouteEnd};
-pub use route::{Route, route};
+pub use face_steps::Blocked;
+pub use guidance::{Action, Instruction, SpeedProfile, instructions};
+pub use no_route::{EndGround, NoRoute, RouteEnd};
+pub use route::{Preferences, Route, RouteProfile};
+pub use router::Router;

@@ -1,6 +1,7 @@
-//! Why there is no route.
+//! Why there is no route, where, and what would do.
 
 use crate::arrangement::FaceId;
+use crate::geometry::Point;
 
 /// Which end of a route a problem is about.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -20,14 +21,32 @@ impl std::fmt::Display for RouteEnd {
     }
 }
 
-/// Why there is no route.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+/// What is wrong with the ground at an end.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum EndGround {
+    /// It is outside the map.
+    Outside,
+    /// An obstacle stands there.
+    Occupied,
+    /// Nobody knows what is there.
+    Unknown,
+    /// The vehicle does not fit: the clearance there, metres.
+    Narrow(f64),
+}
+
+/// Why there is no route. Points lie in the grid frame.
+#[derive(Debug, Clone, PartialEq)]
 pub enum NoRoute {
-    /// The end lies outside the decomposed part of the map.
-    #[error("the {0} lies outside the map")]
-    Outside(RouteEnd),
-    /// The face there is not drivable.
-    #[error("the {end} lies in face {face}, which is labelled {label} and not drivable")]
+    /// The vehicle cannot stand at an end.
+    CannotStand {
+        /// Which end.
+        end: RouteEnd,
+        /// What is there.
+        ground: EndGround,
+        /// The nearest point that would do, if any is near.
+        nearest: Option<Point>,
+    },
+    /// The face there is not drivable, and no way leads out of it.
     NotDrivable {
         /// Which end.
         end: RouteEnd,
@@ -35,27 +54,37 @@ pub enum NoRoute {
         face: FaceId,
         /// The name of its label.
         label: String,
+        /// The nearest point that would do, if any is near.
+        nearest: Option<Point>,
     },
-    /// The cell there is not free, or no cell of the face is.
-    #[error("the {0} lies on a cell that is not free")]
-    Blocked(RouteEnd),
-    /// The location has no storage-access edge.
-    #[error("location {code}, the {end}, has no storage-access edge")]
-    NoAccess {
+    /// A vehicle of this width cannot stand before the location.
+    NoApproach {
         /// Which end.
         end: RouteEnd,
         /// The location's code.
         code: String,
     },
-    /// Both ends are fine, but no chain of drivable links joins them.
-    #[error("no chain of drivable links joins face {from} and face {to}")]
+    /// The request blocks the ground at an end.
+    EndBlocked {
+        /// Which end.
+        end: RouteEnd,
+        /// The face there.
+        face: FaceId,
+    },
+    /// Without what the request blocks there would be a way.
+    CutOff,
+    /// A narrower vehicle would find a way.
+    TooNarrow {
+        /// The clearance of the widest way at its narrowest point, metres.
+        clearance: f64,
+        /// That point.
+        at: Point,
+    },
+    /// Not even a point finds a way: nothing drivable joins the ends.
     Disconnected {
         /// The face of the start.
         from: FaceId,
         /// The face of the goal.
         to: FaceId,
     },
-    /// Drivable links join the ends, but obstacles close the way on the cells.
-    #[error("drivable links join the ends, but no free path leads through them")]
-    Obstructed,
 }

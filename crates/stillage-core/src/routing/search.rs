@@ -1,186 +1,264 @@
-//! A* over the eight neighbours of cells, without cutting corners.
+//! The shortest way over portals.
 //!
-//! Source: Hart, Nilsson and Raphael 1968 (doi 10.1109/TSSC.1968.300136) with the octile distance; the open list is a
-//! ring of buckets (Dial 1969, doi 10.1145/363269.363610), as costs are small whole numbers and a consistent estimate
-//! lets the total grow by less than two steps at once. Of cells with the same total the newest is expanded first, so
-//! the search crosses open ground directly instead of expanding all of it. Cost: O(cells visited). Memory: 5 bytes per
-//! cell of the window. Limits: paths of 43 million steps.
+//! Source: A* (Hart, Nilsson and Raphael 1968, doi 10.1109/TSSC.1968.300136) with landmarks for its estimate (A. Goldberg
+//! and C. Harrelson, *Computing the shortest path: A\* search meets graph theory*, 2005): the triangle inequality bounds
+//! what is left from below, so a search follows the way instead of flooding the map. A way that came through a tile goes on
+//! in the other one. Cost: O(portals seen x portals of a tile). Memory: 8 bytes per portal number.
 
-use super::step_rule::StepRule;
-use crate::grid::CellBounds;
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
 
-/// Costs of a straight and of a diagonal step: 99 / 70 is the square root of 2 to 5 digits.
-const STRAIGHT: u32 = 70;
-const DIAGONAL: u32 = 99;
-/// More than the total can grow in one step: a step and as much again for the estimate.
-const BUCKETS: usize = 256;
+use super::drive_grid::DriveGrid;
+use super::road_map::RoadMap;
+use super::tile_ways::PortalId;
+use crate::geometry::Point;
 
-/// Columns and rows of the neighbours: right, up, left, down, then each diagonal after its two sides.
-const NEIGHBORS: [(isize, isize); 8] = [(1, 0), (0, 1), (-1, 0), (0, -1), (1, 1), (-1, 1), (-1, -1), (1, -1)];
-/// The step that led to the start: none.
-const HERE: u8 = 8;
+/// Landmarks: more find tighter bounds and cost more per portal. No measurement is recorded for this value.
+const LANDMARKS: usize = 8;
 
-/// The cells of a shortest path from one cell to another within a window, both ends included.
-pub(super) fn shortest(rule: &StepRule<'_>, window: &CellBounds, start: usize, goal: usize) -> Option<Vec<usize>> {
-    let window = SearchWindow { grid_width: rule.width(), bounds: window.clone() };
-    let (start, goal) = (window.spot_of(start)?, window.spot_of(goal)?);
-    let mut search = Search::new(window, goal);
-    search.reach(start, 0, HERE);
-    while let Some((spot, cost)) = search.closest() {
-        if spot == goal {
-            return Some(search.path_to(goal));
-        }
-        search.expand(rule, spot, cost);
-    }
-    None
+/// Lengths from some far portals to all portals.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Landmarks {
+    /// By portal, then by landmark, metres; infinite where no way leads.
+    lengths: Vec<[f32; LANDMARKS]>,
 }
 
-/// A rectangle of the grid.
-struct SearchWindow {
-    grid_width: usize,
-    bounds: CellBounds,
+/// What a way costs: its length times a factor for the ground.
+pub(super) trait WayCost {
+    /// The factor of a way through a tile between two of its cells, at least 1.
+    fn factor(&self, tile: usize, from: usize, to: usize) -> f32;
 }
 
-/// A cell of a window, by column and row from the window's own lower left corner.
-#[derive(Clone, Copy, PartialEq, Eq)]
-struct Spot {
-    column: usize,
-    row: usize,
-}
+/// The length alone.
+pub(super) struct PlainLength;
 
-impl SearchWindow {
-    /// `None` outside the window.
-    fn spot_of(&self, cell: usize) -> Option<Spot> {
-        let (column, row) = (cell % self.grid_width, cell / self.grid_width);
-        let inside = self.bounds.columns.contains(&column) && self.bounds.rows.contains(&row);
-        inside.then(|| Spot { column: column - self.bounds.columns.start, row: row - self.bounds.rows.start })
-    }
-
-    fn cell(&self, spot: Spot) -> usize {
-        (spot.row + self.bounds.rows.start) * self.grid_width + spot.column + self.bounds.columns.start
-    }
-
-    fn index(&self, spot: Spot) -> usize {
-        spot.row * self.bounds.columns.len() + spot.column
-    }
-
-    fn spot_at(&self, index: usize) -> Spot {
-        Spot { column: index % self.bounds.columns.len(), row: index / self.bounds.columns.len() }
-    }
-
-    /// `None` outside the window.
-    fn neighbor(&self, spot: Spot, step: usize) -> Option<Spot> {
-        let (right, up) = NEIGHBORS[step];
-        // One before the first column or row wraps to far beyond the last.
-        let (column, row) = (spot.column.wrapping_add_signed(right), spot.row.wrapping_add_signed(up));
-        (column < self.bounds.columns.len() && row < self.bounds.rows.len()).then_some(Spot { column, row })
+impl WayCost for PlainLength {
+    fn factor(&self, _: usize, _: usize, _: usize) -> f32 {
+        1.0
     }
 }
 
-/// The state of a search.
-struct Search {
-    window: SearchWindow,
-    goal: Spot,
-    /// Cost of the best way so far, by index in the window.
+/// A portal reached from an end: the portal, and the cost of the way to it.
+pub(super) type Reached = (PortalId, f32);
+
+/// A portal on a way, and the tile through which the way comes to it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Passage {
+    pub portal: PortalId,
+    pub through: usize,
+}
+
+/// An entry of the open list: smallest total first, then smallest number.
+type Open = Reverse<(u32, u32, u32)>;
+
+/// Costs are compared as bits: they are not negative.
+fn bits(cost: f32) -> u32 {
+    cost.to_bits()
+}
+
+/// What a search knows of the portals.
+pub(super) struct Search<'a> {
+    roads: &'a RoadMap,
+    /// Cost to each portal as bits, plus 1; 0 where none was reached.
     costs: Vec<u32>,
-    /// The step that came here, by index in the window.
-    steps: Vec<u8>,
-    /// Indices in the window, by total (cost + estimate).
-    buckets: Vec<Vec<u32>>,
-    /// Total of the current bucket.
-    total: u32,
-    waiting: usize,
+    /// The portal before it, plus 1; 0 at the start.
+    before: Vec<u32>,
+    /// The tile through which the way comes to it.
+    through: Vec<u32>,
+    open: BinaryHeap<Open>,
 }
 
-impl Search {
-    fn new(window: SearchWindow, goal: Spot) -> Self {
-        let size = window.bounds.columns.len() * window.bounds.rows.len();
-        Self {
-            window,
-            goal,
-            costs: vec![u32::MAX; size],
-            steps: vec![HERE; size],
-            buckets: vec![Vec::new(); BUCKETS],
-            total: 0,
-            waiting: 0,
+impl<'a> Search<'a> {
+    /// A search that begins at some portals.
+    fn new(roads: &'a RoadMap) -> Self {
+        let count = roads.count();
+        Self { roads, costs: vec![0; count], before: vec![0; count], through: vec![0; count], open: BinaryHeap::new() }
+    }
+
+    fn reach(&mut self, portal: PortalId, cost: f32, [before, through]: [u32; 2], estimate: f32) {
+        let known = self.costs[portal.index()];
+        if known == 0 || bits(cost) + 1 < known {
+            self.costs[portal.index()] = bits(cost) + 1;
+            self.before[portal.index()] = before;
+            self.through[portal.index()] = through;
+            self.open.push(Reverse((bits(cost + estimate), bits(cost), portal.0)));
         }
     }
 
-    /// Octile distance to the goal: what a free way would cost.
-    fn estimate(&self, spot: Spot) -> u32 {
-        let columns = spot.column.abs_diff(self.goal.column) as u32;
-        let rows = spot.row.abs_diff(self.goal.row) as u32;
-        STRAIGHT * columns.max(rows) + (DIAGONAL - STRAIGHT) * columns.min(rows)
-    }
-
-    /// Notes a way to a spot that is the best so far.
-    fn reach(&mut self, spot: Spot, cost: u32, step: u8) {
-        let index = self.window.index(spot);
-        self.costs[index] = cost;
-        self.steps[index] = step;
-        let total = cost + self.estimate(spot);
-        if step == HERE {
-            self.total = total;
-        }
-        self.buckets[total as usize % BUCKETS].push(index as u32);
-        self.waiting += 1;
-    }
-
-    /// The waiting spot of the smallest total, with its cost.
-    fn closest(&mut self) -> Option<(Spot, u32)> {
-        while self.waiting > 0 {
-            let Some(index) = self.buckets[self.total as usize % BUCKETS].pop() else {
-                self.total += 1;
-                continue;
-            };
-            self.waiting -= 1;
-            let (spot, cost) = (self.window.spot_at(index as usize), self.costs[index as usize]);
-            // Otherwise a better way was found since, and the spot has been here already.
-            if cost + self.estimate(spot) == self.total {
-                return Some((spot, cost));
+    /// The next portal whose cost is final.
+    fn settle(&mut self) -> Option<Reached> {
+        while let Some(Reverse((_, cost, portal))) = self.open.pop() {
+            if self.costs[portal as usize] == cost + 1 {
+                return Some((PortalId(portal), f32::from_bits(cost)));
             }
         }
         None
     }
 
-    /// Reaches the neighbours of a spot. Most were reached before, so costs are compared before cells are read.
-    fn expand(&mut self, rule: &StepRule<'_>, spot: Spot, cost: u32) {
-        let here = self.window.cell(spot);
-        for step in 0..NEIGHBORS.len() {
-            let Some(next) = self.window.neighbor(spot, step) else { continue };
-            let cost = cost + if step < 4 { STRAIGHT } else { DIAGONAL };
-            if cost >= self.costs[self.window.index(next)] {
-                continue;
-            }
-            let there = self.window.cell(next);
-            let allowed = if step < 4 {
-                rule.allows(here, there)
-            } else {
-                let beside = [
-                    self.window.cell(Spot { column: next.column, row: spot.row }),
-                    self.window.cell(Spot { column: spot.column, row: next.row }),
-                ];
-                rule.allows_corner(here, beside, there)
-            };
-            if allowed {
-                self.reach(next, cost, step as u8);
+    /// Goes on from a portal into the tiles on both sides, but not back through the one that led to it.
+    fn expand(&mut self, (portal, cost): Reached, ground: &impl WayCost, estimate: impl Fn(PortalId, usize) -> f32) {
+        let came_through = self.through[portal.index()] as usize;
+        for tile in self.roads.sides(portal).into_iter().filter(|&tile| tile != came_through) {
+            let ways = self.roads.ways(tile);
+            let Some(place) = ways.place_of(portal) else { continue };
+            let from = ways.portals[place].cell;
+            for (to, &length) in ways.portals.iter().zip(ways.lengths_from(place)) {
+                if length.is_finite() && to.id != portal {
+                    let cost = cost + length * ground.factor(tile, from, to.cell);
+                    self.reach(to.id, cost, [portal.0 + 1, tile as u32], estimate(to.id, to.cell));
+                }
             }
         }
     }
 
-    fn path_to(&self, goal: Spot) -> Vec<usize> {
-        let mut path = vec![self.window.cell(goal)];
-        let mut spot = goal;
-        loop {
-            let step = self.steps[self.window.index(spot)];
-            if step == HERE {
-                break;
-            }
-            let (right, up) = NEIGHBORS[usize::from(step)];
-            spot = Spot { column: spot.column.wrapping_add_signed(-right), row: spot.row.wrapping_add_signed(-up) };
-            path.push(self.window.cell(spot));
+    /// The portals on the way to one that was reached.
+    fn way_to(&self, portal: PortalId) -> Vec<Passage> {
+        let mut way = Vec::new();
+        let mut next = portal.0 + 1;
+        while next > 0 {
+            let portal = PortalId(next - 1);
+            way.push(Passage { portal, through: self.through[portal.index()] as usize });
+            next = self.before[portal.index()];
         }
-        path.reverse();
-        path
+        way.reverse();
+        way
     }
+
+    fn cost_to(&self, portal: PortalId) -> Option<f32> {
+        let known = self.costs[portal.index()];
+        (known > 0).then(|| f32::from_bits(known - 1))
+    }
+}
+
+impl Landmarks {
+    /// Picks portals far from each other in the largest component and measures from each.
+    pub fn new(roads: &RoadMap) -> Self {
+        let mut sizes = std::collections::BTreeMap::new();
+        for portal in portals(roads) {
+            *sizes.entry(roads.component(portal)).or_insert(0_usize) += 1;
+        }
+        let largest = sizes.iter().max_by_key(|&(&component, &size)| (size, Reverse(component)));
+        let Some((&first, _)) = largest else { return Self::default() };
+        let mut lengths = vec![[f32::INFINITY; LANDMARKS]; roads.count()];
+        let mut nearest = vec![f32::INFINITY; roads.count()];
+        // The first one is as far as possible from anywhere.
+        let mut from = farthest(roads, &lengths_from(roads, PortalId(first)), first);
+        for landmark in 0..LANDMARKS {
+            let measured = lengths_from(roads, from);
+            for ((own, nearest), &length) in lengths.iter_mut().zip(&mut nearest).zip(&measured) {
+                own[landmark] = length;
+                *nearest = nearest.min(length);
+            }
+            from = farthest(roads, &nearest, first);
+        }
+        Self { lengths }
+    }
+
+    /// The most that the landmarks tell of the length between two places, metres: a lower bound.
+    fn bound(&self, portal: PortalId, goal: &[f32; LANDMARKS]) -> f32 {
+        let Some(own) = self.lengths.get(portal.index()) else { return 0.0 };
+        let differences = own.iter().zip(goal).map(|(own, goal)| (own - goal).abs());
+        // What is infinite at both ends is no number, and says nothing.
+        differences.filter(|difference| difference.is_finite()).fold(0.0, f32::max)
+    }
+
+    /// Lengths from the landmarks to a place, from those to the portals around it.
+    fn to_place(&self, reached: &[Reached]) -> [f32; LANDMARKS] {
+        let mut lengths = [f32::INFINITY; LANDMARKS];
+        for (portal, length) in reached {
+            let Some(of_portal) = self.lengths.get(portal.index()) else { continue };
+            for (best, own) in lengths.iter_mut().zip(of_portal) {
+                *best = best.min(own + length);
+            }
+        }
+        lengths
+    }
+}
+
+fn portals(roads: &RoadMap) -> impl Iterator<Item = PortalId> + use<> {
+    (0..roads.count() as u32).map(PortalId)
+}
+
+fn lengths_from(roads: &RoadMap, portal: PortalId) -> Vec<f32> {
+    let mut search = Search::new(roads);
+    // From a landmark the way goes into both tiles.
+    search.reach(portal, 0.0, [0, u32::MAX], 0.0);
+    while let Some(reached) = search.settle() {
+        search.expand(reached, &PlainLength, |_, _| 0.0);
+    }
+    (0..roads.count() as u32).map(|id| search.cost_to(PortalId(id)).unwrap_or(f32::INFINITY)).collect()
+}
+
+/// The portal of a component that is the farthest by a list of lengths.
+fn farthest(roads: &RoadMap, lengths: &[f32], component: u32) -> PortalId {
+    let members = portals(roads).filter(|&portal| roads.component(portal) == component);
+    let finite = members.filter(|portal| lengths[portal.index()].is_finite());
+    finite.max_by(|one, other| lengths[one.index()].total_cmp(&lengths[other.index()])).unwrap_or(PortalId(component))
+}
+
+/// The portals on the cheapest way between two places that reach some portals.
+pub(super) fn cheapest(
+    roads: &RoadMap,
+    landmarks: &Landmarks,
+    grid: &DriveGrid,
+    ground: &impl WayCost,
+    [from, to]: [&[Reached]; 2],
+    start_tile: usize,
+    goal: Point,
+) -> Option<(Vec<Passage>, f32)> {
+    let mut search = Search::new(roads);
+    let to_goal = landmarks.to_place(to);
+    let estimate = |portal: PortalId, cell: usize| {
+        let straight = (grid.center(cell) - goal).norm() as f32 - grid.resolution as f32;
+        landmarks.bound(portal, &to_goal).max(straight) * (1.0 - 1e-5)
+    };
+    let mut ends: std::collections::BTreeMap<PortalId, f32> = std::collections::BTreeMap::new();
+    for &(portal, cost) in to {
+        ends.insert(portal, cost);
+    }
+    for &(portal, cost) in from {
+        search.reach(portal, cost, [0, start_tile as u32], estimate(portal, roads.cells(portal)[0]).max(0.0));
+    }
+    let mut best: Option<(PortalId, f32)> = None;
+    while let Some((portal, cost)) = search.settle() {
+        let total = cost + estimate(portal, roads.cells(portal)[0]).max(0.0);
+        if best.is_some_and(|(_, best)| total >= best) {
+            break;
+        }
+        if let Some(rest) = ends.get(&portal) {
+            let whole = cost + rest;
+            if best.is_none_or(|(_, best)| whole < best) {
+                best = Some((portal, whole));
+            }
+        }
+        search.expand((portal, cost), ground, |portal, cell| estimate(portal, cell).max(0.0));
+    }
+    best.map(|(portal, cost)| (search.way_to(portal), cost))
+}
+
+/// The ways from one place to many, each as its portals; `None` where none leads.
+pub(super) fn to_many(
+    roads: &RoadMap,
+    from: &[Reached],
+    start_tile: usize,
+    goals: &[Vec<Reached>],
+) -> Vec<Option<(Vec<Passage>, f32)>> {
+    let mut search = Search::new(roads);
+    for &(portal, cost) in from {
+        search.reach(portal, cost, [0, start_tile as u32], 0.0);
+    }
+    let mut missing: std::collections::BTreeSet<PortalId> = goals.iter().flatten().map(|&(portal, _)| portal).collect();
+    while let Some(reached) = search.settle() {
+        missing.remove(&reached.0);
+        if missing.is_empty() {
+            break;
+        }
+        search.expand(reached, &PlainLength, |_, _| 0.0);
+    }
+    let best = |goal: &Vec<Reached>| {
+        let ways = goal.iter().filter_map(|&(portal, rest)| Some((portal, search.cost_to(portal)? + rest)));
+        let (portal, cost) = ways.min_by(|one, other| one.1.total_cmp(&other.1).then(one.0.cmp(&other.0)))?;
+        Some((search.way_to(portal), cost))
+    };
+    goals.iter().map(best).collect()
 }

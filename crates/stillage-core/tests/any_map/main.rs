@@ -14,8 +14,8 @@ use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use rayon::ThreadPool;
 use stillage_core::arrangement::{CellFaces, FaceId};
-use stillage_core::layout::{self, LayoutSpec, Location};
-use stillage_core::routing::{self, Waypoint};
+use stillage_core::layout::{self, LayoutSpec};
+use stillage_core::routing::{Preferences, Router, Waypoint};
 use stillage_core::semantics::{self, Assignment, RuleSet, SemanticMap};
 use stillage_core::watch::Observer;
 use stillage_core::{Analysis, AnalysisSpec, OccupancyGrid, SiteCells, Stage, StopFlag, Stopped, Watch, analyze};
@@ -104,24 +104,21 @@ fn check_meaning(grid: &OccupancyGrid, analysis: &Analysis) -> Result<(), TestCa
     let map = cells.map(grid, analysis, &semantic);
     let locations = layout::layout(&map, &LayoutSpec::of(&analysis.options)).locations;
     prop_assert!(locations.windows(2).all(|pair| pair[0].code < pair[1].code), "{:?}", locations);
-    let ends = [locations.first(), locations.last()].map(Option::<&Location>::cloned);
-    let faces = [analysis.subdivision.faces().next(), analysis.subdivision.faces().last()];
-    let ways = [
-        waypoints(ends.map(|end| end.map(|location| Waypoint::Location(Box::new(location))))),
-        waypoints(faces.map(|face| face.map(Waypoint::Face))),
-    ];
-    for [from, to] in ways.into_iter().flatten() {
-        if let Ok(route) = routing::route(map, &from, &to) {
+    let radius = LayoutSpec::of(&analysis.options).vehicle_radius;
+    for radius in [0.0, radius] {
+        let router = Router::new(&map, radius);
+        let faces = [analysis.subdivision.faces().next(), analysis.subdivision.faces().last()];
+        let mut ends: Vec<Waypoint<'_>> = faces.into_iter().flatten().map(Waypoint::Face).collect();
+        ends.extend([locations.first(), locations.last()].into_iter().flatten().map(Waypoint::Location));
+        for (from, to) in ends.iter().flat_map(|from| ends.iter().map(move |to| (from, to))) {
+            let Ok(route) = router.route(&map, from, to, &Preferences::default()) else { continue };
             let length: f64 = route.path.windows(2).map(|step| (step[1] - step[0]).norm()).sum();
             prop_assert!(route.path.len() >= 2 && (length - route.length).abs() < 1e-6, "{:?}", route);
             prop_assert!(route.faces.iter().all(|&face| face != FaceId::OUTER));
+            prop_assert!(route.clearance >= radius - grid.resolution(), "{:?}", route);
         }
     }
     Ok(())
-}
-
-fn waypoints([from, to]: [Option<Waypoint>; 2]) -> Option<[Waypoint; 2]> {
-    Some([from?, to?])
 }
 
 /// Stops an analysis at the end of some report of progress.
