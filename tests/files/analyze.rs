@@ -37,7 +37,7 @@ fn a_map_becomes_a_folder_of_layers_and_pictures() {
     let mut names: Vec<String> =
         results.read_dir().unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
     names.sort_unstable();
-    expect!["categories.png doors.geojson edges.geojson faces.geojson image.png lines.geojson links.geojson locations.csv locations.geojson nodes.geojson places.geojson regions.geojson regions.png report.json semantic.png semantic.svg vertices.geojson"].assert_eq(&names.join(" "));
+    expect!["aisles.geojson categories.png doors.geojson edges.geojson faces.geojson image.png lines.geojson links.geojson locations.csv locations.geojson nodes.geojson places.geojson regions.geojson regions.png report.json rows.geojson semantic.png semantic.svg vertices.geojson"].assert_eq(&names.join(" "));
     let json = |name: &str| -> Value { serde_json::from_slice(&std::fs::read(results.join(name)).unwrap()).unwrap() };
     let report = json("report.json");
     assert_eq!(report["cells"], 24 * 16);

@@ -36,7 +36,9 @@ pub fn navigation_graph(map: &SiteMap<'_>, layout: &Layout, router: &Router) -> 
             attached.entry(face).or_default().push((node, LaneKind::Way));
         }
     }
-    for (index, location) in layout.locations.iter().enumerate() {
+    // Locations behind others are served from where those in front are.
+    let served = layout.locations.iter().enumerate().filter(|(_, location)| location.depth_in_row == 1);
+    for (index, location) in served {
         let Some(pose) = location.approach.filter(|pose| map.clearance.at(pose.position) >= router.radius()) else {
             continue;
         };

@@ -2,7 +2,7 @@
 //!
 //! | module | what comes out |
 //! | --- | --- |
-//! | [`navigation_graph`] | nodes and directed lanes |
+//! | [`mod@navigation_graph`] | nodes and directed lanes |
 //! | [`build`] | the graph of a map |
 //! | [`face_ways`] | the course of vehicles through one face |
 
