@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::geometry::{OrientedBox, Point, direction, normal};
+use crate::geometry::{OrientedBox, Point, RigidMotion, direction, normal};
 
 /// State of one cell of a map.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -39,6 +39,12 @@ impl GridFrame {
     pub fn to_grid(&self, point: Point) -> Point {
         let offset = point - self.origin;
         Point::new(direction(self.yaw).dot(&offset), normal(self.yaw).dot(&offset))
+    }
+
+    /// The motion that carries the grid frame into the map frame.
+    #[must_use]
+    pub fn motion(&self) -> RigidMotion {
+        RigidMotion { shift: self.origin.coords, turn: self.yaw }
     }
 
     /// Carries an angle of the grid frame into the map frame.

@@ -41,6 +41,7 @@ pub mod vectors;
 mod components;
 mod digital_lines;
 mod distance_transform;
+mod fourier;
 mod morphology;
 mod runs;
 mod site_ground;
@@ -96,6 +97,12 @@ pub mod layout;
 pub mod routing;
 
 pub mod graph;
+
+pub mod alignment;
+
+pub mod compare;
+
+pub mod registry;
 
 pub mod evaluation;
 

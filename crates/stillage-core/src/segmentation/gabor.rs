@@ -13,8 +13,8 @@
 
 use rayon::prelude::*;
 
-use super::fourier::Fourier;
 use super::tiles::Tiles;
+use crate::fourier::Fourier;
 use crate::grid::{Occupancy, OccupancyGrid};
 use crate::spec::RegionOptions;
 use crate::watch::{Stopped, Watch};

@@ -22,7 +22,6 @@ use crate::spec::{AnalysisOptions, RegionMethod};
 use crate::watch::{Stopped, Watch};
 
 mod directions;
-mod fourier;
 mod gabor;
 mod outline;
 mod patterns;

@@ -12,7 +12,7 @@ use rustfft::{Fft, FftPlanner};
 const TRANSPOSE_BLOCK: usize = 32;
 
 /// The transforms of pictures of one size.
-pub(super) struct Fourier {
+pub(crate) struct Fourier {
     width: usize,
     height: usize,
     /// Forward and inverse.
@@ -22,13 +22,13 @@ pub(super) struct Fourier {
 }
 
 /// A transformed picture: `values[kx * height + ky]`.
-pub(super) struct Spectrum {
+pub(crate) struct Spectrum {
     values: Vec<Complex32>,
 }
 
 impl Fourier {
     /// Plans transforms of at least the given size.
-    pub(super) fn at_least(width: usize, height: usize) -> Self {
+    pub(crate) fn at_least(width: usize, height: usize) -> Self {
         let (width, height) = (smooth_size(width), smooth_size(height));
         let mut planner = FftPlanner::new();
         Self {
@@ -40,7 +40,7 @@ impl Fourier {
     }
 
     /// Transforms a picture of `width` columns, filled up with zeros.
-    pub(super) fn forward(&self, picture: &[f32], width: usize) -> Spectrum {
+    pub(crate) fn forward(&self, picture: &[f32], width: usize) -> Spectrum {
         let mut rows = vec![Complex32::default(); self.width * self.height];
         for (target, source) in rows.chunks_exact_mut(self.width).zip(picture.chunks_exact(width)) {
             for (target, &source) in target.iter_mut().zip(source) {
@@ -55,7 +55,7 @@ impl Fourier {
 
     /// Magnitude of the picture whose spectrum is `spectrum` times `gain(fx, fy)`, for the first `width` x `height`
     /// pixels; frequencies are in cycles per pixel, in [-1/2, 1/2).
-    pub(super) fn filtered_magnitude(
+    pub(crate) fn filtered_magnitude(
         &self,
         spectrum: &Spectrum,
         gain: impl Fn(f32, f32) -> f32,
@@ -66,14 +66,33 @@ impl Fourier {
             let fx = frequency(index, self.width);
             product.extend(column.iter().enumerate().map(|(ky, value)| value * gain(fx, frequency(ky, self.height))));
         }
-        self.column[1].process(&mut product);
-        let mut rows = transposed(&product, self.height, self.width);
-        self.row[1].process(&mut rows);
         let scale = 1.0 / (self.width * self.height) as f32;
-        rows.chunks_exact(self.width)
+        self.inverse(product)
+            .chunks_exact(self.width)
             .take(height)
             .flat_map(|row| row[..width].iter().map(|value| value.norm_sqr().sqrt() * scale))
             .collect()
+    }
+
+    /// The sum of products of two pictures, `first` at `(x + dx, y + dy)` and `second` at `(x, y)`, for every shift: at
+    /// column `dx` and row `dy`, of which negative ones are counted back from the ends.
+    pub(crate) fn correlation(&self, first: &Spectrum, second: &Spectrum) -> Vec<f32> {
+        let product = first.values.iter().zip(&second.values).map(|(one, other)| one * other.conj()).collect();
+        let scale = 1.0 / (self.width * self.height) as f32;
+        self.inverse(product).iter().map(|value| value.re * scale).collect()
+    }
+
+    /// Columns and rows of the transformed pictures.
+    pub(crate) const fn size(&self) -> [usize; 2] {
+        [self.width, self.height]
+    }
+
+    /// The picture of a spectrum, row by row, times its number of pixels.
+    fn inverse(&self, mut spectrum: Vec<Complex32>) -> Vec<Complex32> {
+        self.column[1].process(&mut spectrum);
+        let mut rows = transposed(&spectrum, self.height, self.width);
+        self.row[1].process(&mut rows);
+        rows
     }
 }
 
@@ -126,6 +145,17 @@ mod tests {
         let spectrum = fourier.forward(&picture, 7);
         let back = fourier.filtered_magnitude(&spectrum, |_, _| 1.0, [7, 5]);
         assert!(picture.iter().zip(&back).all(|(one, other)| (one - other).abs() < 1e-4), "{back:?}");
+    }
+
+    #[test]
+    fn pictures_correlate_most_at_their_shift() {
+        let at =
+            |wanted: [usize; 2]| (0..64).map(|index| f32::from(u8::from([index % 8, index / 8] == wanted))).collect();
+        let [first, second]: [Vec<f32>; 2] = [at([1, 5]), at([3, 2])];
+        let fourier = Fourier::at_least(16, 16);
+        let found = fourier.correlation(&fourier.forward(&first, 8), &fourier.forward(&second, 8));
+        // 2 columns to the left, 3 rows up.
+        assert!((found[3 * 16 + 14] - 1.0).abs() < 1e-5);
     }
 
     #[test]

@@ -1,0 +1,21 @@
+//! What changed between two maps of a site, or between two readings of one analysis.
+//!
+//! [`compare`] takes the places of two maps in one frame (an alignment carries the new ones there) and tells which are
+//! the same, which came, which went, and what is different about those that stayed. [`compare_labels`] does so for faces
+//! that keep their numbers. Exchanging the maps exchanges added and removed, filled and emptied, and nothing else.
+//!
+//! Cost: O(n log n + pairs of places whose boxes meet). Limits: a place that moved further than its own size is one that
+//! went and one that came, unless it kept its code.
+
+mod comparison;
+mod footprint;
+mod labels;
+mod matching;
+
+#[cfg(test)]
+mod tests;
+
+pub use comparison::{ComparedPlace, Comparison, PlaceChange, PlaceMatch, compare};
+pub use footprint::Footprint;
+pub use labels::{LabelChange, compare_labels};
+pub use matching::{LEAST_SHARE, Pair, pairs};

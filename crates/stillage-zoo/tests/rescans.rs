@@ -1,0 +1,100 @@
+//! Halls that are scanned twice, with other goods, another turn and other cells, are found to be one site; two halls are
+//! not. `cargo test --release -p stillage-zoo --test rescans -- --nocapture` prints the figures; `RESCAN_SEEDS=1..4`
+//! takes other seeds and every kind.
+
+use std::ops::Range;
+use std::time::Instant;
+
+use stillage_core::alignment::{NotSameSite, SiteAlignment, align};
+use stillage_core::{GridFrame, Occupancy, OccupancyGrid, Point, Vector, Watch};
+use stillage_zoo::{Kind, Options, Properties, Sample, generate};
+
+/// Residuals that a re-scan may have: metres, degrees.
+const MOST: (f64, f64) = (0.05, 0.1);
+
+fn grid(sample: &Sample) -> OccupancyGrid {
+    let (width, height) = sample.size();
+    let cell = |&grey: &u8| match grey {
+        0 => Occupancy::Occupied,
+        254 => Occupancy::Free,
+        _ => Occupancy::Unknown,
+    };
+    let frame = GridFrame { resolution: sample.resolution(), origin: sample.origin(), yaw: 0.0 };
+    OccupancyGrid::new(width, height, frame, sample.greys().iter().map(cell).collect())
+}
+
+fn aligned(new: &OccupancyGrid, old: &OccupancyGrid) -> Result<SiteAlignment, NotSameSite> {
+    align(new, old, &Watch::unwatched()).expect("nobody stops it")
+}
+
+/// The place of each pallet: region, frame in it, and middle, metres.
+fn places(sample: &Sample) -> Vec<(String, [f64; 4], Point)> {
+    let features = sample.truth.features.iter();
+    let place = features.filter_map(|feature| match &feature.properties {
+        Properties::Pallet { region, local, .. } => {
+            let corners = &feature.geometry.coordinates[0][1..];
+            let sum = corners.iter().map(|&[x, y]| Vector::new(x, y)).sum::<Vector>();
+            Some((region.clone(), *local, Point::from(sum / corners.len() as f64)))
+        }
+        _ => None,
+    });
+    place.collect()
+}
+
+/// How far the places of the new hall land from those of the old one, in the mean, metres.
+fn error(found: &SiteAlignment, new: &Sample, old: &Sample) -> f64 {
+    let old = places(old);
+    let offsets: Vec<Vector> = places(new)
+        .iter()
+        .filter_map(|(region, local, middle)| {
+            let same = old.iter().find(|place| (&place.0, &place.1) == (region, local))?;
+            Some(found.motion.apply(*middle) - same.2)
+        })
+        .collect();
+    assert!(!offsets.is_empty(), "the halls have places in common");
+    offsets.iter().sum::<Vector>().norm() / offsets.len() as f64
+}
+
+fn seeds_and_kinds() -> (Range<u64>, &'static [Kind]) {
+    let wished = std::env::var("RESCAN_SEEDS").ok();
+    let bounds = wished.as_deref().and_then(|text| text.split_once(".."));
+    match bounds.map(|(from, to)| (from.parse(), to.parse())) {
+        Some((Ok(from), Ok(to))) => (from..to, &Kind::ALL),
+        _ => (4..5, &[Kind::Selective, Kind::Tunnels, Kind::LShape, Kind::Unexplored]),
+    }
+}
+
+#[test]
+fn a_hall_is_found_again_with_other_goods_and_another_hall_is_not() {
+    let (seeds, kinds) = seeds_and_kinds();
+    let mut before: Option<OccupancyGrid> = None;
+    let mut misses = Vec::new();
+    for (seed, &kind) in seeds.flat_map(|seed| kinds.iter().map(move |kind| (seed, kind))) {
+        let turn = 47.3 + 37.0 * seed as f64;
+        let made = |rotation_deg, boxes, resolution| {
+            let (rotation_deg, boxes) = (Some(rotation_deg), Some(boxes));
+            generate(kind, seed, &Options { rotation_deg, boxes, resolution, ..Options::default() })
+        };
+        let (old, new) = (made(10.0, 0.8, 0.05), made(10.0 - turn, 0.4, if seed % 2 == 0 { 0.05 } else { 0.08 }));
+        let (old_grid, new_grid) = (grid(&old), grid(&new));
+        let began = Instant::now();
+        let found = aligned(&new_grid, &old_grid);
+        println!("{kind} {seed}: {:?} cells, {:.2} s, {found:?}", new.size(), began.elapsed().as_secs_f64());
+        match found {
+            Ok(found) => {
+                let metres = error(&found, &new, &old);
+                let turned = (found.motion.turn.to_degrees() - turn + 180.0).rem_euclid(360.0) - 180.0;
+                println!("    {metres:.3} m, {turned:.3} degrees off");
+                if metres > MOST.0 || turned.abs() > MOST.1 {
+                    misses.push(format!("{kind} {seed}: {metres:.3} m, {turned:.3} degrees off"));
+                }
+            }
+            Err(refusal) => misses.push(format!("{kind} {seed}: {refusal}")),
+        }
+        if let Some(Ok(wrong)) = before.as_ref().map(|other| aligned(other, &old_grid)) {
+            misses.push(format!("{kind} {seed} is taken for the hall before it: {wrong:?}"));
+        }
+        before = Some(old_grid);
+    }
+    assert!(misses.is_empty(), "{}", misses.join("\n"));
+}
