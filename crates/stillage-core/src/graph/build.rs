@@ -14,7 +14,7 @@ use super::navigation_graph::{GraphNode, Lane, LaneKind, NavigationGraph, NodeKi
 use crate::arrangement::{EdgeId, FaceId};
 use crate::geometry::Point;
 use crate::layout::Layout;
-use crate::routing::{Preferences, Router, Waypoint};
+use crate::routing::Router;
 use crate::site_map::SiteMap;
 
 /// Least distance between two nodes on the course of a face, metres: a vehicle does not stop twice within half a metre.
@@ -179,10 +179,9 @@ impl GraphDraft<'_> {
         let path = if self.router.sees(start, end) {
             vec![start, end]
         } else {
-            let ends = [Waypoint::Point(start), Waypoint::Point(end)];
-            let found = self.router.route(self.map, &ends[0], &ends[1], &Preferences::default());
+            let found = self.router.shortest(self.map, start, end);
             let is_short = |length: f64| length <= LONGEST_DETOUR * (end - start).norm() + LEAST_DISTANCE_M;
-            let Some(route) = found.ok().filter(|route| is_short(route.length)) else { return Vec::new() };
+            let Some(route) = found.filter(|route| is_short(route.length)) else { return Vec::new() };
             route.path
         };
         let width = 2.0 * self.router.clearance_along(self.map, &path);

@@ -94,6 +94,15 @@ impl Router {
         sight::clearance_along(&self.grid, path, |cell| map.clearance.of_cell(cell))
     }
 
+    /// The shortest route between two points; `None` where none leads, without asking why.
+    #[must_use]
+    pub fn shortest(&self, map: &SiteMap<'_>, from: Point, to: Point) -> Option<Route> {
+        let preferences = Preferences::default();
+        let [start, goal] = self.ends(map, &Waypoint::Point(from), &Waypoint::Point(to)).ok()?;
+        let way = self.way(&start, &goal, &GroundCost::new(map, &preferences, self.radius))?;
+        Some(self.finish(map, &way, &start, &goal, preferences.profile))
+    }
+
     /// Finds the best route.
     ///
     /// The path begins and ends at the points that are given (where the vehicle fits on the middle of their cell alone, on
