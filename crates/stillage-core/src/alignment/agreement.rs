@@ -7,16 +7,42 @@ use rayon::prelude::*;
 
 use super::refine::contact;
 use super::surfaces::Surfaces;
-use crate::geometry::RigidMotion;
+use crate::geometry::hash::{split_mix, unit};
+use crate::geometry::{RigidMotion, Vector};
 use crate::grid::Occupancy;
 
 /// Distance within which surfaces touch, metres, where cells are small.
 const TOUCH_M: f64 = 0.1;
-/// The same in cells, where they are large.
-const TOUCH_CELLS: f64 = 1.5;
+/// The same in cells, where they are large: those beside one another.
+const TOUCH_CELLS: f64 = 1.1;
 
 /// Fewest points of walls in either map that count by themselves.
 const LEAST_WALL_POINTS: usize = 50;
+
+/// Distance within which surfaces of two maps touch, metres.
+pub(super) fn touch(maps: [&Surfaces<'_>; 2]) -> f64 {
+    let cell = maps.into_iter().map(|map| map.grid.resolution()).fold(0.0, f64::max);
+    (cell * TOUCH_CELLS).max(TOUCH_M)
+}
+
+/// Share of surfaces that would touch if those of one map were strewn over the known ground of the other, as they are
+/// turned now: much where cells are large and surfaces many.
+pub(super) fn chance(maps: [&Surfaces<'_>; 2], points: [&[usize]; 2], turn: f64) -> f64 {
+    let [from, to] = maps;
+    let motion = |turn| RigidMotion { shift: Vector::zeros(), turn };
+    let one_way = |from: &Surfaces<'_>, to: &Surfaces<'_>, points: &[usize], motion: RigidMotion| {
+        let known = to.grid.cells().iter().enumerate().filter(|(_, cell)| **cell != Occupancy::Unknown);
+        let known: Vec<usize> = known.map(|(cell, _)| cell).collect();
+        let touches = |&&index: &&usize| {
+            let cell = known[(unit(split_mix(index as u64)) * known.len() as f64) as usize];
+            let place = to.grid.center(cell % to.grid.width(), cell / to.grid.width());
+            let found = contact(to, place, motion.turned(from.normals[index]));
+            found.is_some_and(|found| found.distance <= touch(maps))
+        };
+        points.iter().filter(touches).count() as f64 / points.len().max(1) as f64
+    };
+    f64::midpoint(one_way(from, to, points[0], motion(turn)), one_way(to, from, points[1], motion(-turn)))
+}
 
 /// Counts of surface points.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -56,7 +82,7 @@ impl Tally {
     }
 
     fn one_way(from: &Surfaces<'_>, to: &Surfaces<'_>, points: &[usize], motion: &RigidMotion) -> Self {
-        let touch = (from.grid.resolution().max(to.grid.resolution()) * TOUCH_CELLS).max(TOUCH_M);
+        let touch = touch([from, to]);
         let tally = |&index: &usize| {
             let moved = motion.apply(from.points[index]);
             let found = contact(to, moved, motion.turned(from.normals[index])).filter(|found| found.distance <= touch);

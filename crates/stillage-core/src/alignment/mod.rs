@@ -41,10 +41,12 @@ pub use site_alignment::{NotSameSite, SiteAlignment};
 const FEW_POINTS: usize = 2_000;
 /// Points of each map in the last comparison: more change the fit by less than a millimetre.
 const MANY_POINTS: usize = 20_000;
+/// Fewest surface points of a map that can be told from another: 5 m of wall in cells of 0.05 m.
+const FEWEST_POINTS: usize = 100;
 /// Candidates in the last comparison.
 const FINALISTS: usize = 6;
-/// Motions that differ by less are one: metres at the middle of the map, and radians.
-const SAME_MOTION: (f64, f64) = (0.3, 0.01);
+/// Motions that differ by less are one: distances within which surfaces touch, at the middle of the map, and radians.
+const SAME_MOTION: (f64, f64) = (3.0, 0.01);
 
 /// Finds the motion of a new map of a site onto an old one, in the map frames of both.
 ///
@@ -56,6 +58,9 @@ pub fn align(
     watch: &Watch<'_>,
 ) -> Result<Result<SiteAlignment, NotSameSite>, Stopped> {
     let (from, to) = (Surfaces::of(new, watch)?, Surfaces::of(old, watch)?);
+    if from.points.len().min(to.points.len()) < FEWEST_POINTS {
+        return Ok(Err(NotSameSite { agreement: 0.0, overlap: 0.0 }));
+    }
     let turns = turns::candidates(new, old, watch)?;
     let cell = overview::cell_for([&from, &to]);
     let starts = shifts::candidates(&Overview::of(&from, cell), &Overview::of(&to, cell), &turns, watch)?;
@@ -63,7 +68,10 @@ pub fn align(
     let starts: Vec<RigidMotion> = finalists.into_iter().map(|(motion, _)| motion).collect();
     let ranked = best_of([&from, &to], &starts, MANY_POINTS, FINALISTS, watch)?;
     let to_map_frames = |motion: RigidMotion| new.frame().motion().inverse().then(&motion).then(&old.frame().motion());
-    Ok(site_alignment::verdict(&ranked, to_map_frames))
+    let samples = [&from, &to].map(|map| map.sample(FEW_POINTS));
+    let turn = ranked.first().map_or(0.0, |(motion, _)| motion.turn);
+    let chance = agreement::chance([&from, &to], [&samples[0], &samples[1]], turn);
+    Ok(site_alignment::verdict(&ranked, chance, to_map_frames))
 }
 
 /// Refines motions on a sample of the points, and keeps the best that differ.
@@ -89,7 +97,8 @@ fn best_of(
     for candidate in found {
         let is_same = |(other, _): &(RigidMotion, Tally)| {
             let back = other.inverse().then(&candidate.0);
-            (back.apply(middle) - middle).norm() < SAME_MOTION.0 && back.turn.abs() < SAME_MOTION.1
+            (back.apply(middle) - middle).norm() < SAME_MOTION.0 * agreement::touch(maps)
+                && back.turn.abs() < SAME_MOTION.1
         };
         if kept.len() < most && !kept.iter().any(is_same) {
             kept.push(candidate);

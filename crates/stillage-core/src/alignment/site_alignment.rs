@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::agreement::Tally;
 use crate::geometry::RigidMotion;
 
-/// Share of the surfaces on common ground that must touch for maps of one site. This and the next four were set on 64
+/// Share of the surfaces on common ground that must touch, beyond chance, for maps of one site. This and the next four were set on 64
 /// generated halls of 16 kinds, each scanned twice with other goods, on 60 pairs of different halls, and on the pairs of
 /// 16 real maps.
 const LEAST_AGREEMENT: f64 = 0.5;
@@ -20,7 +20,7 @@ const LEAST_OVERLAP_WHERE_UNIQUE: f64 = 0.7;
 const STANDS_OUT: f64 = 0.42;
 /// A runner-up with this share of the best rank makes the answer ambiguous: of the halls whose other end was taken for
 /// the right one, the least had 0.96.
-const NEARLY_EQUAL: f64 = 0.9;
+const NEARLY_EQUAL: f64 = 0.93;
 
 /// How a new map of a site lies on an old one.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -51,17 +51,19 @@ pub struct NotSameSite {
     pub overlap: f64,
 }
 
-/// Judges motions, the best first.
+/// Judges motions, the best first. `chance` is the agreement that says nothing.
 pub(super) fn verdict(
     ranked: &[(RigidMotion, Tally)],
+    chance: f64,
     to_map_frames: impl Fn(RigidMotion) -> RigidMotion,
 ) -> Result<SiteAlignment, NotSameSite> {
     let Some((motion, best)) = ranked.first() else { return Err(NotSameSite { agreement: 0.0, overlap: 0.0 }) };
     let (agreement, overlap) = (best.agreement(), best.overlap());
     let runner_up = ranked.get(1).map_or(f64::NEG_INFINITY, |(_, next)| next.rank());
     let is_rival = |share: f64| runner_up > share * best.rank();
-    let is_alike = agreement >= LEAST_AGREEMENT && agreement * overlap >= LEAST_TOUCHING;
-    let is_enough = agreement * overlap >= LEAST_WHERE_UNIQUE && overlap >= LEAST_OVERLAP_WHERE_UNIQUE;
+    let beyond_chance = (agreement - chance) / (1.0 - chance).max(f64::MIN_POSITIVE);
+    let is_alike = beyond_chance >= LEAST_AGREEMENT && beyond_chance * overlap >= LEAST_TOUCHING;
+    let is_enough = beyond_chance * overlap >= LEAST_WHERE_UNIQUE && overlap >= LEAST_OVERLAP_WHERE_UNIQUE;
     let is_unique = is_enough && !is_rival(STANDS_OUT);
     if !is_alike && !is_unique {
         return Err(NotSameSite { agreement, overlap });

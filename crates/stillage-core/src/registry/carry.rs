@@ -50,16 +50,17 @@ pub struct Carried {
 }
 
 impl Registry {
-    /// Gives every location of a map its code.
+    /// Gives every location of a map its code. `scan` is the id under which places of this map are confirmed.
     #[must_use]
-    pub fn carry(&self, locations: &[NumberedLocation], trust: Trust) -> Carried {
+    pub fn carry(&self, locations: &[NumberedLocation], trust: Trust, scan: &str) -> Carried {
         let mut registry = self.clone();
         let known: Vec<Footprint> = self.entries.iter().map(RegistryEntry::footprint).collect();
         let found: Vec<Footprint> = locations.iter().map(|location| location.footprint.clone()).collect();
         let mut entry_of: Vec<Option<usize>> = vec![None; locations.len()];
         let mut is_seen = vec![false; known.len()];
         for pair in pairs(&known, &found) {
-            let is_sure = pair.share >= SURE_SHARE && !pair.has_rival && trust != Trust::Doubtful;
+            let is_confirmed = self.entries[pair.old].confirmed_in.as_deref() == Some(scan);
+            let is_sure = pair.share >= SURE_SHARE && !pair.has_rival && (trust != Trust::Doubtful || is_confirmed);
             (entry_of[pair.new], is_seen[pair.old]) = (Some(pair.old), true);
             if trust != Trust::Earlier {
                 registry.entries[pair.old].see(&found[pair.new], is_sure);
@@ -102,9 +103,9 @@ impl Registry {
             entries[index] = self.entries.len();
             let key = self.entries.len() as u32 + 1;
             let Footprint { outline, center } = footprint.clone();
-            let (name, groups) = (None, Vec::new());
+            let (name, groups, confirmed_in) = (None, Vec::new(), None);
             let seen = (state == PlaceState::Stale).then(|| (outline.clone(), center));
-            self.entries.push(RegistryEntry { key, code, name, groups, outline, center, state, seen });
+            self.entries.push(RegistryEntry { key, code, name, groups, outline, center, state, seen, confirmed_in });
         }
         entries
     }

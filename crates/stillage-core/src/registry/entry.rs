@@ -36,6 +36,8 @@ pub struct RegistryEntry {
     pub state: PlaceState,
     /// Where it was seen last, when that is not confirmed yet: border and middle.
     pub seen: Option<(Vec<Point>, Point)>,
+    /// The scan in which a person confirmed it: a doubtful alignment of that scan is no doubt about this place.
+    pub confirmed_in: Option<String>,
 }
 
 impl RegistryEntry {
@@ -63,12 +65,12 @@ impl Registry {
         self.entries.iter().find(|entry| entry.code == code)
     }
 
-    /// Confirms the stale places with these codes, or all: they are where they were seen last. Answers how many that were;
-    /// places that are current or lost stay as they are.
+    /// Confirms the stale places with these codes, or all: they are where they were seen last, in the scan with this id.
+    /// Answers how many that were; places that are current or lost stay as they are.
     ///
     /// # Errors
     /// [`UnknownCodes`] where the registry has no place with one of them; nothing is confirmed then.
-    pub fn confirm(&mut self, codes: Option<&[String]>) -> Result<usize, UnknownCodes> {
+    pub fn confirm(&mut self, codes: Option<&[String]>, scan: &str) -> Result<usize, UnknownCodes> {
         let unknown = codes.into_iter().flatten().filter(|code| self.find(code).is_none());
         let unknown: Vec<String> = unknown.cloned().collect();
         if !unknown.is_empty() {
@@ -79,6 +81,7 @@ impl Registry {
         for entry in &mut self.entries {
             if entry.state == PlaceState::Stale && is_meant(entry) {
                 entry.state = PlaceState::Current;
+                entry.confirmed_in = Some(scan.to_owned());
                 if let Some((outline, center)) = entry.seen.take() {
                     (entry.outline, entry.center) = (outline, center);
                 }

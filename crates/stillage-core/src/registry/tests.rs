@@ -27,60 +27,66 @@ use PlaceState::{Current, Lost, Stale};
 
 #[test]
 fn the_first_numbering_makes_the_registry() {
-    let carried = Registry::default().carry(&row(&[0.0, 1.0]), Trust::Newest);
+    let carried = Registry::default().carry(&row(&[0.0, 1.0]), Trust::Newest, "scan");
     assert_eq!(codes(&carried), ["01-001", "01-003"]);
     assert_eq!(states(&carried.registry), [("01-001", Current), ("01-003", Current)]);
 }
 
 #[test]
 fn codes_stay_with_their_places_when_one_is_gone_and_one_is_new() {
-    let first = Registry::default().carry(&row(&[0.0, 1.0, 2.0]), Trust::Newest).registry;
+    let first = Registry::default().carry(&row(&[0.0, 1.0, 2.0]), Trust::Newest, "scan").registry;
     // The numbering begins anew: without the registry, every place would have another code.
-    let second = first.carry(&row(&[1.02, 2.0, 3.0]), Trust::Newest);
+    let second = first.carry(&row(&[1.02, 2.0, 3.0]), Trust::Newest, "scan");
     assert_eq!(codes(&second), ["01-003", "01-005", "01-007"]);
     assert_eq!(
         states(&second.registry),
         [("01-001", Lost), ("01-003", Current), ("01-005", Current), ("01-007", Current)]
     );
-    let third = second.registry.carry(&row(&[0.0, 1.0]), Trust::Newest);
+    let third = second.registry.carry(&row(&[0.0, 1.0]), Trust::Newest, "scan");
     assert_eq!(codes(&third), ["01-001", "01-003"], "what comes back has its code again");
 }
 
 #[test]
 fn what_may_be_another_place_is_stale_until_it_is_confirmed() {
-    let first = Registry::default().carry(&row(&[0.0, 10.0]), Trust::Newest).registry;
+    let first = Registry::default().carry(&row(&[0.0, 10.0]), Trust::Newest, "scan").registry;
     let moved = row(&[0.5, 10.0]);
-    let mut second = first.carry(&moved, Trust::Newest);
+    let mut second = first.carry(&moved, Trust::Newest, "scan");
     assert_eq!(states(&second.registry), [("01-001", Stale), ("01-003", Current)]);
     assert!(second.codes[0].is_stale && !second.codes[1].is_stale);
-    let again = second.registry.carry(&row(&[0.0, 10.0]), Trust::Newest);
+    let again = second.registry.carry(&row(&[0.0, 10.0]), Trust::Newest, "scan");
     assert_eq!(states(&again.registry)[0], ("01-001", Stale), "nobody confirmed it");
-    assert_eq!(second.registry.confirm(None), Ok(1));
-    assert_eq!(states(&second.registry.carry(&moved, Trust::Newest).registry)[0], ("01-001", Current));
+    assert_eq!(second.registry.confirm(None, "scan"), Ok(1));
+    assert_eq!(states(&second.registry.carry(&moved, Trust::Newest, "scan").registry)[0], ("01-001", Current));
 }
 
 #[test]
 fn a_map_whose_alignment_is_in_doubt_makes_every_code_stale() {
-    let first = Registry::default().carry(&row(&[0.0]), Trust::Newest).registry;
-    let second = first.carry(&row(&[0.0, 5.0]), Trust::Doubtful);
+    let first = Registry::default().carry(&row(&[0.0]), Trust::Newest, "scan").registry;
+    let shown = row(&[0.0, 5.0]);
+    let mut second = first.carry(&shown, Trust::Doubtful, "scan");
     assert_eq!(states(&second.registry), [("01-001", Stale), ("01-003", Stale)]);
+    second.registry.confirm(Some(&["01-001".to_owned()]), "scan").expect("it has this code");
+    let confirmed = [("01-001", Current), ("01-003", Stale)];
+    assert_eq!(states(&second.registry.carry(&shown, Trust::Doubtful, "scan").registry), confirmed);
+    let another = second.registry.carry(&shown, Trust::Doubtful, "another scan");
+    assert_eq!(states(&another.registry), [("01-001", Stale), ("01-003", Stale)]);
 }
 
 #[test]
 fn an_earlier_map_changes_no_state() {
-    let first = Registry::default().carry(&row(&[0.0, 1.0]), Trust::Newest).registry;
-    let second = first.carry(&row(&[1.0, 7.0]), Trust::Earlier);
+    let first = Registry::default().carry(&row(&[0.0, 1.0]), Trust::Newest, "scan").registry;
+    let second = first.carry(&row(&[1.0, 7.0]), Trust::Earlier, "scan");
     assert_eq!(codes(&second), ["01-003", "01-005"]);
     assert_eq!(states(&second.registry), [("01-001", Current), ("01-003", Current), ("01-005", Lost)]);
 }
 
 #[test]
 fn unknown_codes_are_not_confirmed() {
-    let mut registry = Registry::default().carry(&row(&[0.0]), Trust::Doubtful).registry;
+    let mut registry = Registry::default().carry(&row(&[0.0]), Trust::Doubtful, "scan").registry;
     let wished = ["01-001".to_owned(), "99-999".to_owned()];
-    assert_eq!(registry.confirm(Some(&wished)), Err(UnknownCodes(vec!["99-999".into()])));
+    assert_eq!(registry.confirm(Some(&wished), "scan"), Err(UnknownCodes(vec!["99-999".into()])));
     assert_eq!(states(&registry), [("01-001", Stale)]);
-    assert_eq!(registry.confirm(Some(&wished[..1])), Ok(1));
+    assert_eq!(registry.confirm(Some(&wished[..1]), "scan"), Ok(1));
 }
 
 /// Rows of places with gaps, the codes counted from the left.
@@ -102,14 +108,14 @@ proptest! {
     #[test]
     fn twice_is_once_and_the_order_changes_nothing(first in rows(), second in rows(), turn in 0_usize..12, doubt in any::<bool>()) {
         let trust = if doubt { Trust::Doubtful } else { Trust::Newest };
-        let registry = Registry::default().carry(&first, Trust::Newest).registry;
-        let carried = registry.carry(&second, trust);
-        prop_assert_eq!(&carried.registry.carry(&second, trust), &carried);
+        let registry = Registry::default().carry(&first, Trust::Newest, "scan").registry;
+        let carried = registry.carry(&second, trust, "scan");
+        prop_assert_eq!(&carried.registry.carry(&second, trust, "scan"), &carried);
 
         let mut turned = second.clone();
         let turn = turn % second.len().max(1);
         turned.rotate_left(turn);
-        let mut other = registry.carry(&turned, trust);
+        let mut other = registry.carry(&turned, trust, "scan");
         other.codes.rotate_right(turn);
         prop_assert_eq!(&other, &carried);
     }
@@ -119,7 +125,7 @@ proptest! {
         let mut registry = Registry::default();
         for locations in [&first, &second, &third] {
             let before = registry.clone();
-            let carried = registry.carry(locations, Trust::Newest);
+            let carried = registry.carry(locations, Trust::Newest, "scan");
             let given: std::collections::BTreeSet<_> = codes(&carried).into_iter().collect();
             prop_assert_eq!(given.len(), locations.len());
             for (given, location) in carried.codes.iter().zip(locations) {
