@@ -6,11 +6,13 @@ use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use stillage_core::AnalysisOptions;
+use stillage_core::alignment::SiteAlignment;
 use stillage_core::analysis::Diagnostic;
+use stillage_core::geometry::RigidMotion;
 use stillage_core::semantics::{Assignment, RuleSetDraft};
 use uuid::Uuid;
 
-use crate::coordinates::Georeference;
+use crate::coordinates::{Georeference, PointPair, Survey};
 use crate::ingest::MapSource;
 
 /// Whose a map, job or rule set is. What belongs to one tenant does not exist for another.
@@ -53,7 +55,9 @@ pub struct NewMap {
     /// Options of its first analysis.
     pub options: AnalysisOptions,
     /// Where it lies on Earth.
-    pub georeference: Option<Georeference>,
+    pub georeference: Option<Survey>,
+    /// An earlier map of the same site, on which it is aligned.
+    pub previous: Option<Uuid>,
     /// The client's `Idempotency-Key`: the same key with the same content answers the same job.
     pub idempotency_key: Option<String>,
 }
@@ -77,6 +81,12 @@ pub struct MapRecord {
     pub resolution: f64,
     /// Where it lies on Earth.
     pub georeference: Option<Georeference>,
+    /// The pairs of points that its georeference was fitted to.
+    pub point_pairs: Vec<PointPair>,
+    /// Its site: the id of the site's first map, which may be deleted since.
+    pub site: Uuid,
+    /// How it lies on the earlier map that it was uploaded with.
+    pub alignment: Option<AlignmentRecord>,
     /// The analysis that answers, when one is finished.
     pub analysis: Option<Uuid>,
     /// Remarks of the ingest.
@@ -85,13 +95,25 @@ pub struct MapRecord {
     pub version: u64,
 }
 
+/// How a map lies on an earlier one of its site.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub struct AlignmentRecord {
+    /// The earlier map.
+    pub previous: Uuid,
+    /// From this map to the earlier one.
+    pub found: SiteAlignment,
+    /// From this map to the frame of the site: that of its first map.
+    pub to_site: RigidMotion,
+}
+
 /// Changes to a map; absent fields stay.
 #[derive(Debug, Clone, Default)]
 pub struct MapPatch {
     /// Its new name.
     pub name: Option<String>,
     /// `Some(None)` takes the georeference away.
-    pub georeference: Option<Option<Georeference>>,
+    pub georeference: Option<Option<Survey>>,
 }
 
 /// A finished analysis.
@@ -240,6 +262,8 @@ pub struct RuleSetRecord {
 /// One version of the human level of a map.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SemanticsRecord {
+    /// The analysis whose categories it names.
+    pub analysis: Uuid,
     /// Id of the rule set.
     pub rule_set: String,
     /// The rule set as it was when this version was made.

@@ -6,12 +6,14 @@
 
 use std::sync::Arc;
 
+use jiff::Timestamp;
 use stillage_core::layout::{self, LayoutSpec};
 use stillage_core::semantics::{self, Assignment, RuleSet, RuleSetDraft};
 use stillage_core::{Analysis, OccupancyGrid, SiteCells};
 use uuid::Uuid;
 
 use super::map_context::{FeatureCache, MapContext};
+use super::registries::{numbered, site_motion};
 use super::routers::RouterCache;
 use super::{AnalysisRecord, App, AppError, Caller, MapRecord, SemanticsOrigin, SemanticsRecord};
 use crate::blocking::off_the_runtime;
@@ -46,19 +48,22 @@ impl App {
             let (limits, record) = (self.config.limits, analysis.clone());
             off_the_runtime(move || GeometricLevel::read(&source, &blob, &record, &limits)).await?
         };
-        off_the_runtime(move || geometry.read_under(record, &analysis, semantics).map(Arc::new)).await
+        let (id, created) = (analysis.id, analysis.created);
+        let context = off_the_runtime(move || geometry.read_under(record, (id, created), semantics)).await?;
+        let (_, codes) = self.carried_registry(caller, &context).await?;
+        Ok(Arc::new(context.with_codes(codes)))
     }
 }
 
 /// The part of a context that no human decision changes.
-struct GeometricLevel {
+pub(super) struct GeometricLevel {
     grid: Arc<OccupancyGrid>,
     analysis: Arc<Analysis>,
     cells: Arc<SiteCells>,
 }
 
 impl GeometricLevel {
-    fn of(context: &MapContext) -> Self {
+    pub(super) fn of(context: &MapContext) -> Self {
         let MapContext { grid, analysis, cells, .. } = context;
         Self { grid: Arc::clone(grid), analysis: Arc::clone(analysis), cells: Arc::clone(cells) }
     }
@@ -70,35 +75,39 @@ impl GeometricLevel {
         Ok(Self { grid: Arc::new(grid), analysis: Arc::new(analysis), cells: Arc::new(cells) })
     }
 
-    /// Adds the human level: the stored decision, or the suggestion under the default rule set.
-    fn read_under(
+    /// Adds the human level: the stored decision, or the suggestion under the default rule set. `analysis` is its id and
+    /// when it was made. The locations have the codes of a fresh numbering.
+    pub(super) fn read_under(
         self,
         record: MapRecord,
-        analysis: &AnalysisRecord,
+        (analysis_id, created): (Uuid, Timestamp),
         decision: Option<SemanticsRecord>,
     ) -> Result<MapContext, AppError> {
         let rule_set = decision.as_ref().map_or_else(|| Ok(RuleSet::default()), |made| read_rule_set(&made.draft))?;
         let suggestions = semantics::suggest(&self.analysis, &rule_set);
         let semantics = decision.unwrap_or_else(|| SemanticsRecord {
+            analysis: analysis_id,
             rule_set: RuleSet::DEFAULT_ID.to_owned(),
             draft: rule_set.draft().clone(),
             assignment: Assignment::suggested(&suggestions, &rule_set),
             version: 0,
             origin: SemanticsOrigin::Suggested,
-            created: analysis.created,
+            created,
         });
         let semantic = semantics::apply(&self.analysis, &rule_set, &semantics.assignment)?;
         let Self { grid, analysis: geometric, cells } = self;
         let layout = layout::layout(&cells.map(&grid, &geometric, &semantic), &LayoutSpec::of(&geometric.options));
+        let (grid_frame, to_site) = (*grid.frame(), site_motion(&record));
         Ok(MapContext {
             record,
             grid,
-            analysis_id: analysis.id,
+            analysis_id,
             analysis: geometric,
             cells,
             semantics,
             semantic,
             suggestions,
+            numbered: numbered(&layout, grid_frame, &to_site),
             layout,
             features: FeatureCache::default(),
             routers: RouterCache::default(),

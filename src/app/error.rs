@@ -56,6 +56,9 @@ pub enum AppError {
     /// The write does not say what it replaces.
     #[error("this write needs an If-Match header with the ETag that was read")]
     PreconditionRequired,
+    /// Two maps that were to be of one site are not.
+    #[error("{0}")]
+    NotSameSite(String),
     /// Against the state of the resource.
     #[error("{0}")]
     Conflict(String),

@@ -3,6 +3,7 @@
 use std::sync::{Arc, OnceLock};
 
 use stillage_core::layout::Layout;
+use stillage_core::registry::{GivenCode, NumberedLocation};
 use stillage_core::routing::{Blocked, Router};
 use stillage_core::semantics::{SemanticMap, Suggestion};
 use stillage_core::{Analysis, OccupancyGrid, SiteCells, SiteMap};
@@ -33,6 +34,8 @@ pub struct MapContext {
     pub suggestions: Vec<Suggestion>,
     /// Storage locations, aisles and rows.
     pub layout: Layout,
+    /// Its locations with the codes of a fresh numbering, in the frame of the site.
+    pub(super) numbered: Vec<NumberedLocation>,
     /// Its collections, made when they are first asked for.
     pub(super) features: FeatureCache,
     /// Its routers, likewise.
@@ -44,6 +47,14 @@ pub struct MapContext {
 pub struct FeatureCache([OnceLock<Vec<Feature>>; Collection::ALL.len()]);
 
 impl MapContext {
+    /// The map with these codes for its locations, in their order.
+    pub(super) fn with_codes(mut self, codes: Vec<GivenCode>) -> Self {
+        for (location, given) in self.layout.locations.iter_mut().zip(codes) {
+            location.code = given.code;
+        }
+        self
+    }
+
     /// The map as [`crate::features`] reads it.
     #[must_use]
     pub fn view(&self) -> AnalysedMap<'_> {

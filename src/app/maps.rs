@@ -5,7 +5,7 @@ use uuid::Uuid;
 use super::service::RETRY_AFTER_S;
 use super::{App, AppError, Caller, JobRecord, MapPatch, MapRecord, NewMap};
 use crate::blocking::off_the_runtime;
-use crate::coordinates::{Georeference, OutOfRange};
+use crate::coordinates::{OutOfRange, Survey};
 use crate::ingest::{self, DecodedMap, MapSource};
 use crate::jobs::processes::AnalysisProcess;
 use crate::store::{Blob, IdempotencyKey, NewMapRow, Upload, now};
@@ -37,16 +37,25 @@ impl App {
         }
         self.store.check_space()?;
         let (name, options, georeference) = (map.name.trim().to_owned(), map.options, map.georeference);
-        let (decoded, blob) = self.decode_upload(map.source, &options).await?;
+        let (mut decoded, blob) = self.decode_upload(map.source, &options).await?;
         let (width, height) = (decoded.grid.width(), decoded.grid.height());
         self.check_memory(width as u64, height as u64, &options)?;
+        let id = Uuid::now_v7();
+        let (mut site, mut alignment) = (id, None);
+        if let Some(previous) = map.previous {
+            let (read, of_previous, found) =
+                self.aligned_upload(caller, decoded, previous, options.grid.clone()).await?;
+            (decoded, site, alignment) = (read, of_previous, Some(found));
+        }
         let row = NewMapRow {
-            id: Uuid::now_v7(),
+            id,
             name,
             width: width as u32,
             height: height as u32,
             resolution: decoded.grid.resolution(),
             georeference,
+            site,
+            alignment,
             warnings: decoded.warnings,
         };
         let job = AnalysisProcess::job(row.id, blob.id(), &options);
@@ -80,7 +89,7 @@ impl App {
             check_name(name)?;
             *name = name.trim().to_owned();
         }
-        check_georeference(patch.georeference.flatten().as_ref())?;
+        check_georeference(patch.georeference.as_ref().and_then(Option::as_ref))?;
         match self.store.update_map(caller.tenant(), id, &patch, if_match, now()).await? {
             None => Err(AppError::not_found("map", id)),
             Some(Err(current)) => Err(AppError::PreconditionFailed { current: current.version }),
@@ -154,6 +163,10 @@ fn idempotency_key(map: &NewMap) -> Result<Option<IdempotencyKey>, AppError> {
     for part in [parts[0], parts[1], &options] {
         hasher.update(&(part.len() as u64).to_le_bytes()).update(part);
     }
+    // Only where there is one: keys of earlier releases stand for uploads without.
+    if let Some(previous) = map.previous {
+        hasher.update(previous.as_bytes());
+    }
     Ok(Some(IdempotencyKey { key: key.clone(), content: hasher.finalize().to_hex().to_string() }))
 }
 
@@ -164,7 +177,7 @@ fn check_name(name: &str) -> Result<(), AppError> {
     Ok(())
 }
 
-fn check_georeference(georeference: Option<&Georeference>) -> Result<(), AppError> {
+fn check_georeference(georeference: Option<&Survey>) -> Result<(), AppError> {
     let wrong = |OutOfRange { member, detail }| AppError::invalid(&format!("/georeference/{member}"), detail);
-    georeference.map_or(Ok(()), |georeference| georeference.check().map_err(wrong))
+    georeference.map_or(Ok(()), |survey| survey.georeference.check().map_err(wrong))
 }

@@ -6,6 +6,8 @@
 //! | `jobs` | analyses and the jobs that make them |
 //! | `rule_sets` | the vocabulary of labels |
 //! | `semantics` | the human decision on a map |
+//! | `registries` | uploads aligned to an earlier map, the codes of a site's places |
+//! | `comparisons` | what changed between two maps, or two versions of labels |
 //! | `grid` | the cells of a map, before any analysis |
 //! | `context`, `map_context`, `context_cache` | the analysed map in memory, with its collections |
 //! | `service` | what the use cases share, start and stop |
@@ -15,6 +17,7 @@
 //! takes none. Nothing here knows HTTP; nothing here holds SQL.
 
 mod caller;
+mod comparisons;
 mod context;
 mod context_cache;
 mod error;
@@ -23,6 +26,7 @@ mod grid;
 mod jobs;
 mod map_context;
 mod maps;
+mod registries;
 mod routers;
 mod rule_sets;
 mod semantics;
@@ -35,6 +39,7 @@ pub use crate::records::{
     RuleSetRecord, SemanticsOrigin, SemanticsRecord, StageReport,
 };
 pub use caller::Caller;
+pub use comparisons::{LabelComparison, MapComparison, PairAlignment};
 pub use error::{AppError, FieldProblem};
 pub use grid::GridSource;
 pub use map_context::MapContext;

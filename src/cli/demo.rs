@@ -76,6 +76,7 @@ async fn show(app: &App, base: &str) -> Result<(), Failure> {
         name: "Example warehouse".to_owned(),
         options: AnalysisOptions::default(),
         georeference: None,
+        previous: None,
         idempotency_key: None,
     };
     let caller = Caller::local();

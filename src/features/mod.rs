@@ -41,7 +41,7 @@ pub use id::FeatureId;
 pub use property::{Kind, Property};
 pub use schema::CollectionSchema;
 pub use value::{BoxValue, Pose, Value};
-pub use view::{AnalysedMap, LabelWords};
+pub use view::{AnalysedMap, LabelWords, rounded};
 
 /// The features of a collection, by id.
 #[must_use]

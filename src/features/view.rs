@@ -93,6 +93,7 @@ impl Labels {
 }
 
 /// Rounds to four decimals: a tenth of a millimetre.
+#[must_use]
 pub fn rounded(value: f64) -> f64 {
     // Adding 0 turns -0 into 0.
     (value * 1e4).round() / 1e4 + 0.0

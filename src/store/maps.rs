@@ -6,8 +6,8 @@ use stillage_core::analysis::Diagnostic;
 use uuid::Uuid;
 
 use super::{Blob, BlobId, NewJob, StoreError};
-use crate::coordinates::Georeference;
-use crate::records::{JobRecord, MapPatch, MapRecord, Tenant};
+use crate::coordinates::Survey;
+use crate::records::{AlignmentRecord, JobRecord, MapPatch, MapRecord, Tenant};
 
 /// A map to be stored.
 #[derive(Debug, Clone)]
@@ -23,7 +23,11 @@ pub struct NewMapRow {
     /// Side of a cell, metres.
     pub resolution: f64,
     /// Where it lies on Earth.
-    pub georeference: Option<Georeference>,
+    pub georeference: Option<Survey>,
+    /// Its site; its own id for the first map of one.
+    pub site: Uuid,
+    /// How it lies on an earlier map of the site.
+    pub alignment: Option<AlignmentRecord>,
     /// Remarks of the ingest.
     pub warnings: Vec<Diagnostic>,
 }

@@ -7,6 +7,7 @@
 //! | `queue` | the worker's side of a job: claim, heartbeat, result |
 //! | `jobs` | the client's side of a job: read, list, dismiss |
 //! | `semantics` | human decisions |
+//! | `registries` | the codes and names of a site's places |
 //! | `rule_sets` | rule sets that people wrote |
 //! | `blobs` | bytes by their hash, and the formats of stored values |
 //! | `sqlite` | the engine: all SQL |
@@ -30,6 +31,7 @@ mod error;
 mod jobs;
 mod maps;
 pub mod queue;
+mod registries;
 mod result_address;
 mod rule_sets;
 mod semantics;
@@ -48,6 +50,7 @@ pub use error::StoreError;
 pub use jobs::{Jobs, NewJob};
 pub use maps::{IdempotencyKey, Maps, NewMapRow, Upload};
 pub use queue::Queue;
+pub use registries::{Registries, SiteRegistry};
 pub use result_address::ResultAddress;
 pub use rule_sets::RuleSets;
 pub use semantics::{NewSemanticsRow, SemanticsVersions};

@@ -4,6 +4,7 @@ use jiff::Timestamp;
 use serde::Serialize;
 use utoipa::ToSchema;
 
+use super::alignment::MapAlignmentView;
 use super::georeference::GeoreferenceView;
 use super::id::Id;
 use super::link::Link;
@@ -29,6 +30,12 @@ pub struct MapView {
     /// Side of a cell, metres.
     resolution_m: f64,
     georeference: GeoreferenceView,
+    /// Its site: maps of one site share the codes of its places.
+    site: Id,
+    /// How it lies on the earlier map that it was uploaded with; absent for the first map of a site.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schema(value_type = MapAlignmentView, required = false)]
+    alignment: Option<MapAlignmentView>,
     /// The analysis that answers; absent until the first one is finished.
     #[serde(skip_serializing_if = "Option::is_none")]
     analysis_id: Option<Id>,
@@ -51,7 +58,9 @@ impl MapView {
             width: map.width,
             height: map.height,
             resolution_m: map.resolution,
-            georeference: GeoreferenceView::of(map.georeference),
+            georeference: GeoreferenceView::of(map.georeference, &map.point_pairs),
+            site: Id(map.site),
+            alignment: map.alignment.map(Into::into),
             analysis_id: map.analysis.map(Id),
             warnings: map.warnings.iter().map(Into::into).collect(),
             version: map.version,

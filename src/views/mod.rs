@@ -2,8 +2,10 @@
 //!
 //! A view is made from a record or from an analysed map and knows nothing of requests; the edge adds the links.
 
+pub mod alignment;
 pub mod analysis;
 pub mod category;
+pub mod comparison;
 pub mod diagnostics;
 pub mod evaluation;
 pub mod feature;
@@ -15,6 +17,7 @@ pub mod map;
 pub mod name;
 pub mod occupancy_grid;
 pub mod options;
+pub mod registry;
 pub mod remarks;
 pub mod rule_set;
 pub mod semantics;

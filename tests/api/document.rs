@@ -148,6 +148,10 @@ async fn valid(site: &Site, operation: &str) -> (Sent, &'static [u16]) {
             let sent = Sent::new(Method::POST, format!("{map}/evaluations")).json(&truth);
             (sent.with("content-type", "application/geo+json"), &[200])
         }
+        "compareMaps" => get(format!("{map}/compare/{}", map.trim_start_matches("/v1/maps/"))),
+        "listChanges" => get(format!("{map}/changes?since=0")),
+        "getRegistry" => get(format!("{map}/registry")),
+        "confirmCodes" => (Sent::new(Method::POST, format!("{map}/registry/confirm")).json(&json!({})), &[200]),
         "getImage" => get(format!("{map}/image.png")),
         "getCategoriesImage" => get(format!("{map}/categories.png")),
         "getRegionsImage" => get(format!("{map}/regions.png")),
@@ -229,6 +233,7 @@ fn wrongs(site: &Site, operation: &str, good: &Sent) -> Vec<Sent> {
         "dismissJob" => vec![own(&format!("/v1/jobs/{}", site.over))],
         "createRuleSet" => vec![sent().json(&rule_set("office"))],
         "createMap" => vec![
+            own(&format!("/v1/maps?previous={}", site.map.trim_start_matches("/v1/maps/"))),
             sent().with("content-length", TOO_LONG_BYTES.to_string()),
             sent().with("idempotency-key", "k"),
             Sent { body: b"[]".to_vec(), ..sent().with("idempotency-key", "k") },

@@ -16,4 +16,5 @@ mod maps;
 mod protocol;
 mod routes;
 mod semantics;
+mod sites;
 mod uploads;

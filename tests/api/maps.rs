@@ -70,6 +70,20 @@ async fn a_map_is_renamed_and_georeferenced_in_turn() {
     assert!((bbox[0].as_f64().expect("a number") - 12.86).abs() < 0.001, "{bbox}");
     let answer = patch("*".into(), json!({"georeference": null})).await;
     assert_eq!(answer.json()["georeference"]["status"], "nominal");
+    // The plane of the nominal map is that of the equator: 111,319.49 m for a degree of longitude, 110,574.3 m of latitude.
+    let pair = |x: f64, y: f64| json!({"map": [x, y], "lonLat": [x / 111_319.490_8, y / 110_574.275_8]});
+    let pairs = json!([pair(0.0, 0.0), pair(50.0, 0.0), pair(0.0, 40.0)]);
+    let answer = patch("*".into(), json!({"georeference": {"pairs": pairs}})).await;
+    let fitted = answer.json()["georeference"].clone();
+    assert!(fitted["residualM"].as_f64() < Some(1e-3) && fitted["scaleError"].as_f64() < Some(1e-6), "{fitted}");
+    assert!(fitted["heading"].as_f64().is_some_and(|heading| heading.abs() < 1e-4), "{fitted}");
+    assert_eq!(fitted["pairs"][1]["map"], json!([50.0, 0.0]), "the pairs are kept: {fitted}");
+    let renamed = patch("*".into(), json!({"name": "Hall 3"})).await;
+    assert_eq!(renamed.json()["georeference"], fitted);
+    let again = patch("*".into(), json!({"georeference": fitted})).await;
+    assert_eq!(again.json()["georeference"]["pairs"], fitted["pairs"], "what was read can be sent back");
+    let few = patch("*".into(), json!({"georeference": {"pairs": [pair(0.0, 0.0)]}})).await.problem(422, "invalid");
+    assert_eq!(few["errors"][0]["pointer"], "/georeference/pairs");
     let problem = patch("*".into(), json!({"georeference": {"lon": 0, "lat": 89}})).await.problem(422, "invalid");
     assert_eq!(problem["errors"][0]["pointer"], "/georeference/lat");
     patch("*".into(), json!({"nmae": "x"})).await.problem(422, "invalid");

@@ -62,6 +62,7 @@ fn hall(width: usize) -> NewMap {
         name: format!("hall {width}"),
         options: AnalysisOptions::default(),
         georeference: None,
+        previous: None,
         idempotency_key: None,
     }
 }
@@ -205,7 +206,7 @@ async fn a_map_is_renamed_georeferenced_and_deleted() {
     let version = service.map(&me(), map).await.unwrap().version;
     let patch = |name: &str, lon| MapPatch {
         name: Some(name.into()),
-        georeference: Some(Some(Georeference { lon, lat: 56.66, heading: 0.0 })),
+        georeference: Some(Some(Georeference { lon, lat: 56.66, heading: 0.0 }.into())),
     };
     assert!(matches!(
         service.update_map(&me(), map, patch("x", 12.86), Some(99)).await,

@@ -225,5 +225,8 @@ pub fn read(view: &AnalysedMap<'_>) -> Vec<(Geometry, LocationRow)> {
         let outline = location.outline.iter().map(|&point| view.position(point)).collect();
         if location.parts > 1 { Geometry::area(polygons(vec![outline])) } else { shape::of_face(view, location.face) }
     };
-    view.layout.locations.iter().map(|location| (shape(location), row(location))).collect()
+    let mut rows: Vec<_> = view.layout.locations.iter().map(|location| (shape(location), row(location))).collect();
+    // Codes come from the registry of the site, not from where a location lies.
+    rows.sort_by(|(_, one), (_, other)| one.code.cmp(&other.code));
+    rows
 }

@@ -49,6 +49,8 @@ refusals! {
     Timeout = 408, "The body arrived too slowly";
     /// 409: named by handlers that read an analysed map.
     NotAnalysed = 409, "The map has no finished analysis yet";
+    /// 409: named by handlers that bring two maps together.
+    NotSameSite = 409, "The maps show different sites";
     /// 409: named by handlers.
     Conflict = 409, "The state of the resource forbids the request";
     /// 412: of every `If-Match`.

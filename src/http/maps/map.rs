@@ -11,7 +11,7 @@ use utoipa::{IntoParams, ToSchema};
 
 use super::{pictures, upload};
 use crate::app::{App, Caller, MapPatch, MapRecord};
-use crate::http::docs::refusals::{NoSpace, NotFound};
+use crate::http::docs::refusals::{NoSpace, NotFound, NotSameSite};
 use crate::http::extract::conditional::{EntityTag, IfMatch, IfNoneMatch};
 use crate::http::extract::{JsonBody, MapPath, Paging, Path, Query, present};
 use crate::http::links::{Base, JSON, header as link_header};
@@ -19,6 +19,7 @@ use crate::http::ogc::jobs;
 use crate::http::paging::cut;
 use crate::http::problem::Problem;
 use crate::views::georeference::GeoreferenceView;
+use crate::views::id::Id;
 use crate::views::job::JobView;
 use crate::views::link::Link;
 use crate::views::map::{MapList, MapView};
@@ -40,6 +41,8 @@ fn map_links(base: &Base, map: &MapRecord) -> Vec<Link> {
         to("related", "/diagnostics", JSON).titled("Signals and timings of the analysis"),
         to("related", "/categories", JSON).titled("Categories with suggested labels"),
         to("related", "/semantics", JSON).titled("Labels of the categories"),
+        to("related", "/registry", JSON).titled("Codes and names of the site's places"),
+        to("related", "/changes", JSON).titled("What changed since a version of the labels"),
         to("version-history", "/semantics/versions", JSON).titled("Versions of the labels"),
         to("related", "/routes", crate::http::links::GEO_JSON).titled("Routes between two places"),
     ];
@@ -55,6 +58,9 @@ fn map_links(base: &Base, map: &MapRecord) -> Vec<Link> {
 pub struct UploadQuery {
     /// Name for people. A message has no other place for it; in a form it stands before the part `name`.
     name: Option<Name>,
+    /// Id of an earlier map of the same site. A message has no other place for it; in a form it stands before the part
+    /// `previous`.
+    previous: Option<Id>,
 }
 
 /// Upload a map
@@ -62,6 +68,9 @@ pub struct UploadQuery {
 /// Stores the map and puts its analysis in the queue. As a form: `image` and `metadata` are the two files of
 /// `map_server`. As JSON: a `nav_msgs/OccupancyGrid` message as rosbridge sends it. Limits: 128 MiB by default for the
 /// image or the message, 64 KiB for `metadata` and `options`.
+///
+/// With `previous`, the map is aligned to an earlier one of the same site before it is stored: whatever its shift, turn and
+/// resolution, and with other goods. Codes then stay with their places. Maps of different sites are refused.
 #[utoipa::path(post, path = "/v1/maps", tag = "maps", operation_id = "createMap",
     params(UploadQuery,
         ("Idempotency-Key" = Option<String>, Header, min_length = 1, max_length = 255,
@@ -73,7 +82,7 @@ pub struct UploadQuery {
         (status = 202, description = "Stored; the job will analyse it", body = JobView,
             headers(("Location" = String, description = "The job"),
                 ("Idempotent-Replayed" = Option<String>, description = "`true` when the key had been seen before"))),
-        NoSpace))]
+        NotSameSite, NoSpace))]
 pub async fn create(
     State(app): State<Arc<App>>,
     caller: Caller,
@@ -81,7 +90,8 @@ pub async fn create(
     Query(query): Query<UploadQuery>,
     request: Request,
 ) -> Result<Response, Problem> {
-    let map = upload::read(request, &app, query.name, &app.config().limits).await?;
+    let mut map = upload::read(request, &app, query.name, &app.config().limits).await?;
+    map.previous = query.previous.map(|id| id.0).or(map.previous);
     let (job, is_new) = app.create_map(&caller, map).await?;
     let mut response = jobs::accepted(&base, job);
     if !is_new {

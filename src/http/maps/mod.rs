@@ -1,9 +1,11 @@
 //! What hangs on a map: its record and upload, analyses, pictures, semantics and evaluation; and the rule sets.
 
 pub mod analyses;
+pub mod comparisons;
 pub mod evaluations;
 pub mod map;
 pub mod pictures;
+pub mod registry;
 pub mod rule_sets;
 pub mod semantics;
 pub mod upload;

@@ -7,18 +7,19 @@ use stillage_core::AnalysisOptions;
 use utoipa::ToSchema;
 
 use crate::app::NewMap;
-use crate::coordinates::{Georeference, OutOfRange};
+use crate::coordinates::Survey;
 use crate::http::extract::{self, broken_body, is_json, parse_json};
 use crate::http::problem::{Problem, ProblemType};
 use crate::ingest::{Limits, MapSource};
 use crate::options::RequestedOptions;
-use crate::views::georeference::GeoreferenceView;
+use crate::views::georeference::{GeoreferenceView, UnusableMember};
+use crate::views::id::Id;
 use crate::views::name::Name;
 use crate::views::options::AnalysisOptionsView;
 
 /// Bytes that the part `metadata` or `options` may have: a hundred times what `map_server` writes.
 const TEXT_PART_BYTES: usize = 64 << 10;
-/// Bytes that the part `name` or `georeference` may have.
+/// Bytes that the part `name`, `georeference` or `previous` may have.
 const SMALL_PART_BYTES: usize = 4 << 10;
 /// What a form adds to its image at most: the other parts and the boundaries.
 pub const FORM_OVERHEAD_BYTES: usize = 256 << 10;
@@ -43,14 +44,16 @@ pub struct MapUploadView {
     /// Where the map lies on Earth.
     #[schema(required = false)]
     georeference: GeoreferenceView,
+    /// Id of an earlier map of the same site: the new one is aligned to it, and codes stay with their places.
+    previous: Option<Id>,
 }
 
 /// The georeference that is to be stored: nothing for a nominal one.
 ///
 /// # Errors
-/// 422 for numbers that are no place on Earth.
-pub fn stored(georeference: GeoreferenceView) -> Result<Option<Georeference>, Problem> {
-    let wrong = |OutOfRange { member, detail }| Problem::invalid(format!("/georeference/{member}"), detail);
+/// 422 for numbers that are no place on Earth, and for pairs of points that give none.
+pub fn stored(georeference: GeoreferenceView) -> Result<Option<Survey>, Problem> {
+    let wrong = |UnusableMember { pointer, detail }| Problem::invalid(format!("/georeference{pointer}"), detail);
     georeference.read().map_err(wrong)
 }
 
@@ -85,7 +88,8 @@ pub async fn read<S: Send + Sync>(
 
 fn new_map(source: MapSource) -> NewMap {
     let options = AnalysisOptions::default();
-    NewMap { source, name: "map".to_owned(), options, georeference: None, idempotency_key: None }
+    let name = "map".to_owned();
+    NewMap { source, name, options, georeference: None, previous: None, idempotency_key: None }
 }
 
 /// The parts of a form as they come in.
@@ -97,6 +101,7 @@ struct Form {
     name: Option<Name>,
     options: Option<RequestedOptions>,
     georeference: Option<GeoreferenceView>,
+    previous: Option<Id>,
 }
 
 async fn read_form(mut parts: Multipart, limits: &Limits) -> Result<NewMap, Problem> {
@@ -122,8 +127,15 @@ async fn read_form(mut parts: Multipart, limits: &Limits) -> Result<NewMap, Prob
                 let bytes = read_part(part, "georeference", SMALL_PART_BYTES).await?;
                 once(&mut form.georeference, "georeference", parse_json("/georeference", &bytes)?)?;
             }
+            "previous" => {
+                let text = String::from_utf8(read_part(part, "previous", SMALL_PART_BYTES).await?).unwrap_or_default();
+                let id = Id::try_from(text.trim().to_owned());
+                let wrong = |_| Problem::invalid("/previous", "is not the id of a map: GET /v1/maps lists them");
+                once(&mut form.previous, "previous", id.map_err(wrong)?)?;
+            }
             unknown => {
-                let detail = "is not a part of the form: those are image, metadata, name, options and georeference";
+                let detail =
+                    "is not a part of the form: those are image, metadata, name, options, georeference and previous";
                 return Err(Problem::invalid(format!("/{}", extract::pointer_step(unknown)), detail));
             }
         }
@@ -145,6 +157,7 @@ impl Form {
         if let Some(Name(name)) = self.name.or_else(file_stem) {
             map.name = name;
         }
+        map.previous = self.previous.map(|id| id.0);
         map.options = self.options.unwrap_or_default().0;
         map.georeference = match self.georeference {
             Some(georeference) => stored(georeference)?,

@@ -173,6 +173,7 @@ impl From<AppError> for Problem {
             }
             AppError::PreconditionFailed { .. } => Self::new(ProblemType::PreconditionFailed, detail),
             AppError::PreconditionRequired => Self::new(ProblemType::PreconditionRequired, detail),
+            AppError::NotSameSite(_) => Self::new(ProblemType::NotSameSite, detail),
             AppError::Conflict(_) => Self::new(ProblemType::Conflict, detail),
             AppError::TooLarge(_) => Self::new(ProblemType::TooLarge, detail),
             AppError::Busy { retry_after_s } => Self::new(ProblemType::Busy, detail).retry_after(retry_after_s),

@@ -57,6 +57,8 @@ problem_types! {
     Timeout = "request-timeout", REQUEST_TIMEOUT, "The request took too long to arrive";
     /// The state of the resource forbids it.
     Conflict = "conflict", CONFLICT, "The state of the resource forbids the request";
+    /// Two maps that were to be of one site are not.
+    NotSameSite = "not-same-site", CONFLICT, "The maps show different sites";
     /// The map is there, its analysis is not.
     NotAnalysed = "not-analysed", CONFLICT, "The map has no finished analysis yet";
     /// `If-Match` named another version.

@@ -7,6 +7,7 @@ mod analyses;
 mod blobs;
 mod maps;
 mod queue;
+mod registries;
 mod tenants;
 
 use std::sync::Arc;
@@ -78,6 +79,10 @@ macro_rules! contract {
                     decisions_are_bound_to_their_analysis_and_replace_what_they_saw
                     the_state_of_a_map_changes_with_every_answer_about_it
                 }
+                registries {
+                    a_registry_is_changed_only_from_the_version_that_was_read
+                    maps_of_a_site_share_its_registry_and_it_ends_with_the_last
+                }
                 tenants {
                     what_belongs_to_another_tenant_is_not_there
                     two_tenants_may_use_the_same_names
@@ -125,18 +130,26 @@ async fn try_upload(
     key: Option<&IdempotencyKey>,
     max_queued: u64,
 ) -> Upload {
+    let map = map_row(content);
     let source = Blob::encode(&MapSource::Message(content.as_bytes().to_vec()));
-    let map = NewMapRow {
-        id: Uuid::now_v7(),
-        name: content.to_owned(),
+    let job = job_of(map.id, source.id(), 1);
+    store.create_map(tenant, &map, &source, &job, key, max_queued, now()).await.expect("the upload is stored")
+}
+
+/// The first map of a site.
+fn map_row(name: &str) -> NewMapRow {
+    let id = Uuid::now_v7();
+    NewMapRow {
+        id,
+        name: name.to_owned(),
         width: 4,
         height: 3,
         resolution: 0.05,
         georeference: None,
+        site: id,
+        alignment: None,
         warnings: Vec::new(),
-    };
-    let job = job_of(map.id, source.id(), 1);
-    store.create_map(tenant, &map, &source, &job, key, max_queued, now()).await.expect("the upload is stored")
+    }
 }
 
 /// Asks for the analysis with a seed.

@@ -8,6 +8,7 @@ use uuid::Uuid;
 use super::Sqlite;
 use super::jobs::{insert_job, is_queue_full};
 use super::rows::{Columns, job_record, json, map_record};
+use crate::coordinates::Survey;
 use crate::fail_point;
 use crate::records::{MapPatch, MapRecord, Tenant};
 use crate::store::{Blob, BlobId, Blobs, IdempotencyKey, Maps, NewJob, NewMapRow, StoreError, Upload};
@@ -120,7 +121,8 @@ impl Maps for Sqlite {
             return Ok(Some(Err(current)));
         }
         let name = patch.name.as_ref().unwrap_or(&current.name);
-        let georeference = patch.georeference.unwrap_or(current.georeference);
+        let surveyed = |georeference| Survey { georeference, pairs: current.point_pairs.clone() };
+        let georeference = patch.georeference.clone().unwrap_or_else(|| current.georeference.map(surveyed));
         let row = sqlx::query(
             "UPDATE maps SET name = $2, georeference = $3, updated = $4, version = version + 1 WHERE id = $1 RETURNING *",
         )
@@ -174,6 +176,10 @@ impl Sqlite {
         if deleted.rows_affected() == 0 {
             return Ok(None);
         }
+        // A site ends with its last map.
+        sqlx::query("DELETE FROM registries WHERE NOT EXISTS (SELECT 1 FROM maps WHERE maps.site = registries.site)")
+            .execute(&mut *transaction)
+            .await?;
         transaction.commit().await?;
         Ok(Some(blobs))
     }
@@ -188,8 +194,8 @@ async fn insert_map(
 ) -> Result<(), StoreError> {
     sqlx::query(
         "INSERT INTO maps (id, name, created, updated, width, height, resolution, georeference, warnings, source, version, \
-             tenant) \
-         VALUES ($1, $2, $3, $3, $4, $5, $6, $7, $8, $9, 1, $10)",
+             tenant, site, alignment) \
+         VALUES ($1, $2, $3, $3, $4, $5, $6, $7, $8, $9, 1, $10, $11, $12)",
     )
     .bind(map.id.to_string())
     .bind(&map.name)
@@ -201,6 +207,8 @@ async fn insert_map(
     .bind(json(&map.warnings))
     .bind(source.as_str())
     .bind(tenant.as_str())
+    .bind(map.site.to_string())
+    .bind(map.alignment.as_ref().map(json))
     .execute(connection)
     .await?;
     Ok(())

@@ -19,6 +19,7 @@ mod folder;
 mod jobs;
 mod maps;
 mod queue;
+mod registries;
 mod rows;
 mod rule_sets;
 mod semantics;
@@ -63,6 +64,7 @@ static MIGRATIONS: LazyLock<Migrator> = LazyLock::new(|| {
             "tenants and processes",
             include_str!("../../../migrations/sqlite/0002_tenants_and_processes.sql"),
         ),
+        migration(3, "sites", include_str!("../../../migrations/sqlite/0003_sites.sql")),
     ])
 });
 

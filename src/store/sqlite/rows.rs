@@ -7,6 +7,7 @@ use sqlx::Row;
 use sqlx::sqlite::SqliteRow;
 use uuid::Uuid;
 
+use crate::coordinates::Survey;
 use crate::records::{
     AnalysisRecord, JobRecord, JobState, MapRecord, RuleSetRecord, SemanticsOrigin, SemanticsRecord, Tenant,
 };
@@ -87,6 +88,7 @@ impl Columns for SqliteRow {
 }
 
 pub(super) fn map_record(row: &SqliteRow) -> Result<MapRecord, StoreError> {
+    let survey: Option<Survey> = row.json_if("georeference")?;
     Ok(MapRecord {
         id: row.uuid("id")?,
         name: row.text("name")?,
@@ -95,7 +97,10 @@ pub(super) fn map_record(row: &SqliteRow) -> Result<MapRecord, StoreError> {
         width: row.whole("width")?,
         height: row.whole("height")?,
         resolution: row.try_get("resolution")?,
-        georeference: row.json_if("georeference")?,
+        georeference: survey.as_ref().map(|survey| survey.georeference),
+        point_pairs: survey.map(|survey| survey.pairs).unwrap_or_default(),
+        site: row.uuid("site")?,
+        alignment: row.json_if("alignment")?,
         analysis: row.uuid_if("analysis")?,
         warnings: row.json("warnings")?,
         version: row.whole("version")?,
@@ -144,6 +149,7 @@ pub(super) fn rule_set_record(row: &SqliteRow) -> Result<RuleSetRecord, StoreErr
 
 pub(super) fn semantics_record(row: &SqliteRow) -> Result<SemanticsRecord, StoreError> {
     Ok(SemanticsRecord {
+        analysis: row.uuid("analysis")?,
         rule_set: row.text("rule_set")?,
         draft: row.json("draft")?,
         assignment: row.json("assignment")?,
