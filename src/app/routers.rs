@@ -5,7 +5,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use stillage_core::SiteMap;
 use stillage_core::routing::{Blocked, Router};
 
-/// Routers kept for a map: each has some 3 bytes per cell, and a fleet has few kinds of vehicles.
+/// Routers kept for a map: each has some 4 bytes per cell, and a fleet has few kinds of vehicles.
 const KEPT: usize = 4;
 
 /// What a router is made for: the bits of its radius, and what is blocked.

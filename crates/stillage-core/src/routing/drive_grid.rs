@@ -131,14 +131,18 @@ fn thresholds(map: &SiteMap<'_>, radius: f64) -> (u16, u16) {
     (map.clearance.threshold(radius), map.clearance.threshold(whole))
 }
 
-/// The rows of cells that some faces reach into.
-pub(super) fn rows_of(map: &SiteMap<'_>, faces: &[FaceId]) -> std::ops::Range<usize> {
+/// Columns and rows of the cells that some faces reach into.
+pub(super) fn window_of(map: &SiteMap<'_>, faces: &[FaceId]) -> [std::ops::Range<usize>; 2] {
     let subdivision = &map.analysis.subdivision;
-    let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+    let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
     for half in faces.iter().flat_map(|&face| subdivision.boundary(face)) {
-        let height = subdivision.position(subdivision.half_edge(half).origin).y / map.grid.resolution();
-        (low, high) = (low.min(height), high.max(height));
+        let at = subdivision.position(subdivision.half_edge(half).origin) / map.grid.resolution();
+        low = [low[0].min(at.x), low[1].min(at.y)];
+        high = [high[0].max(at.x), high[1].max(at.y)];
     }
     // Casts of negative and infinite numbers saturate.
-    (low.floor() as usize).min(map.grid.height())..((high.ceil().max(0.0) as usize) + 1).min(map.grid.height())
+    let range = |axis: usize, count: usize| {
+        (low[axis].floor() as usize).min(count)..((high[axis].ceil().max(0.0) as usize) + 1).min(count)
+    };
+    [range(0, map.grid.width()), range(1, map.grid.height())]
 }

@@ -1,23 +1,19 @@
 //! The ends of a route: for each waypoint a point on which the vehicle may stand.
 //!
 //! A vehicle that stands on free ground beside the drivable faces (in a room, on a sliver before a rack, in an empty place)
-//! first drives out to them, over ground on which it fits, however that is labelled, but not through storage. Cost: O(cells
-//! within [`LEAD_M`]). Limits: it drives to the nearest drivable ground, which may lead nowhere.
-
-use std::collections::{HashMap, VecDeque};
+//! first drives [out to them](super::ways_out).
 
 use super::drive_grid::DriveGrid;
 use super::face_steps::Blocked;
 use super::no_route::{EndGround, NoRoute, RouteEnd};
 use super::sight::Sight;
+use super::ways_out::WaysOut;
 use crate::arrangement::FaceId;
 use crate::geometry::Point;
 use crate::grid::Occupancy;
 use crate::layout::{Location, approach_before};
 use crate::site_map::SiteMap;
 
-/// How far a vehicle may drive over ground that is not drivable by its label, metres: out of a large room.
-const LEAD_M: f64 = 50.0;
 /// How far a point that would do is looked for, metres: half the width of a wide aisle and a place.
 const NEAR_M: f64 = 5.0;
 
@@ -49,6 +45,7 @@ pub(super) struct EndFinder<'a> {
     pub grid: &'a DriveGrid,
     /// All floor on which the vehicle fits, whatever its label.
     pub floor: &'a DriveGrid,
+    pub ways_out: &'a WaysOut,
     pub radius: f64,
     pub blocked: &'a Blocked,
 }
@@ -84,7 +81,7 @@ impl EndFinder<'_> {
         if self.blocked.faces.contains(&face) {
             return Err(NoRoute::EndBlocked { end, face });
         }
-        let lead = self.lead_out(cell).ok_or_else(|| {
+        let lead = self.ways_out.from(self.map, self.grid, cell, |cell| self.stands(cell)).ok_or_else(|| {
             let label = self.map.semantic.label(face).name.clone();
             NoRoute::NotDrivable { end, face, label, nearest: self.nearest(point) }
         })?;
@@ -181,40 +178,6 @@ impl EndFinder<'_> {
     fn stands(&self, cell: usize) -> bool {
         let is_free = self.map.grid.cells()[cell] == Occupancy::Free;
         is_free && self.map.clearance.of_cell(cell) >= self.radius
-    }
-
-    /// The cells from one beside the drivable ground to the nearest on it, over floor and over the face that it begins on.
-    fn lead_out(&self, start: usize) -> Option<Vec<usize>> {
-        let (width, faces) = (self.grid.width, self.map.cells.as_slice());
-        let reach = (LEAD_M / self.grid.resolution) as usize;
-        let is_open = |cell: usize| self.floor.fits(cell) || faces[cell] == faces[start] && self.stands(cell);
-        let mut before = HashMap::from([(start, start)]);
-        let mut open = VecDeque::from([start]);
-        while let Some(cell) = open.pop_front() {
-            if self.grid.fits(cell) {
-                let mut lead = vec![cell];
-                while lead[lead.len() - 1] != start {
-                    lead.push(before[&lead[lead.len() - 1]]);
-                }
-                lead.reverse();
-                return Some(lead);
-            }
-            let (column, row) = (cell % width, cell / width);
-            let sides = [
-                (column + 1 < width).then(|| cell + 1),
-                (row + 1 < self.grid.height).then(|| cell + width),
-                (column > 0).then(|| cell.wrapping_sub(1)),
-                (row > 0).then(|| cell.wrapping_sub(width)),
-            ];
-            for next in sides.into_iter().flatten() {
-                let away = (next % width).abs_diff(start % width).max((next / width).abs_diff(start / width));
-                if away <= reach && is_open(next) && !before.contains_key(&next) {
-                    before.insert(next, cell);
-                    open.push_back(next);
-                }
-            }
-        }
-        None
     }
 
     /// The nearest point at which the vehicle could begin or end, within [`NEAR_M`].

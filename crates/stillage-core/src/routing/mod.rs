@@ -5,7 +5,7 @@
 //! | [`router`] | routes for vehicles of one radius |
 //! | [`alternatives`], [`matrix`] | routes that differ; lengths between many ends |
 //! | [`mod@route`], [`no_route`] | a route, and what it should be like; why there is none |
-//! | [`ends`] | where it begins and ends |
+//! | [`ends`], [`ways_out`] | where it begins and ends; how a vehicle gets there from beside drivable ground |
 //! | [`face_steps`] | whether a path may lead from face to face |
 //! | [`drive_grid`] | the cells that the vehicle may be on, and the steps between them |
 //! | [`tiles`], [`tile_search`], [`tile_ways`], [`road_map`] | the portals between square tiles; ways within a tile; the ways between all portals |
@@ -19,7 +19,7 @@
 //! string pulling with an exact line of sight (Amanatides and Woo 1987). The paper adds where a path may go at all: over
 //! links that are connected, between drivable faces, so never through storage.
 //!
-//! Cost: O(cells) for each radius, then milliseconds for a route. Memory: some 3 bytes per cell for each radius. Limits: the
+//! Cost: O(cells) for each radius, then milliseconds for a route. Memory: some 4 bytes per cell for each radius. Limits: the
 //! vehicle is a disc; paths are locally the shortest, the way around another side of an obstacle may be shorter by some
 //! percent.
 
@@ -40,6 +40,7 @@ mod sight;
 mod tile_search;
 mod tile_ways;
 mod tiles;
+mod ways_out;
 
 #[cfg(test)]
 mod tests;

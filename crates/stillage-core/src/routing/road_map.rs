@@ -26,6 +26,8 @@ pub(super) struct RoadMap {
     ways: Vec<TileWays>,
     /// By portal: the smallest number of those that are connected with it.
     components: Vec<u32>,
+    /// The number of the largest of them.
+    hub: u32,
 }
 
 /// A pair of cells on both sides of a border.
@@ -42,10 +44,10 @@ impl RoadMap {
         let tiles = SearchTiles::of(grid);
         let borders = (0..2 * tiles.count()).into_par_iter();
         let of_borders = borders.map(|border| tiles.portals(grid, Border(border))).collect();
-        let mut map = Self { tiles, of_borders, portals: Vec::new(), ways: Vec::new(), components: Vec::new() };
+        let mut map = Self { tiles, of_borders, portals: Vec::new(), ways: Vec::new(), components: Vec::new(), hub: 0 };
         let firsts = map.number_portals();
         map.ways = map.ways_of(grid, &firsts, &(0..tiles.count()).collect::<Vec<_>>());
-        map.components = map.find_components();
+        (map.components, map.hub) = map.find_components();
         map
     }
 
@@ -67,7 +69,7 @@ impl RoadMap {
         for (&tile, ways) in touched.iter().zip(map.ways_of(grid, &firsts, &touched)) {
             map.ways[tile] = ways;
         }
-        map.components = map.find_components();
+        (map.components, map.hub) = map.find_components();
         map
     }
 
@@ -127,7 +129,21 @@ impl RoadMap {
         self.components[portal.index()]
     }
 
-    fn find_components(&self) -> Vec<u32> {
+    /// A portal of the largest component; 0 where there is no portal.
+    pub fn hub(&self) -> u32 {
+        self.hub
+    }
+
+    /// Whether a cell is a portal of the largest component.
+    pub fn is_hub(&self, cell: usize) -> bool {
+        self.tiles.is_on_border(cell) && {
+            let portals = &self.ways[self.tiles.of_cell(cell)].portals;
+            portals.iter().any(|portal| portal.cell == cell && self.component(portal.id) == self.hub)
+        }
+    }
+
+    /// The components, and the largest.
+    fn find_components(&self) -> (Vec<u32>, u32) {
         let mut sets = DisjointSets::new(self.count());
         for ways in &self.ways {
             for (place, from) in ways.portals.iter().enumerate() {
@@ -138,6 +154,13 @@ impl RoadMap {
                 }
             }
         }
-        (0..self.count()).map(|portal| sets.find(portal) as u32).collect()
+        let components: Vec<u32> = (0..self.count()).map(|portal| sets.find(portal) as u32).collect();
+        let mut sizes = vec![0_usize; components.len()];
+        for &component in &components {
+            sizes[component as usize] += 1;
+        }
+        // Of equals the one with the smallest number.
+        let hub = (0..components.len()).rev().max_by_key(|&component| sizes[component]);
+        (components, hub.unwrap_or(0) as u32)
     }
 }

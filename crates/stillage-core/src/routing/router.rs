@@ -3,9 +3,10 @@
 //! Cost: O(cells) to make one; then a route costs what its search sees, milliseconds on the largest maps.
 
 use std::collections::BTreeSet;
+use std::sync::Arc;
 
 use super::bottleneck::bottleneck;
-use super::drive_grid::{DriveGrid, rows_of};
+use super::drive_grid::{DriveGrid, window_of};
 use super::ends::{End, EndFinder, Waypoint};
 use super::face_steps::{Blocked, FaceSteps};
 use super::ground_cost::GroundCost;
@@ -16,6 +17,7 @@ use super::search::{self, Landmarks, Passage, Reached};
 use super::sight::{self, Sight};
 use super::tile_search::TileSearch;
 use super::tile_ways::PortalId;
+use super::ways_out::WaysOut;
 use crate::arrangement::FaceId;
 use crate::geometry::Point;
 use crate::site_map::SiteMap;
@@ -28,9 +30,12 @@ pub struct Router {
     pub(super) grid: DriveGrid,
     /// All floor on which the vehicle fits, whatever its label.
     floor: DriveGrid,
+    ways_out: WaysOut,
     pub(super) roads: RoadMap,
     landmarks: Landmarks,
     blocked: Blocked,
+    /// The router without what is blocked.
+    open: Option<Arc<Self>>,
 }
 
 /// A way before it is pulled tight.
@@ -47,19 +52,20 @@ impl Router {
         let steps = FaceSteps::new(map, &blocked);
         let grid = DriveGrid::new(map, &steps, radius);
         let floor = DriveGrid::new(map, &FaceSteps::over_all_floor(map, &blocked), radius);
+        let ways_out = WaysOut::new(&grid, &floor);
         let roads = RoadMap::new(&grid);
         let landmarks = Landmarks::new(&roads);
-        Self { radius, steps, grid, floor, roads, landmarks, blocked }
+        Self { radius, steps, grid, floor, ways_out, roads, landmarks, blocked, open: None }
     }
 
     /// The same without some faces and edges. O(cells) to copy, and the tiles around them anew.
     #[must_use]
-    pub fn around(&self, map: &SiteMap<'_>, blocked: Blocked) -> Self {
+    pub fn around(self: &Arc<Self>, map: &SiteMap<'_>, blocked: Blocked) -> Self {
         let subdivision = &map.analysis.subdivision;
         let beside = blocked.edges.iter().flat_map(|&edge| subdivision.sides(edge));
         let faces: Vec<FaceId> =
             beside.chain(blocked.faces.iter().copied()).filter(|&face| face != FaceId::OUTER).collect();
-        let rows = rows_of(map, &faces);
+        let [_, rows] = window_of(map, &faces);
         let steps = FaceSteps::new(map, &blocked);
         let grid = self.grid.without(map, &steps, rows.clone());
         let floor = self.floor.without(map, &FaceSteps::over_all_floor(map, &blocked), rows.clone());
@@ -72,7 +78,18 @@ impl Router {
         let roads = self.roads.renewed(&grid, &changed);
         // Ways only get longer, so the bounds of the landmarks still hold, except those of portals that moved.
         let landmarks = if blocked.is_empty() { self.landmarks.clone() } else { Landmarks::default() };
-        Self { radius: self.radius, steps, grid, floor, roads, landmarks, blocked }
+        let ways_out = WaysOut::new(&grid, &floor);
+        Self {
+            radius: self.radius,
+            steps,
+            grid,
+            floor,
+            ways_out,
+            roads,
+            landmarks,
+            blocked,
+            open: Some(Arc::clone(self)),
+        }
     }
 
     /// The radius of the vehicles, metres.
@@ -124,7 +141,8 @@ impl Router {
     }
 
     pub(super) fn finder<'a>(&'a self, map: &'a SiteMap<'a>) -> EndFinder<'a> {
-        EndFinder { map, grid: &self.grid, floor: &self.floor, radius: self.radius, blocked: &self.blocked }
+        let Self { grid, floor, ways_out, blocked, radius, .. } = self;
+        EndFinder { map, grid, floor, ways_out, radius: *radius, blocked }
     }
 
     pub(super) fn ends(&self, map: &SiteMap<'_>, from: &Waypoint<'_>, to: &Waypoint<'_>) -> Result<[End; 2], NoRoute> {
@@ -166,13 +184,7 @@ impl Router {
     }
 
     /// The points of a way over portals; each can be reached from the one before.
-    pub(super) fn points(
-        &self,
-        start: usize,
-        goal: usize,
-        passages: &[Passage],
-        search: &mut TileSearch,
-    ) -> Vec<Point> {
+    fn points(&self, start: usize, goal: usize, passages: &[Passage], search: &mut TileSearch) -> Vec<Point> {
         let tiles = &self.roads.tiles;
         let center = |cell: usize| self.grid.center(cell);
         let mut points = vec![center(start)];
@@ -180,10 +192,7 @@ impl Router {
         let mut last: Option<(PortalId, usize)> = None;
         let nexts = passages.iter().skip(1).map(|next| next.through).chain([tiles.of_cell(goal)]);
         for (passage, next) in passages.iter().zip(nexts) {
-            let [mut enter, mut leave] = self.roads.cells(passage.portal);
-            if tiles.of_cell(enter) != passage.through {
-                (enter, leave) = (leave, enter);
-            }
+            let [enter, leave] = self.cells_through(passage.portal, passage.through);
             match last {
                 Some((from, _)) => self.bend(passage.through, [from, passage.portal], &mut points),
                 None => self.drive(start, enter, search, &mut points),
@@ -201,8 +210,14 @@ impl Router {
         points
     }
 
+    /// The cells of a portal as a way comes to it through a tile: in that tile, and beyond.
+    pub(super) fn cells_through(&self, portal: PortalId, tile: usize) -> [usize; 2] {
+        let [one, other] = self.roads.cells(portal);
+        if self.roads.tiles.of_cell(one) == tile { [one, other] } else { [other, one] }
+    }
+
     /// Adds the points where the way between two portals of a tile bends.
-    fn bend(&self, tile: usize, portals: [PortalId; 2], points: &mut Vec<Point>) {
+    pub(super) fn bend(&self, tile: usize, portals: [PortalId; 2], points: &mut Vec<Point>) {
         let ways = self.roads.ways(tile);
         let [Some(from), Some(to)] = portals.map(|portal| ways.place_of(portal)) else { return };
         let bends = ways.bends(from, to).map(|cell| self.grid.center(cell));
@@ -259,16 +274,16 @@ impl Router {
 
     /// Why two ends are not joined.
     pub(super) fn why_not(&self, map: &SiteMap<'_>, start: &End, goal: &End) -> NoRoute {
-        let open = (!self.blocked.is_empty()).then(|| Self::new(map, self.radius));
         let plain = GroundCost::new(map, &Preferences::default(), self.radius);
-        if open.as_ref().is_some_and(|open| open.way(start, goal, &plain).is_some()) {
+        if self.open.as_ref().is_some_and(|open| open.way(start, goal, &plain).is_some()) {
             return NoRoute::CutOff;
         }
-        let steps = open.as_ref().map_or(&self.steps, |open| &open.steps);
+        let open = self.open.as_deref().unwrap_or(self);
         let [from, to] = [start, goal].map(|end| map.cells.as_slice()[end.cell]);
         // Most faces are told apart without looking at cells.
-        let narrowest = || bottleneck(map, steps, start.cell, goal.cell);
-        match steps.are_connected(from, to).then(narrowest).flatten() {
+        let is_hub = |cell: usize| open.roads.is_hub(cell);
+        let narrowest = || bottleneck(map, &open.steps, is_hub, [start.cell, goal.cell]);
+        match open.steps.are_connected(from, to).then(narrowest).flatten() {
             Some(cell) => NoRoute::TooNarrow { clearance: map.clearance.of_cell(cell), at: self.grid.center(cell) },
             None => NoRoute::Disconnected { from, to },
         }

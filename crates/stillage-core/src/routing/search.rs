@@ -133,12 +133,10 @@ impl<'a> Search<'a> {
 impl Landmarks {
     /// Picks portals far from each other in the largest component and measures from each.
     pub fn new(roads: &RoadMap) -> Self {
-        let mut sizes = std::collections::BTreeMap::new();
-        for portal in portals(roads) {
-            *sizes.entry(roads.component(portal)).or_insert(0_usize) += 1;
+        if roads.count() == 0 {
+            return Self::default();
         }
-        let largest = sizes.iter().max_by_key(|&(&component, &size)| (size, Reverse(component)));
-        let Some((&first, _)) = largest else { return Self::default() };
+        let first = roads.hub();
         let mut lengths = vec![[f32::INFINITY; LANDMARKS]; roads.count()];
         let mut nearest = vec![f32::INFINITY; roads.count()];
         // The first one is as far as possible from anywhere.
@@ -241,13 +239,14 @@ pub(super) fn to_many(
     roads: &RoadMap,
     from: &[Reached],
     start_tile: usize,
-    goals: &[Vec<Reached>],
+    goals: &[&[Reached]],
 ) -> Vec<Option<(Vec<Passage>, f32)>> {
     let mut search = Search::new(roads);
     for &(portal, cost) in from {
         search.reach(portal, cost, [0, start_tile as u32], 0.0);
     }
-    let mut missing: std::collections::BTreeSet<PortalId> = goals.iter().flatten().map(|&(portal, _)| portal).collect();
+    let mut missing: std::collections::BTreeSet<PortalId> =
+        goals.iter().copied().flatten().map(|&(portal, _)| portal).collect();
     while let Some(reached) = search.settle() {
         missing.remove(&reached.0);
         if missing.is_empty() {
@@ -255,7 +254,7 @@ pub(super) fn to_many(
         }
         search.expand(reached, &PlainLength, |_, _| 0.0);
     }
-    let best = |goal: &Vec<Reached>| {
+    let best = |goal: &&[Reached]| {
         let ways = goal.iter().filter_map(|&(portal, rest)| Some((portal, search.cost_to(portal)? + rest)));
         let (portal, cost) = ways.min_by(|one, other| one.1.total_cmp(&other.1).then(one.0.cmp(&other.0)))?;
         Some((search.way_to(portal), cost))

@@ -513,7 +513,7 @@ fn route_of(
     let semantic = map.semantic(&RuleSet::warehouse());
     let site = map.site(&semantic);
     let router = Router::new(&site, radius);
-    let router = if blocked.is_empty() { router } else { router.around(&site, blocked) };
+    let router = if blocked.is_empty() { router } else { std::sync::Arc::new(router).around(&site, blocked) };
     let route = router.route(&site, &point(map, 3, 2), &point(map, 3, 11), preferences)?;
     let is_narrow = route.faces.contains(&map.face_at(6, 6));
     Ok((route, is_narrow))

@@ -43,6 +43,12 @@ impl SearchTiles {
         row / TILE * self.columns + column / TILE
     }
 
+    /// Whether a cell lies beside another tile, or would if there were one.
+    pub fn is_on_border(&self, cell: usize) -> bool {
+        let on_side = |place: usize| place.is_multiple_of(TILE) || place % TILE == TILE - 1;
+        on_side(cell % self.cells[0]) || on_side(cell / self.cells[0])
+    }
+
     /// Columns and rows of the cells of a tile.
     pub fn window(&self, tile: usize) -> [Range<usize>; 2] {
         let range = |place: usize, count: usize| place * TILE..((place + 1) * TILE).min(count);
