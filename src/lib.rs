@@ -2,7 +2,7 @@
 //!
 //! The straight line: [`ingest`] turns bytes into a grid, [`jobs`] runs [`stillage_core::analyze`] on it, [`store`]
 //! keeps the result, [`app`] holds the use cases, [`features`] reads the collections off the result, [`formats`],
-//! [`views`] and [`render`] write what is answered, [`http`] and [`cli`] are the two edges. Dependencies point one way:
+//! [`views`], [`exports`] and [`render`] write what is answered, [`http`] and [`cli`] are the two edges. Dependencies point one way:
 //! `cli, http -> views -> app -> jobs, store -> core` and `formats -> features -> core`.
 
 pub mod config;
@@ -10,6 +10,7 @@ pub mod ingest;
 pub mod options;
 
 pub mod coordinates;
+pub mod exports;
 pub mod features;
 pub mod formats;
 pub mod render;

@@ -29,7 +29,7 @@ mod shape;
 mod table;
 mod value;
 mod view;
-mod words;
+pub(crate) mod words;
 
 #[cfg(test)]
 pub(crate) mod tests;

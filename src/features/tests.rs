@@ -12,7 +12,7 @@ use stillage_core::{Analysis, AnalysisOptions, GridFrame, Occupancy, OccupancyGr
 use super::*;
 
 /// A hall of 24 x 16 m with double rows of racks and an office in a corner, at 0.1 m, turned by 0.3 radians.
-fn hall() -> OccupancyGrid {
+pub(crate) fn hall() -> OccupancyGrid {
     let (width, height) = (240, 160);
     let cell = |column: usize, row: usize| {
         let is_office_wall = column >= 200 && row < 26 && (column < 202 || row >= 24 && !(212..222).contains(&column));

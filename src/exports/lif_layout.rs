@@ -1,0 +1,208 @@
+//! What versions 1 and 2 of the Layout Interchange Format share: the document, its nodes and its stations.
+//!
+//! Source: VDMA, Layout Interchange Format, github.com/Intralogistics-2X-LIF/Layout-Interchange-Format.
+//!
+//! Method: a node for each node of the graph, an edge for each lane, a station for each location that a node serves. The id
+//! of a station is the code of its location, as version 2 recommends, so that warehouse and fleet management name the same
+//! thing by the same word. A lane that bends has a trajectory of degree 1: its course. Limits: one layout, one type of
+//! vehicle; vehicles drive forwards.
+
+use jiff::Timestamp;
+use serde::Serialize;
+use stillage_core::graph::{GraphNode, Lane};
+
+use super::source::{CREATOR, ExportSource};
+
+/// The one type of vehicle that layouts are written for. Fleet managers replace it by `manufacturer.series`.
+pub(super) const VEHICLE_TYPE: &str = "generic";
+
+/// The one storey of a map.
+const LEVEL: &str = "0";
+
+/// A LIF document; `E` is what a version says of an edge.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(rename_all = "camelCase")]
+pub struct Document<E> {
+    /// Whose layout it is.
+    pub meta_information: MetaInformation,
+    /// One layout.
+    pub layouts: Vec<LayoutOf<E>>,
+}
+
+/// Whose layout it is, and of when.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(rename_all = "camelCase")]
+pub struct MetaInformation {
+    project_identification: String,
+    creator: &'static str,
+    export_timestamp: Timestamp,
+    lif_version: &'static str,
+}
+
+/// Nodes, edges and stations.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(rename_all = "camelCase")]
+pub struct LayoutOf<E> {
+    layout_id: String,
+    layout_name: String,
+    layout_version: String,
+    layout_level_id: &'static str,
+    /// Where vehicles may stop.
+    pub nodes: Vec<Node>,
+    /// Where they may drive.
+    pub edges: Vec<Edge<E>>,
+    /// Where they interact.
+    pub stations: Vec<Station>,
+}
+
+/// Where a vehicle may stop or turn.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(rename_all = "camelCase")]
+pub struct Node {
+    node_id: String,
+    map_id: String,
+    node_position: Position,
+    vehicle_type_node_properties: [NodeProperties; 1],
+}
+
+/// Metres, map frame.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Position {
+    x: f64,
+    y: f64,
+}
+
+/// What a node means to a type of vehicle.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(rename_all = "camelCase")]
+pub struct NodeProperties {
+    vehicle_type_id: &'static str,
+    /// Where it looks, radians; free where absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    theta: Option<f64>,
+}
+
+/// A way in one direction.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(rename_all = "camelCase")]
+pub struct Edge<E> {
+    edge_id: String,
+    start_node_id: String,
+    end_node_id: String,
+    /// What it means to the one type of vehicle.
+    pub vehicle_type_edge_properties: [E; 1],
+}
+
+/// A course as a NURBS curve.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(rename_all = "camelCase")]
+pub struct Trajectory {
+    degree: u32,
+    knot_vector: Vec<f64>,
+    control_points: Vec<ControlPoint>,
+}
+
+/// A point of a NURBS curve, metres.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct ControlPoint {
+    x: f64,
+    y: f64,
+    weight: f64,
+}
+
+/// A place where vehicles interact with the site: a storage location.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(rename_all = "camelCase")]
+pub struct Station {
+    station_id: String,
+    interaction_node_ids: [String; 1],
+    station_name: String,
+    station_position: StationPosition,
+}
+
+/// Centre of a station, and the direction from its access into it.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct StationPosition {
+    x: f64,
+    y: f64,
+    theta: f64,
+}
+
+/// The document of a version of the format; `properties` says what that version tells of a lane.
+pub(super) fn document<E>(
+    source: &ExportSource<'_>,
+    lif_version: &'static str,
+    properties: impl Fn(&Lane) -> E,
+) -> Document<E> {
+    let layout = LayoutOf {
+        layout_id: source.map_id.to_owned(),
+        layout_name: source.name.to_owned(),
+        layout_version: source.version.to_string(),
+        layout_level_id: LEVEL,
+        nodes: source.graph.nodes.iter().map(|each| node(source, each)).collect(),
+        edges: source.graph.lanes.iter().map(|lane| edge(source, lane, properties(lane))).collect(),
+        stations: stations(source),
+    };
+    Document {
+        meta_information: MetaInformation {
+            project_identification: source.name.to_owned(),
+            creator: CREATOR,
+            export_timestamp: source.created,
+            lif_version,
+        },
+        layouts: vec![layout],
+    }
+}
+
+fn node(source: &ExportSource<'_>, node: &GraphNode) -> Node {
+    let [x, y] = source.position(node.position);
+    Node {
+        node_id: node.name.clone(),
+        map_id: source.map_id.to_owned(),
+        node_position: Position { x, y },
+        vehicle_type_node_properties: [NodeProperties {
+            vehicle_type_id: VEHICLE_TYPE,
+            theta: node.heading.map(|angle| source.heading(angle)),
+        }],
+    }
+}
+
+fn edge<E>(source: &ExportSource<'_>, lane: &Lane, properties: E) -> Edge<E> {
+    let [start, end] = [lane.from, lane.to].map(|node| source.graph.nodes[node].name.clone());
+    Edge {
+        edge_id: format!("{start}>{end}"),
+        start_node_id: start,
+        end_node_id: end,
+        vehicle_type_edge_properties: [properties],
+    }
+}
+
+/// The course of a lane that bends; straight lanes need none.
+pub(super) fn trajectory(source: &ExportSource<'_>, lane: &Lane) -> Option<Trajectory> {
+    let count = lane.path.len();
+    let point = |&point| {
+        let [x, y] = source.position(point);
+        ControlPoint { x, y, weight: 1.0 }
+    };
+    // Degree 1: a knot for each point, the first and the last twice.
+    let last = count.saturating_sub(1);
+    let inner = (0..count).map(|index| index as f64 / last as f64);
+    (count > 2).then(|| Trajectory {
+        degree: 1,
+        knot_vector: std::iter::once(0.0).chain(inner).chain([1.0]).collect(),
+        control_points: lane.path.iter().map(point).collect(),
+    })
+}
+
+fn stations(source: &ExportSource<'_>) -> Vec<Station> {
+    let station = |(location, node): (&stillage_core::layout::Location, Option<usize>)| {
+        let [x, y] = source.position(location.center);
+        Some(Station {
+            station_id: location.code.clone(),
+            interaction_node_ids: [source.graph.nodes[node?].name.clone()],
+            station_name: format!("{} {}", source.location_label(location), location.code),
+            station_position: StationPosition { x, y, theta: source.heading(location.heading) },
+        })
+    };
+    source.layout.locations.iter().zip(source.serving_nodes()).filter_map(station).collect()
+}

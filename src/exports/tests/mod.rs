@@ -1,0 +1,6 @@
+//! Exports of a hall: whole, and with three locations and a small graph for what is compared word by word.
+
+mod fleet;
+mod site;
+
+pub(super) use site::Site;
