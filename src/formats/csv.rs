@@ -28,21 +28,25 @@ const COLUMNS: [(&str, ReadCell); 17] = [
     ("face", |location| location.face.into()),
 ];
 
-/// Storage locations as CSV (RFC 4180), a row each; positions are map-frame metres. Features of other collections have
-/// no row.
+/// Storage locations as CSV, a row each; positions are map-frame metres. Features of other collections have no row.
+#[must_use]
+pub fn locations<'a>(features: impl IntoIterator<Item = &'a Feature>) -> Vec<u8> {
+    let rows = features.into_iter().filter_map(|feature| match &feature.row {
+        Row::Location(location) => Some(COLUMNS.map(|(_, read)| read(location))),
+        _ => None,
+    });
+    table(&COLUMNS.map(|(name, _)| name), rows)
+}
+
+/// A table as CSV (RFC 4180); each row has a value for each name.
 ///
 /// Text that a spreadsheet would run as a formula is preceded by an apostrophe.
-#[must_use]
-#[allow(clippy::missing_panics_doc, reason = "memory takes every byte")]
-pub fn locations<'a>(features: impl IntoIterator<Item = &'a Feature>) -> Vec<u8> {
+pub(crate) fn table<'a, R: AsRef<[Value<'a>]>>(names: &[&str], rows: impl IntoIterator<Item = R>) -> Vec<u8> {
+    const FITS: &str = "rows of equal length always fit into memory";
     let mut writer = csv::WriterBuilder::new().terminator(csv::Terminator::CRLF).from_writer(Vec::new());
-    let mut write =
-        |record: &[String]| writer.write_record(record).expect("rows of equal length always fit into memory");
-    write(&COLUMNS.map(|(name, _)| name.to_owned()));
-    for feature in features {
-        if let Row::Location(location) = &feature.row {
-            write(&COLUMNS.map(|(_, value)| cell(value(location))));
-        }
+    writer.write_record(names).expect(FITS);
+    for row in rows {
+        writer.write_record(row.as_ref().iter().map(|&value| cell(value))).expect(FITS);
     }
     writer.into_inner().expect("a buffer in memory takes every byte")
 }

@@ -1,5 +1,6 @@
 //! Exports of a hall: whole, and with three locations and a small graph for what is compared word by word.
 
+mod cells;
 mod fleet;
 mod site;
 

@@ -89,6 +89,10 @@ fn drawn_graph(layout: &Layout) -> NavigationGraph {
         }
     }
     graph.lanes.sort_by_key(|lane| (lane.from, lane.to));
+    let ends: Vec<(usize, usize)> = graph.lanes.iter().map(|lane| (lane.from, lane.to)).collect();
+    for lane in &mut graph.lanes {
+        lane.twin = ends.iter().position(|&ends| ends == (lane.to, lane.from));
+    }
     graph
 }
 

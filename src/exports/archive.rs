@@ -1,0 +1,35 @@
+//! Files, and a zip archive of them.
+//!
+//! Source: PKWARE APPNOTE 6.3, through the crate `zip`. Every entry has the earliest time that the format can tell, so that
+//! the same files give the same bytes.
+
+use std::io::{Cursor, Write as _};
+
+use zip::write::SimpleFileOptions;
+use zip::{CompressionMethod, DateTime, ZipWriter};
+
+/// A file with its name in an archive.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct NamedFile {
+    /// Name without folders.
+    pub name: String,
+    /// Content.
+    pub bytes: Vec<u8>,
+}
+
+/// Packs files.
+#[must_use]
+#[allow(clippy::missing_panics_doc, reason = "memory takes every byte")]
+pub fn zip(files: &[NamedFile]) -> Vec<u8> {
+    const FITS: &str = "an archive in memory takes every file";
+    let options = SimpleFileOptions::default()
+        .compression_method(CompressionMethod::Deflated)
+        .last_modified_time(DateTime::default())
+        .unix_permissions(0o644);
+    let mut writer = ZipWriter::new(Cursor::new(Vec::new()));
+    for NamedFile { name, bytes } in files {
+        writer.start_file(name.as_str(), options.large_file(bytes.len() > u32::MAX as usize)).expect(FITS);
+        writer.write_all(bytes).expect(FITS);
+    }
+    writer.finish().expect(FITS).into_inner()
+}

@@ -1,0 +1,169 @@
+//! Route graph of Nav2 as GeoJSON.
+//!
+//! Source: Nav2, `nav2_route`, `geojson_graph_file_loader.cpp`, github.com/ros-navigation/navigation2.
+//!
+//! Method: a point for each node, a line for each lane. What the loader asks for: ids are unsigned numbers, unique among
+//! nodes and edges; metadata holds texts and numbers alone, no null and no list; numbers are written with a decimal point,
+//! because the scorers take an integer for another type and fail. Coordinates are metres of the frame `map`, told as
+//! EPSG:3857 as Nav2's own graphs do. Limits: the loader refuses a graph without edges, so there is none; Nav2 drives a
+//! straight line between nodes and reads no bends.
+
+use serde::Serialize;
+use stillage_core::graph::{GraphNode, Lane, NodeKind};
+
+use super::source::{ExportError, ExportSource};
+use crate::features::rounded;
+
+/// Frame of the coordinates in ROS (REP 105).
+const FRAME: &str = "map";
+
+/// A route graph.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct RouteGraph {
+    r#type: &'static str,
+    name: String,
+    crs: Crs,
+    /// Nodes, then edges.
+    pub features: Vec<RouteFeature>,
+}
+
+/// The system of the coordinates, as in GeoJSON of 2008.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Crs {
+    r#type: &'static str,
+    properties: CrsName,
+}
+
+/// Name of a system.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct CrsName {
+    name: &'static str,
+}
+
+/// A node or an edge.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(untagged)]
+pub enum RouteFeature {
+    /// A point.
+    Node(Feature<NodeProperties, [f64; 2]>),
+    /// A line.
+    Edge(Feature<EdgeProperties, [Vec<[f64; 2]>; 1]>),
+}
+
+/// A GeoJSON feature.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Feature<P, C> {
+    r#type: &'static str,
+    properties: P,
+    geometry: Geometry<C>,
+}
+
+/// A GeoJSON geometry.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Geometry<C> {
+    r#type: &'static str,
+    coordinates: C,
+}
+
+/// What Nav2 reads of a node.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct NodeProperties {
+    id: usize,
+    frame: &'static str,
+    metadata: NodeMetadata,
+}
+
+/// What plugins read of a node.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct NodeMetadata {
+    name: String,
+    class: &'static str,
+    /// Code of the location that is served there.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    location: Option<String>,
+    /// Where a vehicle looks that serves it, radians.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    heading: Option<f64>,
+}
+
+/// What Nav2 reads of an edge.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct EdgeProperties {
+    id: usize,
+    startid: usize,
+    endid: usize,
+    /// Length, metres.
+    cost: f64,
+    overridable: bool,
+    metadata: EdgeMetadata,
+}
+
+/// What plugins read of an edge.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct EdgeMetadata {
+    /// Id of the label of its ground, for the semantic scorer.
+    class: String,
+    /// Width of the free ground at its narrowest, metres.
+    width: f64,
+}
+
+/// The graph of a map for Nav2.
+///
+/// # Errors
+/// [`ExportError::NoLanes`]: Nav2 loads no graph without edges.
+pub fn graph(source: &ExportSource<'_>) -> Result<RouteGraph, ExportError> {
+    if source.graph.lanes.is_empty() {
+        return Err(ExportError::NoLanes);
+    }
+    let nodes = source.graph.nodes.iter().enumerate().map(|(id, each)| node(source, id, each));
+    let edges = (source.graph.nodes.len()..).zip(&source.graph.lanes).map(|(id, lane)| edge(source, id, lane));
+    Ok(RouteGraph {
+        r#type: "FeatureCollection",
+        name: source.name.to_owned(),
+        crs: Crs { r#type: "name", properties: CrsName { name: "urn:ogc:def:crs:EPSG::3857" } },
+        features: nodes.chain(edges).collect(),
+    })
+}
+
+fn node(source: &ExportSource<'_>, id: usize, node: &GraphNode) -> RouteFeature {
+    let location = node.location.and_then(|index| source.layout.locations.get(index));
+    let metadata = NodeMetadata {
+        name: node.name.clone(),
+        class: class(node.kind),
+        location: location.map(|location| location.code.clone()),
+        heading: node.heading.map(|angle| source.heading(angle)),
+    };
+    RouteFeature::Node(Feature {
+        r#type: "Feature",
+        properties: NodeProperties { id, frame: FRAME, metadata },
+        geometry: Geometry { r#type: "Point", coordinates: source.position(node.position) },
+    })
+}
+
+fn edge(source: &ExportSource<'_>, id: usize, lane: &Lane) -> RouteFeature {
+    let metadata = EdgeMetadata { class: source.lane_label(lane).to_owned(), width: rounded(lane.width) };
+    let properties = EdgeProperties {
+        id,
+        startid: lane.from,
+        endid: lane.to,
+        cost: rounded(lane.length()),
+        overridable: true,
+        metadata,
+    };
+    let course = lane.path.iter().map(|&point| source.position(point)).collect();
+    RouteFeature::Edge(Feature {
+        r#type: "Feature",
+        properties,
+        geometry: Geometry { r#type: "MultiLineString", coordinates: [course] },
+    })
+}
+
+/// The word for what a node is for.
+pub(super) const fn class(kind: NodeKind) -> &'static str {
+    match kind {
+        NodeKind::Junction => "junction",
+        NodeKind::Waypoint => "waypoint",
+        NodeKind::DeadEnd => "dead-end",
+        NodeKind::Approach => "approach",
+    }
+}

@@ -1,0 +1,58 @@
+//! Building file of Open-RMF, for its traffic editor and its generators of maps and worlds.
+//!
+//! Source: `rmf_building_map_tools`, github.com/open-rmf/rmf_traffic_editor. Coordinates are metres of the map frame
+//! (`coordinate_system: cartesian_meters`). A property is a pair of a type and a value: 1 text, 2 integer, 3 number,
+//! 4 truth.
+//!
+//! Method: vertices and lanes as in the navigation graph; two lanes in opposite directions become one that is
+//! bidirectional. Cost: O(lanes log lanes). Limits: no walls, no doors and no models.
+
+use std::collections::BTreeSet;
+use std::fmt::Write as _;
+
+use stillage_core::graph::NodeKind;
+
+use super::rmf_graph::RmfGraph;
+use super::rmf_nav_graph::list_head;
+use super::source::ExportSource;
+use super::yaml::quoted;
+
+/// What a file without people, without other levels and with one level on the ground has.
+const CROWD: &str = "crowd_sim: {agent_groups: [], agent_profiles: [], enable: 0, goal_sets: [], model_types: [], \
+                     obstacle_set: {}, states: [], transitions: [], update_time_step: 0.1}";
+
+/// The building as YAML.
+#[must_use]
+pub fn building(source: &ExportSource<'_>) -> Vec<u8> {
+    let graph = RmfGraph::of(source);
+    let cell = source.grid.resolution();
+    let [width, height] = [source.grid.width(), source.grid.height()].map(|cells| cells as f64 * cell);
+    let mut text = format!(
+        "name: {}\ncoordinate_system: cartesian_meters\n{CROWD}\ngraphs: {{}}\nlevels:\n  L1:\n    elevation: 0\n    \
+         layers: {{}}\n    x_meters: {width:?}\n    y_meters: {height:?}\n    flattened_x_offset: 0\n    \
+         flattened_y_offset: 0\n    fiducials: []\n",
+        quoted(source.name)
+    );
+    let mut line = |line: String| writeln!(text, "{line}").expect("a text takes every text");
+    line(list_head("vertices", graph.vertices.is_empty()));
+    for vertex in &graph.vertices {
+        let properties = if vertex.kind == Some(NodeKind::DeadEnd) { "is_holding_point: [4, true]" } else { "" };
+        let [x, y] = vertex.position;
+        line(format!("      - [{x:?}, {y:?}, 0, {}, {{{properties}}}]", quoted(vertex.name)));
+    }
+    line(list_head("lanes", graph.lanes.is_empty()));
+    let all: BTreeSet<[usize; 2]> = graph.lanes.iter().copied().collect();
+    for &[from, to] in &all {
+        let is_bidirectional = all.contains(&[to, from]);
+        if from < to || !is_bidirectional {
+            line(format!(
+                "      - [{from}, {to}, {{bidirectional: [4, {is_bidirectional}], graph_idx: [2, 0], orientation: [1, \"\"]}}]"
+            ));
+        }
+    }
+    for empty in ["walls", "floors", "doors", "models", "measurements"] {
+        line(list_head(empty, true));
+    }
+    line("lifts: {}".to_owned());
+    text.into_bytes()
+}
