@@ -1,7 +1,7 @@
 //! Files, and a zip archive of them.
 //!
-//! Source: PKWARE APPNOTE 6.3, through the crate `zip`. Every entry has the earliest time that the format can tell, so that
-//! the same files give the same bytes.
+//! Source: PKWARE APPNOTE 6.3, through the crate `zip`. Every entry has the earliest time that the format can tell, so
+//! that the same files give the same bytes.
 
 use std::io::{Cursor, Write as _};
 

@@ -1,9 +1,7 @@
 //! The navigation graph as `GraphML`, for networkx, Gephi, yEd and others.
 //!
-//! Source: *The `GraphML` File Format*, graphml.graphdrawing.org. Method: a directed graph; positions, kinds and widths are
-//! data of nodes and edges. Cost: O(nodes + lanes). Limits: the course of a lane between its ends is not told.
-
-use std::fmt::Write as _;
+//! Source: *The `GraphML` File Format*, graphml.graphdrawing.org. Method: a directed graph; positions, kinds and widths
+//! are data of nodes and edges. Cost: O(nodes + lanes). Limits: the course of a lane between its ends is not told.
 
 use super::nav2_route::class;
 use super::source::ExportSource;
@@ -29,10 +27,10 @@ pub fn graph(source: &ExportSource<'_>) -> Vec<u8> {
     let mut out = String::from("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
     out.push_str("<graphml xmlns=\"http://graphml.graphdrawing.org/xmlns\">\n");
     for (id, owner, kind) in KEYS {
-        push(&mut out, format_args!("  <key id=\"{id}\" for=\"{owner}\" attr.name=\"{id}\" attr.type=\"{kind}\"/>\n"));
+        out.push_str(&format!("  <key id=\"{id}\" for=\"{owner}\" attr.name=\"{id}\" attr.type=\"{kind}\"/>\n"));
     }
-    push(&mut out, format_args!("  <graph id=\"{}\" edgedefault=\"directed\">\n", escaped(source.map_id)));
-    push(&mut out, format_args!("    {}\n", data("name", source.name)));
+    out.push_str(&format!("  <graph id=\"{}\" edgedefault=\"directed\">\n", escaped(source.map_id)));
+    out.push_str(&format!("    {}\n", data("name", source.name)));
     for node in &source.graph.nodes {
         let [x, y] = source.position(node.position);
         let location = node.location.and_then(|index| source.layout.locations.get(index));
@@ -47,7 +45,7 @@ pub fn graph(source: &ExportSource<'_>) -> Vec<u8> {
             data("clearance", &rounded(node.clearance).to_string()),
         ];
         let all: String = known.into_iter().chain(optional.into_iter().flatten()).collect();
-        push(&mut out, format_args!("    <node id=\"{}\">{all}</node>\n", escaped(&node.name)));
+        out.push_str(&format!("    <node id=\"{}\">{all}</node>\n", escaped(&node.name)));
     }
     push_edges(source, &mut out);
     out.push_str("  </graph>\n</graphml>\n");
@@ -60,12 +58,8 @@ fn push_edges(source: &ExportSource<'_>, out: &mut String) {
         let length = data("length", &rounded(lane.length()).to_string());
         let width = data("width", &rounded(lane.width).to_string());
         let label = data("label", source.lane_label(lane));
-        push(out, format_args!("    <edge source=\"{from}\" target=\"{to}\">{length}{width}{label}</edge>\n"));
+        out.push_str(&format!("    <edge source=\"{from}\" target=\"{to}\">{length}{width}{label}</edge>\n"));
     }
-}
-
-fn push(out: &mut String, text: std::fmt::Arguments<'_>) {
-    out.write_fmt(text).expect("a text takes every text");
 }
 
 fn data(key: &str, value: &str) -> String {
@@ -81,7 +75,7 @@ fn escaped(text: &str) -> String {
             '<' => out.push_str("&lt;"),
             '>' => out.push_str("&gt;"),
             '"' => out.push_str("&quot;"),
-            '\t' | '\n' | '\r' => push(&mut out, format_args!("&#{};", u32::from(character))),
+            '\t' | '\n' | '\r' => out.push_str(&format!("&#{};", u32::from(character))),
             '\0'..='\u{1f}' | '\u{fffe}' | '\u{ffff}' => out.push(char::REPLACEMENT_CHARACTER),
             plain => out.push(plain),
         }

@@ -1,11 +1,11 @@
 //! A polygon with holes -> simple polygons without holes that cover the same ground.
 //!
-//! Method: level cuts, at least one through each hole, as few as stabbing their extents takes; each cut lies on no corner.
-//! Between two cuts the borders of the polygon are chains of points that begin and end on cuts. Along a cut the crossings,
-//! sorted, pair up: between the two of a pair lies the inside. A piece is chains joined by such pairs.
+//! Method: level cuts, at least one through each hole, as few as stabbing their extents takes; each cut lies on no
+//! corner. Between two cuts the borders of the polygon are chains of points that begin and end on cuts. Along a cut the
+//! crossings, sorted, pair up: between the two of a pair lies the inside. A piece is chains joined by such pairs.
 //!
-//! Cost: O(corners * cuts + crossings log crossings). Limits: none on valid polygons; a cut through a corner moves to the
-//! middle between the corners next to it.
+//! Cost: O(corners * cuts + crossings log crossings). Limits: none on valid polygons; a cut through a corner moves to
+//! the middle between the corners next to it.
 
 use stillage_core::Point;
 use stillage_core::geometry::polygon::simple_rings;

@@ -1,7 +1,7 @@
 //! Layout Interchange Format 1.0, for fleet managers.
 //!
-//! Source: VDMA, LIF 1.0, github.com/Intralogistics-2X-LIF/Layout-Interchange-Format, and the schema of Continua Systems
-//! that came before it. Method, cost and limits: see `lif_layout`. The two texts differ in the unit of
+//! Source: VDMA, LIF 1.0, github.com/Intralogistics-2X-LIF/Layout-Interchange-Format, and the schema of Continua
+//! Systems that came before it. Method, cost and limits: see `lif_layout`. The two texts differ in the unit of
 //! `vehicleOrientation` (radians and degrees): it is 0 here, along the lane, and means the same in both.
 
 use serde::Serialize;

@@ -2,10 +2,10 @@
 //!
 //! Source: VDMA, Layout Interchange Format, github.com/Intralogistics-2X-LIF/Layout-Interchange-Format.
 //!
-//! Method: a node for each node of the graph, an edge for each lane, a station for each location that a node serves. The id
-//! of a station is the code of its location, as version 2 recommends, so that warehouse and fleet management name the same
-//! thing by the same word. A lane that bends has a trajectory of degree 1: its course. Limits: one layout, one type of
-//! vehicle; vehicles drive forwards.
+//! Method: a node for each node of the graph, an edge for each lane, a station for each location that a node serves.
+//! The id of a station is the code of its location, as version 2 recommends, so that warehouse and fleet management
+//! name the same thing by the same word. A lane that bends has a trajectory of degree 1: its course. Limits: one
+//! layout, one type of vehicle; vehicles drive forwards.
 
 use jiff::Timestamp;
 use serde::Serialize;

@@ -8,8 +8,8 @@ use crate::features::{Value, rounded, words};
 /// Names of the inventory system that a map does not know.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct InventoryOptions {
-    /// Name of the warehouse: parent location in Odoo (`WH/Stock`), warehouse number in SAP EWM (4 characters), location
-    /// code in Business Central.
+    /// Name of the warehouse: parent location in Odoo (`WH/Stock`), warehouse number in SAP EWM (4 characters),
+    /// location code in Business Central.
     pub warehouse: String,
     /// Storage type in SAP EWM (4 characters), zone code in Business Central.
     pub storage_type: String,

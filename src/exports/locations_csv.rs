@@ -7,10 +7,10 @@
 //! | sap-ewm | SAP EWM, transaction /SCWM/SBUP | fields of table /SCWM/LAGP |
 //! | business-central | Microsoft Dynamics 365 Business Central, table Bin (7354) | its captions |
 //!
-//! Method: CSV after RFC 4180, a row for each location; text that a spreadsheet would run as a formula is preceded by an
-//! apostrophe. Coordinates are metres of the map frame; SAP EWM computes distances from them, Odoo takes whole numbers for
-//! corridor, shelf and height. Limits: a map is flat, so every location lies on level 0; codes of up to 18 characters fit
-//! all of these systems.
+//! Method: CSV after RFC 4180, a row for each location; text that a spreadsheet would run as a formula is preceded by
+//! an apostrophe. Coordinates are metres of the map frame; SAP EWM computes distances from them, Odoo takes whole
+//! numbers for corridor, shelf and height. Limits: a map is flat, so every location lies on level 0; codes of up to 18
+//! characters fit all of these systems.
 
 use super::location_sheet::{ALL, Column, InventoryOptions, lines};
 use super::source::ExportSource;

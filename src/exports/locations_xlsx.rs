@@ -1,8 +1,8 @@
 //! Storage locations as a spreadsheet.
 //!
-//! Source: ECMA-376 (Office Open XML), through the crate `rust_xlsxwriter`. Method: the columns of the generic CSV profile,
-//! numbers as numbers, texts as texts, never as formulas; the head stays in sight and filters. The time of the file is that
-//! of the version, so that the same version gives the same bytes. Limits: 1,048,575 locations.
+//! Source: ECMA-376 (Office Open XML), through the crate `rust_xlsxwriter`. Method: the columns of the generic CSV
+//! profile, numbers as numbers, texts as texts, never as formulas; the head stays in sight and filters. The time of the
+//! file is that of the version, so that the same version gives the same bytes. Limits: 1,048,575 locations.
 
 use rust_xlsxwriter::{DocProperties, ExcelDateTime, Format, Workbook, Worksheet, XlsxError};
 

@@ -3,11 +3,10 @@
 //! Source: Nav2, `nav2_costmap_2d/filters` and `map_io.cpp`, github.com/ros-navigation/navigation2.
 //!
 //! Method: a picture of the size and place of the map, each cell after the face it lies in. A keepout mask is trinary:
-//! black is forbidden, white allowed, grey unknown. A speed mask is in mode `scale` with thresholds 0 and 1, so that a grey
-//! of `100 - v` percent stands for `v` percent of the greatest speed under the filter's usual base 100 and multiplier -1;
-//! white is no limit. Cost: O(cells). Limits: the filters themselves are set up in the parameters of Nav2.
-
-use std::fmt::Write as _;
+//! black is forbidden, white allowed, grey unknown. A speed mask is in mode `scale` with thresholds 0 and 1, so that a
+//! grey of `100 - v` percent stands for `v` percent of the greatest speed under the filter's usual base 100 and
+//! multiplier -1; white is no limit. Cost: O(cells). Limits: the filters themselves are set up in the parameters of
+//! Nav2.
 
 use super::archive::NamedFile;
 use super::source::ExportSource;
@@ -99,11 +98,8 @@ fn picture(source: &ExportSource<'_>, grey: impl Fn(Option<Ground>) -> u8) -> Ve
 
 fn metadata(source: &ExportSource<'_>, image: &str, mode: &str, [occupied, free]: [f64; 2]) -> Vec<u8> {
     let frame = source.grid.frame();
-    let mut text = format!("image: {image}\nmode: {mode}\nresolution: {:?}\n", frame.resolution);
-    let lines = format!(
-        "origin: [{:?}, {:?}, {:?}]\nnegate: 0\noccupied_thresh: {occupied:?}\nfree_thresh: {free:?}\n",
-        frame.origin.x, frame.origin.y, frame.yaw
-    );
-    text.write_str(&lines).expect("a text takes every text");
-    text.into_bytes()
+    let [x, y, yaw] = [frame.origin.x, frame.origin.y, frame.yaw];
+    let place = format!("resolution: {:?}\norigin: [{x:?}, {y:?}, {yaw:?}]\n", frame.resolution);
+    let reading = format!("negate: 0\noccupied_thresh: {occupied:?}\nfree_thresh: {free:?}\n");
+    format!("image: {image}\nmode: {mode}\n{place}{reading}").into_bytes()
 }

@@ -2,11 +2,11 @@
 //!
 //! Source: Nav2, `nav2_route`, `geojson_graph_file_loader.cpp`, github.com/ros-navigation/navigation2.
 //!
-//! Method: a point for each node, a line for each lane. What the loader asks for: ids are unsigned numbers, unique among
-//! nodes and edges; metadata holds texts and numbers alone, no null and no list; numbers are written with a decimal point,
-//! because the scorers take an integer for another type and fail. Coordinates are metres of the frame `map`, told as
-//! EPSG:3857 as Nav2's own graphs do. Limits: the loader refuses a graph without edges, so there is none; Nav2 drives a
-//! straight line between nodes and reads no bends.
+//! Method: a point for each node, a line for each lane. What the loader asks for: ids are unsigned numbers, unique
+//! among nodes and edges; metadata holds texts and numbers alone, no null and no list; numbers are written with a
+//! decimal point, because the scorers take an integer for another type and fail. Coordinates are metres of the frame
+//! `map`, told as EPSG:3857 as Nav2's own graphs do. Limits: the loader refuses a graph without edges, so there is
+//! none; Nav2 drives a straight line between nodes and reads no bends.
 
 use serde::Serialize;
 use stillage_core::graph::{GraphNode, Lane, NodeKind};

@@ -8,7 +8,6 @@
 //! bidirectional. Cost: O(lanes log lanes). Limits: no walls, no doors and no models.
 
 use std::collections::BTreeSet;
-use std::fmt::Write as _;
 
 use stillage_core::graph::NodeKind;
 
@@ -16,6 +15,7 @@ use super::rmf_graph::RmfGraph;
 use super::rmf_nav_graph::list_head;
 use super::source::ExportSource;
 use super::yaml::quoted;
+use crate::features::rounded;
 
 /// What a file without people, without other levels and with one level on the ground has.
 const CROWD: &str = "crowd_sim: {agent_groups: [], agent_profiles: [], enable: 0, goal_sets: [], model_types: [], \
@@ -25,15 +25,8 @@ const CROWD: &str = "crowd_sim: {agent_groups: [], agent_profiles: [], enable: 0
 #[must_use]
 pub fn building(source: &ExportSource<'_>) -> Vec<u8> {
     let graph = RmfGraph::of(source);
-    let cell = source.grid.resolution();
-    let [width, height] = [source.grid.width(), source.grid.height()].map(|cells| cells as f64 * cell);
-    let mut text = format!(
-        "name: {}\ncoordinate_system: cartesian_meters\n{CROWD}\ngraphs: {{}}\nlevels:\n  L1:\n    elevation: 0\n    \
-         layers: {{}}\n    x_meters: {width:?}\n    y_meters: {height:?}\n    flattened_x_offset: 0\n    \
-         flattened_y_offset: 0\n    fiducials: []\n",
-        quoted(source.name)
-    );
-    let mut line = |line: String| writeln!(text, "{line}").expect("a text takes every text");
+    let mut text = head(source);
+    let mut line = |line: String| text.extend([line.as_str(), "\n"]);
     line(list_head("vertices", graph.vertices.is_empty()));
     for vertex in &graph.vertices {
         let properties = if vertex.kind == Some(NodeKind::DeadEnd) { "is_holding_point: [4, true]" } else { "" };
@@ -43,11 +36,10 @@ pub fn building(source: &ExportSource<'_>) -> Vec<u8> {
     line(list_head("lanes", graph.lanes.is_empty()));
     let all: BTreeSet<[usize; 2]> = graph.lanes.iter().copied().collect();
     for &[from, to] in &all {
-        let is_bidirectional = all.contains(&[to, from]);
-        if from < to || !is_bidirectional {
-            line(format!(
-                "      - [{from}, {to}, {{bidirectional: [4, {is_bidirectional}], graph_idx: [2, 0], orientation: [1, \"\"]}}]"
-            ));
+        let is_both = all.contains(&[to, from]);
+        if from < to || !is_both {
+            let ways = format!("bidirectional: [4, {is_both}], graph_idx: [2, 0], orientation: [1, \"\"]");
+            line(format!("      - [{from}, {to}, {{{ways}}}]"));
         }
     }
     for empty in ["walls", "floors", "doors", "models", "measurements"] {
@@ -55,4 +47,15 @@ pub fn building(source: &ExportSource<'_>) -> Vec<u8> {
     }
     line("lifts: {}".to_owned());
     text.into_bytes()
+}
+
+/// Everything before the vertices.
+fn head(source: &ExportSource<'_>) -> String {
+    let cell = source.grid.resolution();
+    let [width, height] = [source.grid.width(), source.grid.height()].map(|cells| rounded(cells as f64 * cell));
+    let building = format!("name: {}\ncoordinate_system: cartesian_meters\n{CROWD}\n", quoted(source.name));
+    let level = "graphs: {}\nlevels:\n  L1:\n    elevation: 0\n    layers: {}\n";
+    let size = format!("    x_meters: {width:?}\n    y_meters: {height:?}\n");
+    let offset = "    flattened_x_offset: 0\n    flattened_y_offset: 0\n    fiducials: []\n";
+    [&building, level, &size, offset].concat()
 }

@@ -1,7 +1,7 @@
 //! What both files of Open-RMF tell: vertices, and straight lanes between them.
 //!
-//! Method: a lane that bends becomes straight lanes over vertices at its bends. The two directions of a lane share those
-//! vertices. Cost: O(points of all lanes).
+//! Method: a lane that bends becomes straight lanes over vertices at its bends. The two directions of a lane share
+//! those vertices. Cost: O(points of all lanes).
 
 use stillage_core::graph::{Lane, NodeKind};
 

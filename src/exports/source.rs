@@ -15,7 +15,8 @@ use crate::features::rounded;
 /// Name of this program, where a format asks for the author of a file.
 pub(super) const CREATOR: &str = "stillage";
 
-/// Decimals that angles are rounded to: a millionth of a radian moves the end of a 100 m lane by a tenth of a millimetre.
+/// Decimals that angles are rounded to: a millionth of a radian moves the end of a 100 m lane by a tenth of a
+/// millimetre.
 const ANGLE_STEPS: f64 = 1e6;
 
 /// A map with all that its exports tell.
@@ -27,7 +28,8 @@ pub struct ExportSource<'a> {
     pub map_id: &'a str,
     /// Version of the map, counted up with every change.
     pub version: u64,
-    /// When that version was made. Exports tell this time, not that of the export: the same version gives the same bytes.
+    /// When that version was made. Exports tell this time, not that of the export: the same version gives the same
+    /// bytes.
     pub created: Timestamp,
     /// Its cells.
     pub grid: &'a OccupancyGrid,
@@ -89,8 +91,8 @@ impl<'a> ExportSource<'a> {
         &self.semantic.rule_set.label(location.label).name
     }
 
-    /// The node where each location is served, by location. A location behind others is served where the one in front of
-    /// it is; `None` where no node serves it.
+    /// The node where each location is served, by location. A location behind others is served where the one in front
+    /// of it is; `None` where no node serves it.
     pub(super) fn serving_nodes(&self) -> Vec<Option<usize>> {
         let locations = &self.layout.locations;
         let mut serving = vec![None; locations.len()];

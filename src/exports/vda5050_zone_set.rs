@@ -1,7 +1,7 @@
 //! VDA 5050 zone set.
 //!
-//! Source: VDA 5050 3.0.0, topic `zoneSet`, github.com/VDA5050/VDA5050. The schema of the release and that of the branch
-//! `main` name the limitation of a bidirected zone differently: both names are written, with one value.
+//! Source: VDA 5050 3.0.0, topic `zoneSet`, github.com/VDA5050/VDA5050. The schema of the release and that of the
+//! branch `main` name the limitation of a bidirected zone differently: both names are written, with one value.
 //!
 //! Method: a zone for each bounded face. A corridor is BIDIRECTED along the long side of its face, a junction has a
 //! SPEED_LIMIT, storage and unidentified ground are BLOCKED, a work place has a PENALTY. Faces do not overlap, as the

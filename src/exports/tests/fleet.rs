@@ -365,11 +365,64 @@ fn the_id_of_a_zone_set_changes_with_its_content_alone() {
 #[test]
 fn rmf_graphs_pass_through_the_bends_of_a_lane() {
     let text = String::from_utf8(rmf_nav_graph::nav_graph(&Site::small().source())).unwrap();
-    expect![[""]].assert_eq(&text);
+    expect![[r#"
+        building_name: "Hall"
+        doors: {}
+        lifts: {}
+        levels:
+          L1:
+            vertices:
+            - [-1.0404, 14.2007, {name: "N0001"}]
+            - [14.245, 18.929, {name: "N0002", is_holding_point: true}]
+            - [6.3363, 17.4247, {name: "01-001"}]
+            - [6.8682, 15.705, {name: "01-002"}]
+            - [6.5284, 16.8037, {name: ""}]
+            lanes:
+            - [0, 4, {}]
+            - [4, 1, {}]
+            - [0, 2, {}]
+            - [0, 3, {}]
+            - [1, 4, {}]
+            - [4, 0, {}]
+            - [2, 0, {}]
+            - [3, 0, {}]
+    "#]]
+    .assert_eq(&text);
 }
 
 #[test]
 fn an_rmf_building_has_one_lane_for_both_directions() {
     let text = String::from_utf8(rmf_building::building(&Site::small().source())).unwrap();
-    expect![[""]].assert_eq(&text);
+    expect![[r#"
+        name: "Hall"
+        coordinate_system: cartesian_meters
+        crowd_sim: {agent_groups: [], agent_profiles: [], enable: 0, goal_sets: [], model_types: [], obstacle_set: {}, states: [], transitions: [], update_time_step: 0.1}
+        graphs: {}
+        levels:
+          L1:
+            elevation: 0
+            layers: {}
+            x_meters: 24.0
+            y_meters: 16.0
+            flattened_x_offset: 0
+            flattened_y_offset: 0
+            fiducials: []
+            vertices:
+              - [-1.0404, 14.2007, 0, "N0001", {}]
+              - [14.245, 18.929, 0, "N0002", {is_holding_point: [4, true]}]
+              - [6.3363, 17.4247, 0, "01-001", {}]
+              - [6.8682, 15.705, 0, "01-002", {}]
+              - [6.5284, 16.8037, 0, "", {}]
+            lanes:
+              - [0, 2, {bidirectional: [4, true], graph_idx: [2, 0], orientation: [1, ""]}]
+              - [0, 3, {bidirectional: [4, true], graph_idx: [2, 0], orientation: [1, ""]}]
+              - [0, 4, {bidirectional: [4, true], graph_idx: [2, 0], orientation: [1, ""]}]
+              - [1, 4, {bidirectional: [4, true], graph_idx: [2, 0], orientation: [1, ""]}]
+            walls: []
+            floors: []
+            doors: []
+            models: []
+            measurements: []
+        lifts: {}
+    "#]].assert_eq(&text);
 }

@@ -3,5 +3,7 @@
 mod cells;
 mod fleet;
 mod site;
+mod tables;
+mod whole;
 
 pub(super) use site::Site;

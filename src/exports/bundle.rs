@@ -1,0 +1,105 @@
+//! All exports of a map in one archive, with their checksums.
+//!
+//! Method: the files of all other exports, CSV in every profile; `manifest.json` tells of each its size, SHA-256 (FIPS
+//! 180-4) and purpose, `SHA256SUMS` the same sums as `sha256sum --check` reads them. An export that has no place for
+//! the map is left out and listed with the reason. The same version of a map gives the same bytes.
+
+use jiff::Timestamp;
+use serde::Serialize;
+use sha2::{Digest, Sha256};
+
+use super::archive::NamedFile;
+use super::list::{Export, ExportKind, ExportOptions, list};
+use super::locations_csv::{self, Profile};
+use super::source::{CREATOR, ExportError, ExportSource};
+
+/// What is in a bundle.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(rename_all = "camelCase")]
+struct Manifest<'a> {
+    creator: &'static str,
+    map_id: &'a str,
+    map_name: &'a str,
+    map_version: u64,
+    created: Timestamp,
+    files: Vec<Entry>,
+    left_out: Vec<LeftOut>,
+}
+
+/// A file of a bundle.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+struct Entry {
+    name: String,
+    bytes: usize,
+    sha256: String,
+    purpose: &'static str,
+}
+
+/// An export that a bundle lacks.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+struct LeftOut {
+    name: &'static str,
+    reason: String,
+}
+
+/// SHA-256 of some bytes, in hexadecimal digits.
+pub(super) fn sha256(bytes: &[u8]) -> String {
+    Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+/// The files of a bundle.
+pub(super) fn files(source: &ExportSource<'_>, options: &ExportOptions) -> Vec<NamedFile> {
+    let mut purposes = Vec::new();
+    let mut files = Vec::new();
+    let mut left_out = Vec::new();
+    let is_part = |export: &&Export| !matches!(export.kind, ExportKind::Bundle | ExportKind::DownloadMap);
+    for export in list().iter().filter(is_part) {
+        match parts(export, source, options) {
+            Ok(parts) => {
+                purposes.extend(parts.iter().map(|_| export.purpose));
+                files.extend(parts);
+            }
+            Err(reason) => left_out.push(LeftOut { name: export.name, reason: reason.to_string() }),
+        }
+    }
+    let entry = |(file, &purpose): (&'_ NamedFile, &&'static str)| Entry {
+        name: file.name.clone(),
+        bytes: file.bytes.len(),
+        sha256: sha256(&file.bytes),
+        purpose,
+    };
+    let entries: Vec<Entry> = files.iter().zip(&purposes).map(entry).collect();
+    files.extend(manifest(source, entries, left_out));
+    files
+}
+
+/// The files that tell what the others are.
+fn manifest(source: &ExportSource<'_>, files: Vec<Entry>, left_out: Vec<LeftOut>) -> [NamedFile; 2] {
+    let sums: String = files.iter().map(|entry| format!("{}  {}\n", entry.sha256, entry.name)).collect();
+    let manifest = Manifest {
+        creator: CREATOR,
+        map_id: source.map_id,
+        map_name: source.name,
+        map_version: source.version,
+        created: source.created,
+        files,
+        left_out,
+    };
+    let text = serde_json::to_vec_pretty(&manifest).expect("a manifest is texts and numbers");
+    [
+        NamedFile { name: "manifest.json".to_owned(), bytes: text },
+        NamedFile { name: "SHA256SUMS".to_owned(), bytes: sums.into_bytes() },
+    ]
+}
+
+/// The files of one export: a CSV for each profile, one file of all others.
+fn parts(export: &Export, source: &ExportSource<'_>, options: &ExportOptions) -> Result<Vec<NamedFile>, ExportError> {
+    if export.kind != ExportKind::LocationsCsv {
+        return Ok(vec![export.file(source, options)?]);
+    }
+    let table = |profile: Profile| NamedFile {
+        name: format!("locations-{}.csv", profile.name()),
+        bytes: locations_csv::locations(source, profile, &options.inventory),
+    };
+    Ok(Profile::ALL.map(table).into())
+}

@@ -1,0 +1,85 @@
+//! The order to a vehicle to fetch a map, as VDA 5050 gives it.
+//!
+//! Source: VDA 5050 3.0.0, instant action `downloadMap` (6.3), github.com/VDA5050/VDA5050. The vehicle pulls a single
+//! file over HTTP. Method: the link leads to the bundle of a version of the map; its hash is SHA-256. Limits: what a
+//! vehicle makes of the file is its manufacturer's affair.
+
+use jiff::Timestamp;
+use serde::Serialize;
+
+use super::source::ExportSource;
+
+/// Version of the protocol.
+const VERSION: &str = "3.0.0";
+
+/// To whom the order goes, and where the file lies.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct MapDownload {
+    /// Manufacturer of the vehicle.
+    pub manufacturer: String,
+    /// Its serial number.
+    pub serial_number: String,
+    /// Where the vehicle fetches the bundle.
+    pub link: String,
+}
+
+impl Default for MapDownload {
+    /// For any vehicle, beside this file.
+    fn default() -> Self {
+        let any = || "any".to_owned();
+        Self { manufacturer: any(), serial_number: any(), link: "bundle.zip".to_owned() }
+    }
+}
+
+/// A message on the topic `instantActions`.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(rename_all = "camelCase")]
+pub struct InstantActions {
+    header_id: u32,
+    timestamp: Timestamp,
+    version: &'static str,
+    manufacturer: String,
+    serial_number: String,
+    actions: [Action; 1],
+}
+
+/// An action of a vehicle.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(rename_all = "camelCase")]
+pub struct Action {
+    action_type: &'static str,
+    action_id: String,
+    blocking_type: &'static str,
+    action_parameters: [Parameter; 4],
+}
+
+/// A parameter of an action.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Parameter {
+    key: &'static str,
+    value: String,
+}
+
+/// The order to fetch the bundle of a version of a map; `hash` is the SHA-256 of the bundle, in hexadecimal digits.
+#[must_use]
+pub fn download_map(source: &ExportSource<'_>, download: &MapDownload, hash: String) -> InstantActions {
+    let parameters = [
+        ("mapId", source.map_id.to_owned()),
+        ("mapVersion", source.version.to_string()),
+        ("mapDownloadLink", download.link.clone()),
+        ("mapHash", hash),
+    ];
+    InstantActions {
+        header_id: 0,
+        timestamp: source.created,
+        version: VERSION,
+        manufacturer: download.manufacturer.clone(),
+        serial_number: download.serial_number.clone(),
+        actions: [Action {
+            action_type: "downloadMap",
+            action_id: format!("download-{}-{}", source.map_id, source.version),
+            blocking_type: "NONE",
+            action_parameters: parameters.map(|(key, value)| Parameter { key, value }),
+        }],
+    }
+}
