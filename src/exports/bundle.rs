@@ -9,8 +9,9 @@ use serde::Serialize;
 use sha2::{Digest, Sha256};
 
 use super::archive::NamedFile;
-use super::list::{Export, ExportKind, ExportOptions, list};
+use super::list::{ExportKind, ExportOptions, SingleExport, list};
 use super::locations_csv::{self, Profile};
+use super::single::{json, single};
 use super::source::{CREATOR, ExportError, ExportSource};
 
 /// What is in a bundle.
@@ -22,13 +23,13 @@ struct Manifest<'a> {
     map_name: &'a str,
     map_version: u64,
     created: Timestamp,
-    files: Vec<Entry>,
+    files: Vec<BundledFile>,
     left_out: Vec<LeftOut>,
 }
 
 /// A file of a bundle.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-struct Entry {
+struct BundledFile {
     name: String,
     bytes: usize,
     sha256: String,
@@ -52,9 +53,9 @@ pub(super) fn files(source: &ExportSource<'_>, options: &ExportOptions) -> Vec<N
     let mut purposes = Vec::new();
     let mut files = Vec::new();
     let mut left_out = Vec::new();
-    let is_part = |export: &&Export| !matches!(export.kind, ExportKind::Bundle | ExportKind::DownloadMap);
-    for export in list().iter().filter(is_part) {
-        match parts(export, source, options) {
+    for export in list() {
+        let ExportKind::Single(kind) = export.kind else { continue };
+        match parts(export.name, kind, source, options) {
             Ok(parts) => {
                 purposes.extend(parts.iter().map(|_| export.purpose));
                 files.extend(parts);
@@ -62,19 +63,19 @@ pub(super) fn files(source: &ExportSource<'_>, options: &ExportOptions) -> Vec<N
             Err(reason) => left_out.push(LeftOut { name: export.name, reason: reason.to_string() }),
         }
     }
-    let entry = |(file, &purpose): (&'_ NamedFile, &&'static str)| Entry {
+    let entry = |(file, &purpose): (&'_ NamedFile, &&'static str)| BundledFile {
         name: file.name.clone(),
         bytes: file.bytes.len(),
         sha256: sha256(&file.bytes),
         purpose,
     };
-    let entries: Vec<Entry> = files.iter().zip(&purposes).map(entry).collect();
+    let entries: Vec<BundledFile> = files.iter().zip(&purposes).map(entry).collect();
     files.extend(manifest(source, entries, left_out));
     files
 }
 
 /// The files that tell what the others are.
-fn manifest(source: &ExportSource<'_>, files: Vec<Entry>, left_out: Vec<LeftOut>) -> [NamedFile; 2] {
+fn manifest(source: &ExportSource<'_>, files: Vec<BundledFile>, left_out: Vec<LeftOut>) -> [NamedFile; 2] {
     let sums: String = files.iter().map(|entry| format!("{}  {}\n", entry.sha256, entry.name)).collect();
     let manifest = Manifest {
         creator: CREATOR,
@@ -85,17 +86,21 @@ fn manifest(source: &ExportSource<'_>, files: Vec<Entry>, left_out: Vec<LeftOut>
         files,
         left_out,
     };
-    let text = serde_json::to_vec_pretty(&manifest).expect("a manifest is texts and numbers");
     [
-        NamedFile { name: "manifest.json".to_owned(), bytes: text },
+        NamedFile { name: "manifest.json".to_owned(), bytes: json(&manifest) },
         NamedFile { name: "SHA256SUMS".to_owned(), bytes: sums.into_bytes() },
     ]
 }
 
 /// The files of one export: a CSV for each profile, one file of all others.
-fn parts(export: &Export, source: &ExportSource<'_>, options: &ExportOptions) -> Result<Vec<NamedFile>, ExportError> {
-    if export.kind != ExportKind::LocationsCsv {
-        return Ok(vec![export.file(source, options)?]);
+fn parts(
+    name: &str,
+    kind: SingleExport,
+    source: &ExportSource<'_>,
+    options: &ExportOptions,
+) -> Result<Vec<NamedFile>, ExportError> {
+    if kind != SingleExport::LocationsCsv {
+        return Ok(vec![NamedFile { name: name.to_owned(), bytes: single(kind, source, options)? }]);
     }
     let table = |profile: Profile| NamedFile {
         name: format!("locations-{}.csv", profile.name()),

@@ -27,10 +27,10 @@ pub fn graph(source: &ExportSource<'_>) -> Vec<u8> {
     let mut out = String::from("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
     out.push_str("<graphml xmlns=\"http://graphml.graphdrawing.org/xmlns\">\n");
     for (id, owner, kind) in KEYS {
-        out.push_str(&format!("  <key id=\"{id}\" for=\"{owner}\" attr.name=\"{id}\" attr.type=\"{kind}\"/>\n"));
+        out.extend([format!("  <key id=\"{id}\" for=\"{owner}\" attr.name=\"{id}\" attr.type=\"{kind}\"/>\n")]);
     }
-    out.push_str(&format!("  <graph id=\"{}\" edgedefault=\"directed\">\n", escaped(source.map_id)));
-    out.push_str(&format!("    {}\n", data("name", source.name)));
+    out.extend([format!("  <graph id=\"{}\" edgedefault=\"directed\">\n", escaped(source.map_id))]);
+    out.extend([format!("    {}\n", data("name", source.name))]);
     for node in &source.graph.nodes {
         let [x, y] = source.position(node.position);
         let location = node.location.and_then(|index| source.layout.locations.get(index));
@@ -45,7 +45,7 @@ pub fn graph(source: &ExportSource<'_>) -> Vec<u8> {
             data("clearance", &rounded(node.clearance).to_string()),
         ];
         let all: String = known.into_iter().chain(optional.into_iter().flatten()).collect();
-        out.push_str(&format!("    <node id=\"{}\">{all}</node>\n", escaped(&node.name)));
+        out.extend([format!("    <node id=\"{}\">{all}</node>\n", escaped(&node.name))]);
     }
     push_edges(source, &mut out);
     out.push_str("  </graph>\n</graphml>\n");
@@ -58,7 +58,7 @@ fn push_edges(source: &ExportSource<'_>, out: &mut String) {
         let length = data("length", &rounded(lane.length()).to_string());
         let width = data("width", &rounded(lane.width).to_string());
         let label = data("label", source.lane_label(lane));
-        out.push_str(&format!("    <edge source=\"{from}\" target=\"{to}\">{length}{width}{label}</edge>\n"));
+        out.extend([format!("    <edge source=\"{from}\" target=\"{to}\">{length}{width}{label}</edge>\n")]);
     }
 }
 
@@ -75,7 +75,7 @@ fn escaped(text: &str) -> String {
             '<' => out.push_str("&lt;"),
             '>' => out.push_str("&gt;"),
             '"' => out.push_str("&quot;"),
-            '\t' | '\n' | '\r' => out.push_str(&format!("&#{};", u32::from(character))),
+            '\t' | '\n' | '\r' => out.extend([format!("&#{};", u32::from(character))]),
             '\0'..='\u{1f}' | '\u{fffe}' | '\u{ffff}' => out.push(char::REPLACEMENT_CHARACTER),
             plain => out.push(plain),
         }

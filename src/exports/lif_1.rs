@@ -7,7 +7,7 @@
 use serde::Serialize;
 use stillage_core::graph::Lane;
 
-use super::lif_layout::{Document, Trajectory, VEHICLE_TYPE, document, trajectory};
+use super::lif_layout::{LifDocument, LifTrajectory, VEHICLE_TYPE, document, trajectory};
 use super::source::ExportSource;
 
 /// Version of the format.
@@ -16,20 +16,20 @@ const VERSION: &str = "1.0.0";
 /// What an edge means to a type of vehicle.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(rename_all = "camelCase")]
-pub struct EdgeProperties {
+pub struct Lif1EdgeProperties {
     vehicle_type_id: &'static str,
     vehicle_orientation: f64,
     orientation_type: &'static str,
     /// Required by the schema of VDMA, unknown as such to that of Continua.
     rotation_allowed: bool,
     #[serde(skip_serializing_if = "Option::is_none")]
-    trajectory: Option<Trajectory>,
+    trajectory: Option<LifTrajectory>,
 }
 
 /// The layout of a map as LIF 1.0.
 #[must_use]
-pub fn layout(source: &ExportSource<'_>) -> Document<EdgeProperties> {
-    document(source, VERSION, |lane: &Lane| EdgeProperties {
+pub fn layout(source: &ExportSource<'_>) -> LifDocument<Lif1EdgeProperties> {
+    document(source, VERSION, |lane: &Lane| Lif1EdgeProperties {
         vehicle_type_id: VEHICLE_TYPE,
         vehicle_orientation: 0.0,
         orientation_type: "TANGENTIAL",

@@ -8,7 +8,7 @@
 use serde::Serialize;
 use stillage_core::graph::Lane;
 
-use super::lif_layout::{Document, Trajectory, VEHICLE_TYPE, document, trajectory};
+use super::lif_layout::{LifDocument, LifTrajectory, VEHICLE_TYPE, document, trajectory};
 use super::source::ExportSource;
 use crate::features::rounded;
 
@@ -18,19 +18,19 @@ const VERSION: &str = "2.0.0";
 /// What an edge means to a type of vehicle.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(rename_all = "camelCase")]
-pub struct EdgeProperties {
+pub struct Lif2EdgeProperties {
     vehicle_type_id: &'static str,
     vehicle_orientations: [f64; 1],
     orientation_type: &'static str,
     #[serde(skip_serializing_if = "Option::is_none")]
-    trajectory: Option<Trajectory>,
-    corridor: Corridor,
+    trajectory: Option<LifTrajectory>,
+    corridor: LifCorridor,
 }
 
 /// How far a vehicle may leave the course to either side, metres.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(rename_all = "camelCase")]
-pub struct Corridor {
+pub struct LifCorridor {
     maximum_left_width: f64,
     maximum_right_width: f64,
     /// The whole outline of the vehicle stays within.
@@ -39,13 +39,13 @@ pub struct Corridor {
 
 /// The layout of a map as LIF 2.0.
 #[must_use]
-pub fn layout(source: &ExportSource<'_>) -> Document<EdgeProperties> {
-    document(source, VERSION, |lane: &Lane| EdgeProperties {
+pub fn layout(source: &ExportSource<'_>) -> LifDocument<Lif2EdgeProperties> {
+    document(source, VERSION, |lane: &Lane| Lif2EdgeProperties {
         vehicle_type_id: VEHICLE_TYPE,
         vehicle_orientations: [0.0],
         orientation_type: "TANGENTIAL",
         trajectory: trajectory(source, lane),
-        corridor: Corridor {
+        corridor: LifCorridor {
             maximum_left_width: rounded(lane.width / 2.0),
             maximum_right_width: rounded(lane.width / 2.0),
             corridor_reference_point: "CONTOUR",

@@ -22,17 +22,17 @@ const LEVEL: &str = "0";
 /// A LIF document; `E` is what a version says of an edge.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(rename_all = "camelCase")]
-pub struct Document<E> {
+pub struct LifDocument<E> {
     /// Whose layout it is.
-    pub meta_information: MetaInformation,
+    pub meta_information: LifMetaInformation,
     /// One layout.
-    pub layouts: Vec<LayoutOf<E>>,
+    pub layouts: Vec<LifLayout<E>>,
 }
 
 /// Whose layout it is, and of when.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(rename_all = "camelCase")]
-pub struct MetaInformation {
+pub struct LifMetaInformation {
     project_identification: String,
     creator: &'static str,
     export_timestamp: Timestamp,
@@ -42,32 +42,32 @@ pub struct MetaInformation {
 /// Nodes, edges and stations.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(rename_all = "camelCase")]
-pub struct LayoutOf<E> {
+pub struct LifLayout<E> {
     layout_id: String,
     layout_name: String,
     layout_version: String,
     layout_level_id: &'static str,
     /// Where vehicles may stop.
-    pub nodes: Vec<Node>,
+    pub nodes: Vec<LifNode>,
     /// Where they may drive.
-    pub edges: Vec<Edge<E>>,
+    pub edges: Vec<LifEdge<E>>,
     /// Where they interact.
-    pub stations: Vec<Station>,
+    pub stations: Vec<LifStation>,
 }
 
 /// Where a vehicle may stop or turn.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(rename_all = "camelCase")]
-pub struct Node {
+pub struct LifNode {
     node_id: String,
     map_id: String,
-    node_position: Position,
-    vehicle_type_node_properties: [NodeProperties; 1],
+    node_position: LifPosition,
+    vehicle_type_node_properties: [LifNodeProperties; 1],
 }
 
 /// Metres, map frame.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Position {
+pub struct LifPosition {
     x: f64,
     y: f64,
 }
@@ -75,7 +75,7 @@ pub struct Position {
 /// What a node means to a type of vehicle.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(rename_all = "camelCase")]
-pub struct NodeProperties {
+pub struct LifNodeProperties {
     vehicle_type_id: &'static str,
     /// Where it looks, radians; free where absent.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -85,7 +85,7 @@ pub struct NodeProperties {
 /// A way in one direction.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(rename_all = "camelCase")]
-pub struct Edge<E> {
+pub struct LifEdge<E> {
     edge_id: String,
     start_node_id: String,
     end_node_id: String,
@@ -96,15 +96,15 @@ pub struct Edge<E> {
 /// A course as a NURBS curve.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(rename_all = "camelCase")]
-pub struct Trajectory {
+pub struct LifTrajectory {
     degree: u32,
     knot_vector: Vec<f64>,
-    control_points: Vec<ControlPoint>,
+    control_points: Vec<LifControlPoint>,
 }
 
 /// A point of a NURBS curve, metres.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct ControlPoint {
+pub struct LifControlPoint {
     x: f64,
     y: f64,
     weight: f64,
@@ -113,16 +113,16 @@ pub struct ControlPoint {
 /// A place where vehicles interact with the site: a storage location.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(rename_all = "camelCase")]
-pub struct Station {
+pub struct LifStation {
     station_id: String,
     interaction_node_ids: [String; 1],
     station_name: String,
-    station_position: StationPosition,
+    station_position: LifStationPosition,
 }
 
 /// Centre of a station, and the direction from its access into it.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct StationPosition {
+pub struct LifStationPosition {
     x: f64,
     y: f64,
     theta: f64,
@@ -133,8 +133,8 @@ pub(super) fn document<E>(
     source: &ExportSource<'_>,
     lif_version: &'static str,
     properties: impl Fn(&Lane) -> E,
-) -> Document<E> {
-    let layout = LayoutOf {
+) -> LifDocument<E> {
+    let layout = LifLayout {
         layout_id: source.map_id.to_owned(),
         layout_name: source.name.to_owned(),
         layout_version: source.version.to_string(),
@@ -143,8 +143,8 @@ pub(super) fn document<E>(
         edges: source.graph.lanes.iter().map(|lane| edge(source, lane, properties(lane))).collect(),
         stations: stations(source),
     };
-    Document {
-        meta_information: MetaInformation {
+    LifDocument {
+        meta_information: LifMetaInformation {
             project_identification: source.name.to_owned(),
             creator: CREATOR,
             export_timestamp: source.created,
@@ -154,22 +154,22 @@ pub(super) fn document<E>(
     }
 }
 
-fn node(source: &ExportSource<'_>, node: &GraphNode) -> Node {
+fn node(source: &ExportSource<'_>, node: &GraphNode) -> LifNode {
     let [x, y] = source.position(node.position);
-    Node {
+    LifNode {
         node_id: node.name.clone(),
         map_id: source.map_id.to_owned(),
-        node_position: Position { x, y },
-        vehicle_type_node_properties: [NodeProperties {
+        node_position: LifPosition { x, y },
+        vehicle_type_node_properties: [LifNodeProperties {
             vehicle_type_id: VEHICLE_TYPE,
             theta: node.heading.map(|angle| source.heading(angle)),
         }],
     }
 }
 
-fn edge<E>(source: &ExportSource<'_>, lane: &Lane, properties: E) -> Edge<E> {
+fn edge<E>(source: &ExportSource<'_>, lane: &Lane, properties: E) -> LifEdge<E> {
     let [start, end] = [lane.from, lane.to].map(|node| source.graph.nodes[node].name.clone());
-    Edge {
+    LifEdge {
         edge_id: format!("{start}>{end}"),
         start_node_id: start,
         end_node_id: end,
@@ -178,30 +178,30 @@ fn edge<E>(source: &ExportSource<'_>, lane: &Lane, properties: E) -> Edge<E> {
 }
 
 /// The course of a lane that bends; straight lanes need none.
-pub(super) fn trajectory(source: &ExportSource<'_>, lane: &Lane) -> Option<Trajectory> {
+pub(super) fn trajectory(source: &ExportSource<'_>, lane: &Lane) -> Option<LifTrajectory> {
     let count = lane.path.len();
     let point = |&point| {
         let [x, y] = source.position(point);
-        ControlPoint { x, y, weight: 1.0 }
+        LifControlPoint { x, y, weight: 1.0 }
     };
     // Degree 1: a knot for each point, the first and the last twice.
     let last = count.saturating_sub(1);
     let inner = (0..count).map(|index| index as f64 / last as f64);
-    (count > 2).then(|| Trajectory {
+    (count > 2).then(|| LifTrajectory {
         degree: 1,
         knot_vector: std::iter::once(0.0).chain(inner).chain([1.0]).collect(),
         control_points: lane.path.iter().map(point).collect(),
     })
 }
 
-fn stations(source: &ExportSource<'_>) -> Vec<Station> {
+fn stations(source: &ExportSource<'_>) -> Vec<LifStation> {
     let station = |(location, node): (&stillage_core::layout::Location, Option<usize>)| {
         let [x, y] = source.position(location.center);
-        Some(Station {
+        Some(LifStation {
             station_id: location.code.clone(),
             interaction_node_ids: [source.graph.nodes[node?].name.clone()],
             station_name: format!("{} {}", source.location_label(location), location.code),
-            station_position: StationPosition { x, y, theta: source.heading(location.heading) },
+            station_position: LifStationPosition { x, y, theta: source.heading(location.heading) },
         })
     };
     source.layout.locations.iter().zip(source.serving_nodes()).filter_map(station).collect()

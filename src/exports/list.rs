@@ -1,18 +1,12 @@
-//! The exports there are, and each of them as bytes.
+//! The exports there are.
 
 use serde::Serialize;
 
-use super::archive::{NamedFile, zip};
 use super::location_sheet::InventoryOptions;
 use super::locations_csv::Profile;
 use super::nav2_masks::{KeepoutOptions, SpeedOptions};
-use super::source::{ExportError, ExportSource};
 use super::vda5050_download_map::MapDownload;
 use super::vda5050_zone_set::ZoneSetOptions;
-use super::{
-    bundle, graph_ml, lif_1, lif_2, locations_csv, locations_xlsx, moving_ai, nav2_masks, nav2_route, rmf_building,
-    rmf_nav_graph, vda5050_download_map, vda5050_zone_set,
-};
 
 /// An export of a map.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -34,6 +28,17 @@ pub struct Export {
 /// Which export it is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ExportKind {
+    /// One file, read off the map alone.
+    Single(SingleExport),
+    /// All of those in one archive.
+    Bundle,
+    /// The order to fetch the archive.
+    DownloadMap,
+}
+
+/// Which file it is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SingleExport {
     /// LIF 1.0.
     Lif1,
     /// LIF 2.0.
@@ -58,10 +63,6 @@ pub enum ExportKind {
     LocationsXlsx,
     /// `GraphML`.
     GraphMl,
-    /// All others in one archive.
-    Bundle,
-    /// The order to fetch the archive.
-    DownloadMap,
 }
 
 /// What exports cannot read off a map.
@@ -92,84 +93,84 @@ const EXPORTS: &[Export] = &[
         media_type: JSON,
         purpose: "Layout Interchange Format 1.0: graph and stations for fleet managers",
         options: &[],
-        kind: ExportKind::Lif1,
+        kind: ExportKind::Single(SingleExport::Lif1),
     },
     Export {
         name: "lif-2.0.json",
         media_type: JSON,
         purpose: "Layout Interchange Format 2.0 (draft), with the free ground beside each edge",
         options: &[],
-        kind: ExportKind::Lif2,
+        kind: ExportKind::Single(SingleExport::Lif2),
     },
     Export {
         name: "vda5050-zone-set.json",
         media_type: JSON,
         purpose: "VDA 5050 3.0 zone set: what vehicles may do where",
         options: &["manufacturer", "serialNumber", "junctionSpeed", "workPlacePenalty"],
-        kind: ExportKind::ZoneSet,
+        kind: ExportKind::Single(SingleExport::ZoneSet),
     },
     Export {
         name: "nav2-route.geojson",
         media_type: "application/geo+json",
         purpose: "Route graph of Nav2",
         options: &[],
-        kind: ExportKind::Nav2Route,
+        kind: ExportKind::Single(SingleExport::Nav2Route),
     },
     Export {
         name: "nav2-keepout.zip",
         media_type: ZIP,
         purpose: "Costmap filter mask of Nav2: where vehicles must not drive",
         options: &["workPlaces"],
-        kind: ExportKind::Nav2Keepout,
+        kind: ExportKind::Single(SingleExport::Nav2Keepout),
     },
     Export {
         name: "nav2-speed.zip",
         media_type: ZIP,
         purpose: "Costmap filter mask of Nav2: where vehicles must drive slowly",
         options: &["junctionPercent", "workPlacePercent"],
-        kind: ExportKind::Nav2Speed,
+        kind: ExportKind::Single(SingleExport::Nav2Speed),
     },
     Export {
         name: "rmf-nav-graph.yaml",
         media_type: YAML,
         purpose: "Navigation graph of Open-RMF fleet adapters",
         options: &[],
-        kind: ExportKind::RmfNavGraph,
+        kind: ExportKind::Single(SingleExport::RmfNavGraph),
     },
     Export {
         name: "rmf.building.yaml",
         media_type: YAML,
         purpose: "Building file of the Open-RMF traffic editor",
         options: &[],
-        kind: ExportKind::RmfBuilding,
+        kind: ExportKind::Single(SingleExport::RmfBuilding),
     },
     Export {
         name: "drivable.map",
         media_type: "text/plain; charset=utf-8",
         purpose: "Grid map of the MovingAI benchmarks, for planners of many agents",
         options: &[],
-        kind: ExportKind::MovingAi,
+        kind: ExportKind::Single(SingleExport::MovingAi),
     },
     Export {
         name: "locations.csv",
         media_type: "text/csv; charset=utf-8",
         purpose: "Storage locations for inventory systems",
         options: &["profile", "warehouse", "storageType"],
-        kind: ExportKind::LocationsCsv,
+        kind: ExportKind::Single(SingleExport::LocationsCsv),
     },
     Export {
         name: "locations.xlsx",
         media_type: XLSX,
         purpose: "Storage locations as a spreadsheet",
         options: &[],
-        kind: ExportKind::LocationsXlsx,
+        kind: ExportKind::Single(SingleExport::LocationsXlsx),
     },
     Export {
         name: "graph.graphml",
         media_type: "application/graphml+xml",
         purpose: "The graph for tools that study graphs",
         options: &[],
-        kind: ExportKind::GraphMl,
+        kind: ExportKind::Single(SingleExport::GraphMl),
     },
     Export {
         name: "bundle.zip",
@@ -199,44 +200,4 @@ impl Export {
     pub fn find(name: &str) -> Option<&'static Self> {
         list().iter().find(|export| export.name == name)
     }
-
-    /// Writes the export of a map.
-    ///
-    /// # Errors
-    /// [`ExportError`] when the format has no place for the map.
-    pub fn write(&self, source: &ExportSource<'_>, options: &ExportOptions) -> Result<Vec<u8>, ExportError> {
-        Ok(match self.kind {
-            ExportKind::Lif1 => json(&lif_1::layout(source)),
-            ExportKind::Lif2 => json(&lif_2::layout(source)),
-            ExportKind::ZoneSet => json(&vda5050_zone_set::zone_set(source, &options.zone_set)),
-            ExportKind::Nav2Route => json(&nav2_route::graph(source)?),
-            ExportKind::Nav2Keepout => zip(&nav2_masks::keepout(source, options.keepout)),
-            ExportKind::Nav2Speed => zip(&nav2_masks::speed(source, options.speed)),
-            ExportKind::RmfNavGraph => rmf_nav_graph::nav_graph(source),
-            ExportKind::RmfBuilding => rmf_building::building(source),
-            ExportKind::MovingAi => moving_ai::map(source),
-            ExportKind::LocationsCsv => locations_csv::locations(source, options.profile, &options.inventory),
-            ExportKind::LocationsXlsx => locations_xlsx::locations(source)?,
-            ExportKind::GraphMl => graph_ml::graph(source),
-            ExportKind::Bundle => zip(&bundle::files(source, options)),
-            ExportKind::DownloadMap => {
-                let hash = bundle::sha256(&zip(&bundle::files(source, options)));
-                json(&vda5050_download_map::download_map(source, &options.download, hash))
-            }
-        })
-    }
-
-    /// The file that the export of a map is.
-    ///
-    /// # Errors
-    /// [`ExportError`] when the format has no place for the map.
-    pub fn file(&self, source: &ExportSource<'_>, options: &ExportOptions) -> Result<NamedFile, ExportError> {
-        Ok(NamedFile { name: self.name.to_owned(), bytes: self.write(source, options)? })
-    }
-}
-
-fn json(document: &impl Serialize) -> Vec<u8> {
-    let mut bytes = serde_json::to_vec_pretty(document).expect("documents are texts and finite numbers");
-    bytes.push(b'\n');
-    bytes
 }

@@ -39,10 +39,10 @@ pub(super) struct LocationLine<'a> {
 }
 
 /// Name of a column, and how its value is read.
-pub(super) type Column = (&'static str, for<'a> fn(&'a LocationLine<'a>) -> Value<'a>);
+pub(super) type SheetColumn = (&'static str, for<'a> fn(&'a LocationLine<'a>) -> Value<'a>);
 
 /// All that is known of a location. Importers rely on the order: new columns come last.
-pub(super) const ALL: &[Column] = &[
+pub(super) const ALL: &[SheetColumn] = &[
     ("code", |line| line.location.code.as_str().into()),
     ("label", |line| line.label.into()),
     ("aisle", |line| line.location.aisle.into()),

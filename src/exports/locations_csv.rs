@@ -12,7 +12,7 @@
 //! numbers for corridor, shelf and height. Limits: a map is flat, so every location lies on level 0; codes of up to 18
 //! characters fit all of these systems.
 
-use super::location_sheet::{ALL, Column, InventoryOptions, lines};
+use super::location_sheet::{ALL, InventoryOptions, SheetColumn, lines};
 use super::source::ExportSource;
 use crate::formats::csv;
 
@@ -33,7 +33,7 @@ pub enum Profile {
 /// Level of every location: goods on the floor.
 const FLOOR: u32 = 0;
 
-const ODOO: &[Column] = &[
+const ODOO: &[SheetColumn] = &[
     ("name", |line| line.location.code.as_str().into()),
     ("location_id", |line| line.options.warehouse.as_str().into()),
     ("usage", |_| "internal".into()),
@@ -43,7 +43,7 @@ const ODOO: &[Column] = &[
     ("posz", |_| FLOOR.into()),
 ];
 
-const SAP_EWM: &[Column] = &[
+const SAP_EWM: &[SheetColumn] = &[
     ("LGNUM", |line| line.options.warehouse.as_str().into()),
     ("LGTYP", |line| line.options.storage_type.as_str().into()),
     ("LGPLA", |line| line.location.code.as_str().into()),
@@ -56,7 +56,7 @@ const SAP_EWM: &[Column] = &[
     ("DEPTH", |line| line.location.depth_in_row.into()),
 ];
 
-const BUSINESS_CENTRAL: &[Column] = &[
+const BUSINESS_CENTRAL: &[SheetColumn] = &[
     ("Location Code", |line| line.options.warehouse.as_str().into()),
     ("Code", |line| line.location.code.as_str().into()),
     ("Description", |line| line.label.into()),
@@ -78,7 +78,7 @@ impl Profile {
         }
     }
 
-    const fn columns(self) -> &'static [Column] {
+    const fn columns(self) -> &'static [SheetColumn] {
         match self {
             Self::Generic => ALL,
             Self::Odoo => ODOO,

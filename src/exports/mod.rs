@@ -2,7 +2,8 @@
 //!
 //! | module | what it writes |
 //! | --- | --- |
-//! | [`list()`] | every export with its name and media type, and its bytes |
+//! | [`list()`] | every export with its name, media type and purpose |
+//! | [`write()`], `single` | any export as bytes |
 //! | `bundle`, [`archive`] | all exports with their checksums; zip archives |
 //! | [`source`] | nothing: what every export reads, and how its numbers are written |
 //! | [`lif_1`], [`lif_2`], `lif_layout` | Layout Interchange Format, for fleet managers; what both versions share |
@@ -35,9 +36,11 @@ pub mod nav2_route;
 pub mod rmf_building;
 mod rmf_graph;
 pub mod rmf_nav_graph;
+mod single;
 pub mod source;
 pub mod vda5050_download_map;
 pub mod vda5050_zone_set;
+mod write;
 mod yaml;
 mod zones;
 
@@ -45,6 +48,7 @@ mod zones;
 mod tests;
 
 pub use archive::NamedFile;
-pub use list::{Export, ExportKind, ExportOptions, list};
+pub use list::{Export, ExportKind, ExportOptions, SingleExport, list};
 pub use location_sheet::InventoryOptions;
 pub use source::{ExportError, ExportSource};
+pub use write::write;

@@ -22,21 +22,21 @@ const FRAME: &str = "map";
 pub struct RouteGraph {
     r#type: &'static str,
     name: String,
-    crs: Crs,
+    crs: RouteCrs,
     /// Nodes, then edges.
     pub features: Vec<RouteFeature>,
 }
 
 /// The system of the coordinates, as in GeoJSON of 2008.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Crs {
+pub struct RouteCrs {
     r#type: &'static str,
-    properties: CrsName,
+    properties: RouteCrsName,
 }
 
 /// Name of a system.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct CrsName {
+pub struct RouteCrsName {
     name: &'static str,
 }
 
@@ -45,37 +45,37 @@ pub struct CrsName {
 #[serde(untagged)]
 pub enum RouteFeature {
     /// A point.
-    Node(Feature<NodeProperties, [f64; 2]>),
+    Node(GeoFeature<RouteNodeProperties, [f64; 2]>),
     /// A line.
-    Edge(Feature<EdgeProperties, [Vec<[f64; 2]>; 1]>),
+    Edge(GeoFeature<RouteEdgeProperties, [Vec<[f64; 2]>; 1]>),
 }
 
 /// A GeoJSON feature.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Feature<P, C> {
+pub struct GeoFeature<P, C> {
     r#type: &'static str,
     properties: P,
-    geometry: Geometry<C>,
+    geometry: GeoShape<C>,
 }
 
 /// A GeoJSON geometry.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Geometry<C> {
+pub struct GeoShape<C> {
     r#type: &'static str,
     coordinates: C,
 }
 
 /// What Nav2 reads of a node.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct NodeProperties {
+pub struct RouteNodeProperties {
     id: usize,
     frame: &'static str,
-    metadata: NodeMetadata,
+    metadata: RouteNodeMetadata,
 }
 
 /// What plugins read of a node.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct NodeMetadata {
+pub struct RouteNodeMetadata {
     name: String,
     class: &'static str,
     /// Code of the location that is served there.
@@ -88,19 +88,19 @@ pub struct NodeMetadata {
 
 /// What Nav2 reads of an edge.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct EdgeProperties {
+pub struct RouteEdgeProperties {
     id: usize,
     startid: usize,
     endid: usize,
     /// Length, metres.
     cost: f64,
     overridable: bool,
-    metadata: EdgeMetadata,
+    metadata: RouteEdgeMetadata,
 }
 
 /// What plugins read of an edge.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct EdgeMetadata {
+pub struct RouteEdgeMetadata {
     /// Id of the label of its ground, for the semantic scorer.
     class: String,
     /// Width of the free ground at its narrowest, metres.
@@ -120,29 +120,29 @@ pub fn graph(source: &ExportSource<'_>) -> Result<RouteGraph, ExportError> {
     Ok(RouteGraph {
         r#type: "FeatureCollection",
         name: source.name.to_owned(),
-        crs: Crs { r#type: "name", properties: CrsName { name: "urn:ogc:def:crs:EPSG::3857" } },
+        crs: RouteCrs { r#type: "name", properties: RouteCrsName { name: "urn:ogc:def:crs:EPSG::3857" } },
         features: nodes.chain(edges).collect(),
     })
 }
 
 fn node(source: &ExportSource<'_>, id: usize, node: &GraphNode) -> RouteFeature {
     let location = node.location.and_then(|index| source.layout.locations.get(index));
-    let metadata = NodeMetadata {
+    let metadata = RouteNodeMetadata {
         name: node.name.clone(),
         class: class(node.kind),
         location: location.map(|location| location.code.clone()),
         heading: node.heading.map(|angle| source.heading(angle)),
     };
-    RouteFeature::Node(Feature {
+    RouteFeature::Node(GeoFeature {
         r#type: "Feature",
-        properties: NodeProperties { id, frame: FRAME, metadata },
-        geometry: Geometry { r#type: "Point", coordinates: source.position(node.position) },
+        properties: RouteNodeProperties { id, frame: FRAME, metadata },
+        geometry: GeoShape { r#type: "Point", coordinates: source.position(node.position) },
     })
 }
 
 fn edge(source: &ExportSource<'_>, id: usize, lane: &Lane) -> RouteFeature {
-    let metadata = EdgeMetadata { class: source.lane_label(lane).to_owned(), width: rounded(lane.width) };
-    let properties = EdgeProperties {
+    let metadata = RouteEdgeMetadata { class: source.lane_label(lane).to_owned(), width: rounded(lane.width) };
+    let properties = RouteEdgeProperties {
         id,
         startid: lane.from,
         endid: lane.to,
@@ -151,10 +151,10 @@ fn edge(source: &ExportSource<'_>, id: usize, lane: &Lane) -> RouteFeature {
         metadata,
     };
     let course = lane.path.iter().map(|&point| source.position(point)).collect();
-    RouteFeature::Edge(Feature {
+    RouteFeature::Edge(GeoFeature {
         r#type: "Feature",
         properties,
-        geometry: Geometry { r#type: "MultiLineString", coordinates: [course] },
+        geometry: GeoShape { r#type: "MultiLineString", coordinates: [course] },
     })
 }
 

@@ -21,7 +21,8 @@ pub fn nav_graph(source: &ExportSource<'_>) -> Vec<u8> {
     let mut line = |line: String| text.extend([line.as_str(), "\n"]);
     line(list_head("vertices", graph.vertices.is_empty()));
     for vertex in &graph.vertices {
-        let mut properties = format!("name: {}", quoted(vertex.name));
+        let mut properties =
+            if vertex.name.is_empty() { String::new() } else { format!("name: {}", quoted(vertex.name)) };
         if vertex.kind == Some(NodeKind::DeadEnd) {
             // A vehicle that waits there is in nobody's way.
             properties.push_str(", is_holding_point: true");

@@ -40,22 +40,22 @@ pub struct InstantActions {
     version: &'static str,
     manufacturer: String,
     serial_number: String,
-    actions: [Action; 1],
+    actions: [DownloadAction; 1],
 }
 
 /// An action of a vehicle.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(rename_all = "camelCase")]
-pub struct Action {
+pub struct DownloadAction {
     action_type: &'static str,
     action_id: String,
     blocking_type: &'static str,
-    action_parameters: [Parameter; 4],
+    action_parameters: [ActionParameter; 4],
 }
 
 /// A parameter of an action.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Parameter {
+pub struct ActionParameter {
     key: &'static str,
     value: String,
 }
@@ -75,11 +75,11 @@ pub fn download_map(source: &ExportSource<'_>, download: &MapDownload, hash: Str
         version: VERSION,
         manufacturer: download.manufacturer.clone(),
         serial_number: download.serial_number.clone(),
-        actions: [Action {
+        actions: [DownloadAction {
             action_type: "downloadMap",
             action_id: format!("download-{}-{}", source.map_id, source.version),
             blocking_type: "NONE",
-            action_parameters: parameters.map(|(key, value)| Parameter { key, value }),
+            action_parameters: parameters.map(|(key, value)| ActionParameter { key, value }),
         }],
     }
 }

@@ -4,7 +4,7 @@
 //! branch `main` name the limitation of a bidirected zone differently: both names are written, with one value.
 //!
 //! Method: a zone for each bounded face. A corridor is BIDIRECTED along the long side of its face, a junction has a
-//! SPEED_LIMIT, storage and unidentified ground are BLOCKED, a work place has a PENALTY. Faces do not overlap, as the
+//! `SPEED_LIMIT`, storage and unidentified ground are BLOCKED, a work place has a PENALTY. Faces do not overlap, as the
 //! standard asks of directed zones. Faces with holes are cut into zones without. The id of the set is the hash of its
 //! zones, because the content of a set must never change under one id. Limits: a rule set that tells junctions from
 //! corridors by their name alone, like that for offices, has no speed limits.
@@ -72,16 +72,16 @@ pub struct ZoneSet {
 pub struct Zone {
     zone_id: String,
     #[serde(flatten)]
-    rule: Rule,
+    rule: ZoneRule,
     zone_descriptor: String,
     /// Its border, counter-clockwise.
-    pub vertices: Vec<Vertex>,
+    pub vertices: Vec<ZoneCorner>,
 }
 
 /// What holds in a zone.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(tag = "zoneType", rename_all = "SCREAMING_SNAKE_CASE", rename_all_fields = "camelCase")]
-pub enum Rule {
+pub enum ZoneRule {
     /// No vehicle enters.
     Blocked,
     /// No vehicle is faster.
@@ -107,7 +107,7 @@ pub enum Rule {
 
 /// A corner, metres.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Vertex {
+pub struct ZoneCorner {
     /// Map frame.
     pub x: f64,
     /// Map frame.
@@ -137,8 +137,8 @@ pub fn zone_set(source: &ExportSource<'_>, options: &ZoneSetOptions) -> ZoneSetM
 fn zones_of(source: &ExportSource<'_>, face: FaceId, options: &ZoneSetOptions) -> Vec<Zone> {
     let label = source.semantic.label(face);
     let rule = rule(source, face, Ground::of(label), options);
-    let corners = |ring: &Vec<stillage_core::Point>| -> Vec<Vertex> {
-        ring.iter().map(|&point| source.position(point)).map(|[x, y]| Vertex { x, y }).collect()
+    let corners = |ring: &Vec<stillage_core::Point>| -> Vec<ZoneCorner> {
+        ring.iter().map(|&point| source.position(point)).map(|[x, y]| ZoneCorner { x, y }).collect()
     };
     let pieces = hole_free(&source.analysis.subdivision.rings(face));
     let zone = |(index, ring): (usize, &Vec<stillage_core::Point>)| Zone {
@@ -150,14 +150,14 @@ fn zones_of(source: &ExportSource<'_>, face: FaceId, options: &ZoneSetOptions) -
     pieces.iter().enumerate().map(zone).collect()
 }
 
-fn rule(source: &ExportSource<'_>, face: FaceId, ground: Ground, options: &ZoneSetOptions) -> Rule {
+fn rule(source: &ExportSource<'_>, face: FaceId, ground: Ground, options: &ZoneSetOptions) -> ZoneRule {
     /// Vehicles may leave the direction, to pass one another or to turn to a location, but should not.
     const LIMITATION: &str = "SOFT";
     match ground {
-        Ground::Blocked => Rule::Blocked,
-        Ground::Junction => Rule::SpeedLimit { maximum_speed: options.junction_speed },
-        Ground::WorkPlace => Rule::Penalty { penalty_factor: options.work_place_penalty },
-        Ground::Way => Rule::Bidirected {
+        Ground::Blocked => ZoneRule::Blocked,
+        Ground::Junction => ZoneRule::SpeedLimit { maximum_speed: options.junction_speed },
+        Ground::WorkPlace => ZoneRule::Penalty { penalty_factor: options.work_place_penalty },
+        Ground::Way => ZoneRule::Bidirected {
             direction: source.heading(source.analysis.faces[face.index()].heading),
             bidirected_limitation: LIMITATION,
             limitation: LIMITATION,

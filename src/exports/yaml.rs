@@ -10,7 +10,7 @@ pub(super) fn quoted(text: &str) -> String {
             '"' | '\\' => out.extend(['\\', character]),
             // Line breaks of Unicode and marks that readers strip or refuse.
             control if control.is_control() || matches!(control, '\u{2028}' | '\u{2029}' | '\u{feff}') => {
-                out.push_str(&format!("\\u{:04x}", u32::from(control)));
+                out.extend([format!("\\u{:04x}", u32::from(control))]);
             }
             plain => out.push(plain),
         }

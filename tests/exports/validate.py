@@ -149,7 +149,7 @@ def rmf(folder, _schemas):
     graph = yaml.safe_load((folder / "rmf-nav-graph.yaml").read_text())
     building = yaml.safe_load((folder / "rmf.building.yaml").read_text())
     for level in graph["levels"].values():
-        names = [vertex[2]["name"] for vertex in level["vertices"] if vertex[2]["name"]]
+        names = [vertex[2]["name"] for vertex in level["vertices"] if "name" in vertex[2]]
         check(len(set(names)) == len(names), "rmf-nav-graph.yaml: names are not unique")
         count = len(level["vertices"])
         check(all(max(lane[:2]) < count for lane in level["lanes"]), "rmf-nav-graph.yaml: a lane leads nowhere")
