@@ -2,6 +2,7 @@
 
 mod cells;
 mod fleet;
+mod lif;
 mod site;
 mod tables;
 mod whole;

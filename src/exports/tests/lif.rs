@@ -1,0 +1,301 @@
+//! The layout interchange format.
+
+use expect_test::expect;
+
+use super::Site;
+use crate::exports::{lif_1, lif_2};
+
+fn json(value: &impl serde::Serialize) -> String {
+    serde_json::to_string_pretty(value).unwrap()
+}
+
+#[test]
+fn lif_1_of_a_small_graph() {
+    expect![[r#"
+        {
+          "metaInformation": {
+            "projectIdentification": "Hall",
+            "creator": "stillage",
+            "exportTimestamp": "2026-01-15T08:00:00Z",
+            "lifVersion": "1.0.0"
+          },
+          "layouts": [
+            {
+              "layoutId": "hall",
+              "layoutName": "Hall",
+              "layoutVersion": "7",
+              "layoutLevelId": "0",
+              "nodes": [
+                {
+                  "nodeId": "N0001",
+                  "mapId": "hall",
+                  "nodePosition": {
+                    "x": -1.0404,
+                    "y": 14.2007
+                  },
+                  "vehicleTypeNodeProperties": [
+                    {
+                      "vehicleTypeId": "generic"
+                    }
+                  ]
+                },
+                {
+                  "nodeId": "N0002",
+                  "mapId": "hall",
+                  "nodePosition": {
+                    "x": 14.245,
+                    "y": 18.929
+                  },
+                  "vehicleTypeNodeProperties": [
+                    {
+                      "vehicleTypeId": "generic"
+                    }
+                  ]
+                },
+                {
+                  "nodeId": "01-001",
+                  "mapId": "hall",
+                  "nodePosition": {
+                    "x": 6.3363,
+                    "y": 17.4247
+                  },
+                  "vehicleTypeNodeProperties": [
+                    {
+                      "vehicleTypeId": "generic",
+                      "theta": 1.870796
+                    }
+                  ]
+                },
+                {
+                  "nodeId": "01-002",
+                  "mapId": "hall",
+                  "nodePosition": {
+                    "x": 6.8682,
+                    "y": 15.705
+                  },
+                  "vehicleTypeNodeProperties": [
+                    {
+                      "vehicleTypeId": "generic",
+                      "theta": -1.270796
+                    }
+                  ]
+                }
+              ],
+              "edges": [
+                {
+                  "edgeId": "N0001>N0002",
+                  "startNodeId": "N0001",
+                  "endNodeId": "N0002",
+                  "vehicleTypeEdgeProperties": [
+                    {
+                      "vehicleTypeId": "generic",
+                      "vehicleOrientation": 0.0,
+                      "orientationType": "TANGENTIAL",
+                      "rotationAllowed": false,
+                      "trajectory": {
+                        "degree": 1,
+                        "knotVector": [
+                          0.0,
+                          0.0,
+                          0.5,
+                          1.0,
+                          1.0
+                        ],
+                        "controlPoints": [
+                          {
+                            "x": -1.0404,
+                            "y": 14.2007,
+                            "weight": 1.0
+                          },
+                          {
+                            "x": 6.5284,
+                            "y": 16.8037,
+                            "weight": 1.0
+                          },
+                          {
+                            "x": 14.245,
+                            "y": 18.929,
+                            "weight": 1.0
+                          }
+                        ]
+                      }
+                    }
+                  ]
+                },
+                {
+                  "edgeId": "N0001>01-001",
+                  "startNodeId": "N0001",
+                  "endNodeId": "01-001",
+                  "vehicleTypeEdgeProperties": [
+                    {
+                      "vehicleTypeId": "generic",
+                      "vehicleOrientation": 0.0,
+                      "orientationType": "TANGENTIAL",
+                      "rotationAllowed": false
+                    }
+                  ]
+                },
+                {
+                  "edgeId": "N0001>01-002",
+                  "startNodeId": "N0001",
+                  "endNodeId": "01-002",
+                  "vehicleTypeEdgeProperties": [
+                    {
+                      "vehicleTypeId": "generic",
+                      "vehicleOrientation": 0.0,
+                      "orientationType": "TANGENTIAL",
+                      "rotationAllowed": false
+                    }
+                  ]
+                },
+                {
+                  "edgeId": "N0002>N0001",
+                  "startNodeId": "N0002",
+                  "endNodeId": "N0001",
+                  "vehicleTypeEdgeProperties": [
+                    {
+                      "vehicleTypeId": "generic",
+                      "vehicleOrientation": 0.0,
+                      "orientationType": "TANGENTIAL",
+                      "rotationAllowed": false,
+                      "trajectory": {
+                        "degree": 1,
+                        "knotVector": [
+                          0.0,
+                          0.0,
+                          0.5,
+                          1.0,
+                          1.0
+                        ],
+                        "controlPoints": [
+                          {
+                            "x": 14.245,
+                            "y": 18.929,
+                            "weight": 1.0
+                          },
+                          {
+                            "x": 6.5284,
+                            "y": 16.8037,
+                            "weight": 1.0
+                          },
+                          {
+                            "x": -1.0404,
+                            "y": 14.2007,
+                            "weight": 1.0
+                          }
+                        ]
+                      }
+                    }
+                  ]
+                },
+                {
+                  "edgeId": "01-001>N0001",
+                  "startNodeId": "01-001",
+                  "endNodeId": "N0001",
+                  "vehicleTypeEdgeProperties": [
+                    {
+                      "vehicleTypeId": "generic",
+                      "vehicleOrientation": 0.0,
+                      "orientationType": "TANGENTIAL",
+                      "rotationAllowed": false
+                    }
+                  ]
+                },
+                {
+                  "edgeId": "01-002>N0001",
+                  "startNodeId": "01-002",
+                  "endNodeId": "N0001",
+                  "vehicleTypeEdgeProperties": [
+                    {
+                      "vehicleTypeId": "generic",
+                      "vehicleOrientation": 0.0,
+                      "orientationType": "TANGENTIAL",
+                      "rotationAllowed": false
+                    }
+                  ]
+                }
+              ],
+              "stations": [
+                {
+                  "stationId": "01-001",
+                  "interactionNodeIds": [
+                    "01-001"
+                  ],
+                  "stationName": "pallet cell 01-001",
+                  "stationPosition": {
+                    "x": 5.8635,
+                    "y": 18.9532,
+                    "theta": 1.870796
+                  }
+                },
+                {
+                  "stationId": "01-002",
+                  "interactionNodeIds": [
+                    "01-002"
+                  ],
+                  "stationName": "pallet cell 01-002",
+                  "stationPosition": {
+                    "x": 7.3411,
+                    "y": 14.1765,
+                    "theta": -1.270796
+                  }
+                }
+              ]
+            }
+          ]
+        }"#]]
+    .assert_eq(&json(&lif_1::layout(&Site::small().source())));
+}
+
+#[test]
+fn lif_2_tells_the_ground_beside_a_lane() {
+    let document = lif_2::layout(&Site::small().source());
+    expect![[r#"
+        {
+          "edgeId": "N0001>N0002",
+          "startNodeId": "N0001",
+          "endNodeId": "N0002",
+          "vehicleTypeEdgeProperties": [
+            {
+              "vehicleTypeId": "generic",
+              "vehicleOrientations": [
+                0.0
+              ],
+              "orientationType": "TANGENTIAL",
+              "trajectory": {
+                "degree": 1,
+                "knotVector": [
+                  0.0,
+                  0.0,
+                  0.5,
+                  1.0,
+                  1.0
+                ],
+                "controlPoints": [
+                  {
+                    "x": -1.0404,
+                    "y": 14.2007,
+                    "weight": 1.0
+                  },
+                  {
+                    "x": 6.5284,
+                    "y": 16.8037,
+                    "weight": 1.0
+                  },
+                  {
+                    "x": 14.245,
+                    "y": 18.929,
+                    "weight": 1.0
+                  }
+                ]
+              },
+              "corridor": {
+                "maximumLeftWidth": 1.25,
+                "maximumRightWidth": 1.25,
+                "corridorReferencePoint": "CONTOUR"
+              }
+            }
+          ]
+        }"#]]
+    .assert_eq(&json(&document.layouts[0].edges[0]));
+}
