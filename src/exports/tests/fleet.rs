@@ -1,13 +1,13 @@
 //! Exports for fleet managers.
 
 use expect_test::expect;
+use stillage_core::Point;
+use stillage_core::geometry::ring_area;
+use stillage_core::graph::NavigationGraph;
 
 use super::Site;
 use crate::exports::vda5050_zone_set::ZoneSetOptions;
 use crate::exports::{ExportError, ExportSource, nav2_route, rmf_building, rmf_nav_graph, vda5050_zone_set};
-use stillage_core::Point;
-use stillage_core::geometry::ring_area;
-use stillage_core::graph::NavigationGraph;
 
 #[test]
 fn a_nav2_graph_is_written_as_its_loader_reads_it() {

@@ -1,9 +1,8 @@
 //! The layout interchange format.
 
-use expect_test::expect;
-
 use super::Site;
 use crate::exports::{lif_1, lif_2};
+use expect_test::expect;
 
 fn json(value: &impl serde::Serialize) -> String {
     serde_json::to_string_pretty(value).unwrap()
