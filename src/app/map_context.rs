@@ -2,6 +2,7 @@
 
 use std::sync::{Arc, OnceLock};
 
+use stillage_core::graph::NavigationGraph;
 use stillage_core::layout::Layout;
 use stillage_core::registry::{GivenCode, NumberedLocation};
 use stillage_core::routing::{Blocked, Router};
@@ -72,6 +73,13 @@ impl MapContext {
     #[must_use]
     pub fn router(&self, radius: f64, blocked: Blocked) -> Arc<Router> {
         self.routers.router(&self.site(), radius, blocked)
+    }
+
+    /// The navigation graph for vehicles of a radius in metres. The first call makes it and its router: keep it off the
+    /// runtime.
+    #[must_use]
+    pub fn graph(&self, radius: f64) -> Arc<NavigationGraph> {
+        self.routers.graph(&self.site(), &self.layout, radius)
     }
 
     /// The features of a collection, by id. The first call makes them: keep it off the runtime.

@@ -10,6 +10,8 @@
 //! | `comparisons` | what changed between two maps, or two versions of labels |
 //! | `grid` | the cells of a map, before any analysis |
 //! | `context`, `map_context`, `context_cache` | the analysed map in memory, with its collections |
+//! | `routers`, `latest` | its routers and navigation graphs, the latest kept |
+//! | `exports` | its files for other programs |
 //! | `service` | what the use cases share, start and stop |
 //! | `evaluations` | how well it fits the truth of its site |
 //!
@@ -22,8 +24,10 @@ mod context;
 mod context_cache;
 mod error;
 mod evaluations;
+mod exports;
 mod grid;
 mod jobs;
+mod latest;
 mod map_context;
 mod maps;
 mod registries;

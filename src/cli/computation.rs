@@ -1,4 +1,4 @@
-//! A map file, analysed: what `analyze` and `evaluate` begin with.
+//! A map file, analysed: what `findings` and `evaluate` begin with.
 
 use std::num::NonZeroUsize;
 use std::path::Path;

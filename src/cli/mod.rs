@@ -7,12 +7,14 @@
 mod analyze;
 mod demo;
 mod evaluate;
+mod export;
 mod migrate;
 mod openapi;
 mod serve;
 
 mod computation;
 mod failure;
+mod findings;
 mod input;
 mod progress;
 
@@ -36,6 +38,8 @@ enum Command {
     Serve(serve::ServeArgs),
     /// Analyses one map file and writes GeoJSON layers, pictures and a report.
     Analyze(analyze::AnalyzeArgs),
+    /// Analyses one map file and writes files for other programs: fleet managers, planners, inventory systems.
+    Export(export::ExportArgs),
     /// Analyses one map file and says how well the result fits its known truth.
     Evaluate(evaluate::EvaluateArgs),
     /// Serves on loopback with a temporary store, uploads an example map and shows where to look.
@@ -52,6 +56,7 @@ pub fn run() -> ExitCode {
     let result = match Cli::parse().command {
         Command::Serve(arguments) => serve::run(&arguments).map_err(Failure::setup),
         Command::Analyze(arguments) => analyze::run(&arguments),
+        Command::Export(arguments) => export::run(&arguments),
         Command::Evaluate(arguments) => evaluate::run(&arguments),
         Command::Demo(arguments) => demo::run(&arguments),
         Command::Openapi(arguments) => openapi::run(&arguments).map_err(Failure::setup),

@@ -2,17 +2,19 @@
 //!
 //! Method: the files of all other exports, CSV in every profile; `manifest.json` tells of each its size, SHA-256 (FIPS
 //! 180-4) and purpose, `SHA256SUMS` the same sums as `sha256sum --check` reads them. An export that has no place for
-//! the map is left out and listed with the reason. The same version of a map gives the same bytes.
+//! the map is left out and listed with the reason; an option that does not fit the map is an error. Messages to a vehicle
+//! are for any vehicle. The same version of a map gives the same bytes.
 
-use jiff::Timestamp;
 use serde::Serialize;
 use sha2::{Digest, Sha256};
 
 use super::archive::NamedFile;
-use super::list::{ExportKind, ExportOptions, SingleExport, list};
+use super::list::{ExportKind, SingleExport, list};
 use super::locations_csv::{self, Profile};
+use super::options::ExportOptions;
 use super::single::{json, single};
 use super::source::{CREATOR, ExportError, ExportSource};
+use super::vda5050_header::Recipient;
 
 /// What is in a bundle.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -21,8 +23,8 @@ struct Manifest<'a> {
     creator: &'static str,
     map_id: &'a str,
     map_name: &'a str,
-    map_version: u64,
-    created: Timestamp,
+    map_version: &'a str,
+    created: String,
     files: Vec<BundledFile>,
     left_out: Vec<LeftOut>,
 }
@@ -49,17 +51,19 @@ pub(super) fn sha256(bytes: &[u8]) -> String {
 }
 
 /// The files of a bundle.
-pub(super) fn files(source: &ExportSource<'_>, options: &ExportOptions) -> Vec<NamedFile> {
+pub(super) fn files(source: &ExportSource<'_>, options: &ExportOptions) -> Result<Vec<NamedFile>, ExportError> {
+    let options = ExportOptions { recipient: Recipient::default(), link: None, ..options.clone() };
     let mut purposes = Vec::new();
     let mut files = Vec::new();
     let mut left_out = Vec::new();
     for export in list() {
         let ExportKind::Single(kind) = export.kind else { continue };
-        match parts(export.name, kind, source, options) {
+        match parts(export.name, kind, source, &options) {
             Ok(parts) => {
                 purposes.extend(parts.iter().map(|_| export.purpose));
                 files.extend(parts);
             }
+            Err(misfit @ ExportError::UnknownLabel { .. }) => return Err(misfit),
             Err(reason) => left_out.push(LeftOut { name: export.name, reason: reason.to_string() }),
         }
     }
@@ -71,7 +75,7 @@ pub(super) fn files(source: &ExportSource<'_>, options: &ExportOptions) -> Vec<N
     };
     let entries: Vec<BundledFile> = files.iter().zip(&purposes).map(entry).collect();
     files.extend(manifest(source, entries, left_out));
-    files
+    Ok(files)
 }
 
 /// The files that tell what the others are.
@@ -82,7 +86,7 @@ fn manifest(source: &ExportSource<'_>, files: Vec<BundledFile>, left_out: Vec<Le
         map_id: source.map_id,
         map_name: source.name,
         map_version: source.version,
-        created: source.created,
+        created: source.created_text(),
         files,
         left_out,
     };

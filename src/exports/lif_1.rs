@@ -2,12 +2,11 @@
 //!
 //! Source: VDMA, LIF 1.0, github.com/Intralogistics-2X-LIF/Layout-Interchange-Format, and the schema of Continua
 //! Systems that came before it. Method, cost and limits: see `lif_layout`. The two texts differ in the unit of
-//! `vehicleOrientation` (radians and degrees): it is 0 here, along the lane, and means the same in both.
+//! `vehicleOrientation` (radians and degrees): it is 0 here, along the edge, and means the same in both.
 
 use serde::Serialize;
-use stillage_core::graph::Lane;
 
-use super::lif_layout::{LifDocument, LifTrajectory, VEHICLE_TYPE, document, trajectory};
+use super::lif_layout::{LifDocument, VEHICLE_TYPE, document};
 use super::source::ExportSource;
 
 /// Version of the format.
@@ -20,20 +19,17 @@ pub struct Lif1EdgeProperties {
     vehicle_type_id: &'static str,
     vehicle_orientation: f64,
     orientation_type: &'static str,
-    /// Required by the schema of VDMA, unknown as such to that of Continua.
+    /// Required by the schema of VDMA, unknown as such to that of Continua. Edges are straight: vehicles turn at nodes.
     rotation_allowed: bool,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    trajectory: Option<LifTrajectory>,
 }
 
 /// The layout of a map as LIF 1.0.
 #[must_use]
 pub fn layout(source: &ExportSource<'_>) -> LifDocument<Lif1EdgeProperties> {
-    document(source, VERSION, |lane: &Lane| Lif1EdgeProperties {
+    document(source, VERSION, |_| Lif1EdgeProperties {
         vehicle_type_id: VEHICLE_TYPE,
         vehicle_orientation: 0.0,
         orientation_type: "TANGENTIAL",
         rotation_allowed: false,
-        trajectory: trajectory(source, lane),
     })
 }

@@ -8,7 +8,7 @@
 use serde::Serialize;
 use stillage_core::graph::Lane;
 
-use super::lif_layout::{LifDocument, LifTrajectory, VEHICLE_TYPE, document, trajectory};
+use super::lif_layout::{LifDocument, VEHICLE_TYPE, document};
 use super::source::ExportSource;
 use crate::features::rounded;
 
@@ -22,8 +22,6 @@ pub struct Lif2EdgeProperties {
     vehicle_type_id: &'static str,
     vehicle_orientations: [f64; 1],
     orientation_type: &'static str,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    trajectory: Option<LifTrajectory>,
     corridor: LifCorridor,
 }
 
@@ -44,7 +42,6 @@ pub fn layout(source: &ExportSource<'_>) -> LifDocument<Lif2EdgeProperties> {
         vehicle_type_id: VEHICLE_TYPE,
         vehicle_orientations: [0.0],
         orientation_type: "TANGENTIAL",
-        trajectory: trajectory(source, lane),
         corridor: LifCorridor {
             maximum_left_width: rounded(lane.width / 2.0),
             maximum_right_width: rounded(lane.width / 2.0),

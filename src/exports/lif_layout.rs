@@ -2,16 +2,18 @@
 //!
 //! Source: VDMA, Layout Interchange Format, github.com/Intralogistics-2X-LIF/Layout-Interchange-Format.
 //!
-//! Method: a node for each node of the graph, an edge for each lane, a station for each location that a node serves.
-//! The id of a station is the code of its location, as version 2 recommends, so that warehouse and fleet management
-//! name the same thing by the same word. A lane that bends has a trajectory of degree 1: its course. Limits: one
-//! layout, one type of vehicle; vehicles drive forwards.
+//! Method: a node for each node of the graph and for each bend of a lane, straight edges between them, a station for each
+//! location that a node serves. A trajectory with a sharp bend would need a vehicle that turns on the edge, and fleet
+//! managers may leave trajectories out; between nodes every vehicle drives the same straight line. The id of a station is
+//! the code of its location, as version 2 recommends, so that warehouse and fleet management name the same thing by the
+//! same word. A location that no node serves is no station: the list of its nodes must not be empty. Limits: one layout,
+//! one type of vehicle; vehicles drive forwards.
 
-use jiff::Timestamp;
 use serde::Serialize;
-use stillage_core::graph::{GraphNode, Lane};
+use stillage_core::graph::Lane;
 
 use super::source::{CREATOR, ExportSource};
+use super::straight_graph::{StraightEdge, StraightGraph, StraightNode};
 
 /// The one type of vehicle that layouts are written for. Fleet managers replace it by `manufacturer.series`.
 pub(super) const VEHICLE_TYPE: &str = "generic";
@@ -35,7 +37,7 @@ pub struct LifDocument<E> {
 pub struct LifMetaInformation {
     project_identification: String,
     creator: &'static str,
-    export_timestamp: Timestamp,
+    export_timestamp: String,
     lif_version: &'static str,
 }
 
@@ -93,23 +95,6 @@ pub struct LifEdge<E> {
     pub vehicle_type_edge_properties: [E; 1],
 }
 
-/// A course as a NURBS curve.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[serde(rename_all = "camelCase")]
-pub struct LifTrajectory {
-    degree: u32,
-    knot_vector: Vec<f64>,
-    control_points: Vec<LifControlPoint>,
-}
-
-/// A point of a NURBS curve, metres.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct LifControlPoint {
-    x: f64,
-    y: f64,
-    weight: f64,
-}
-
 /// A place where vehicles interact with the site: a storage location.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(rename_all = "camelCase")]
@@ -134,64 +119,47 @@ pub(super) fn document<E>(
     lif_version: &'static str,
     properties: impl Fn(&Lane) -> E,
 ) -> LifDocument<E> {
+    let graph = StraightGraph::of(source);
+    let edge = |edge: &StraightEdge<'_>| {
+        let [start, end] = [edge.from, edge.to].map(|node| graph.nodes[node].name.to_string());
+        LifEdge {
+            edge_id: format!("{start}>{end}"),
+            start_node_id: start,
+            end_node_id: end,
+            vehicle_type_edge_properties: [properties(edge.lane)],
+        }
+    };
     let layout = LifLayout {
         layout_id: source.map_id.to_owned(),
         layout_name: source.name.to_owned(),
-        layout_version: source.version.to_string(),
+        layout_version: source.version.to_owned(),
         layout_level_id: LEVEL,
-        nodes: source.graph.nodes.iter().map(|each| node(source, each)).collect(),
-        edges: source.graph.lanes.iter().map(|lane| edge(source, lane, properties(lane))).collect(),
+        nodes: graph.nodes.iter().map(|each| node(source, each)).collect(),
+        edges: graph.edges.iter().map(edge).collect(),
         stations: stations(source),
     };
     LifDocument {
         meta_information: LifMetaInformation {
             project_identification: source.name.to_owned(),
             creator: CREATOR,
-            export_timestamp: source.created,
+            export_timestamp: source.created_text(),
             lif_version,
         },
         layouts: vec![layout],
     }
 }
 
-fn node(source: &ExportSource<'_>, node: &GraphNode) -> LifNode {
-    let [x, y] = source.position(node.position);
+fn node(source: &ExportSource<'_>, node: &StraightNode<'_>) -> LifNode {
+    let [x, y] = node.position;
     LifNode {
-        node_id: node.name.clone(),
+        node_id: node.name.to_string(),
         map_id: source.map_id.to_owned(),
         node_position: LifPosition { x, y },
         vehicle_type_node_properties: [LifNodeProperties {
             vehicle_type_id: VEHICLE_TYPE,
-            theta: node.heading.map(|angle| source.heading(angle)),
+            theta: node.node.and_then(|node| node.heading).map(|angle| source.heading(angle)),
         }],
     }
-}
-
-fn edge<E>(source: &ExportSource<'_>, lane: &Lane, properties: E) -> LifEdge<E> {
-    let [start, end] = [lane.from, lane.to].map(|node| source.graph.nodes[node].name.clone());
-    LifEdge {
-        edge_id: format!("{start}>{end}"),
-        start_node_id: start,
-        end_node_id: end,
-        vehicle_type_edge_properties: [properties],
-    }
-}
-
-/// The course of a lane that bends; straight lanes need none.
-pub(super) fn trajectory(source: &ExportSource<'_>, lane: &Lane) -> Option<LifTrajectory> {
-    let count = lane.path.len();
-    let point = |&point| {
-        let [x, y] = source.position(point);
-        LifControlPoint { x, y, weight: 1.0 }
-    };
-    // Degree 1: a knot for each point, the first and the last twice.
-    let last = count.saturating_sub(1);
-    let inner = (0..count).map(|index| index as f64 / last as f64);
-    (count > 2).then(|| LifTrajectory {
-        degree: 1,
-        knot_vector: std::iter::once(0.0).chain(inner).chain([1.0]).collect(),
-        control_points: lane.path.iter().map(point).collect(),
-    })
 }
 
 fn stations(source: &ExportSource<'_>) -> Vec<LifStation> {

@@ -2,23 +2,19 @@
 
 use serde::Serialize;
 
-use super::location_sheet::InventoryOptions;
-use super::locations_csv::Profile;
-use super::nav2_masks::{KeepoutOptions, SpeedOptions};
-use super::vda5050_download_map::MapDownload;
-use super::vda5050_zone_set::ZoneSetOptions;
-
 /// An export of a map.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "camelCase")]
 pub struct Export {
+    /// Name of its format, for the command line.
+    pub format: &'static str,
     /// Name of its file.
     pub name: &'static str,
     /// Media type of its file.
     pub media_type: &'static str,
     /// What it is for.
     pub purpose: &'static str,
-    /// Names of its options.
+    /// Names of its options; what they are, says [`super::option`].
     pub options: &'static [&'static str],
     /// Which one it is.
     #[serde(skip)]
@@ -51,6 +47,8 @@ pub enum SingleExport {
     Nav2Keepout,
     /// Nav2 speed mask.
     Nav2Speed,
+    /// Nav2 vector objects.
+    Nav2VectorObjects,
     /// Open-RMF navigation graph.
     RmfNavGraph,
     /// Open-RMF building.
@@ -63,25 +61,12 @@ pub enum SingleExport {
     LocationsXlsx,
     /// `GraphML`.
     GraphMl,
+    /// Faces as `FlatGeobuf`.
+    Faces,
 }
 
-/// What exports cannot read off a map.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct ExportOptions {
-    /// Of the VDA 5050 zone set.
-    pub zone_set: ZoneSetOptions,
-    /// Of the Nav2 keepout mask.
-    pub keepout: KeepoutOptions,
-    /// Of the Nav2 speed mask.
-    pub speed: SpeedOptions,
-    /// Of the VDA 5050 order to fetch the bundle.
-    pub download: MapDownload,
-    /// Columns of the CSV.
-    pub profile: Profile,
-    /// Of the CSV.
-    pub inventory: InventoryOptions,
-}
-
+/// The option of the exports that read the graph.
+const RADIUS: &str = "footprintRadiusM";
 const JSON: &str = "application/json";
 const YAML: &str = "application/yaml";
 const ZIP: &str = "application/zip";
@@ -89,34 +74,39 @@ const XLSX: &str = "application/vnd.openxmlformats-officedocument.spreadsheetml.
 
 const EXPORTS: &[Export] = &[
     Export {
+        format: "lif",
         name: "lif.json",
         media_type: JSON,
         purpose: "Layout Interchange Format 1.0: graph and stations for fleet managers",
-        options: &[],
+        options: &[RADIUS],
         kind: ExportKind::Single(SingleExport::Lif1),
     },
     Export {
+        format: "lif-2.0",
         name: "lif-2.0.json",
         media_type: JSON,
         purpose: "Layout Interchange Format 2.0 (draft), with the free ground beside each edge",
-        options: &[],
+        options: &[RADIUS],
         kind: ExportKind::Single(SingleExport::Lif2),
     },
     Export {
+        format: "vda5050-zone-set",
         name: "vda5050-zone-set.json",
         media_type: JSON,
         purpose: "VDA 5050 3.0 zone set: what vehicles may do where",
-        options: &["manufacturer", "serialNumber", "junctionSpeed", "workPlacePenalty"],
+        options: &["zones", "manufacturer", "serialNumber"],
         kind: ExportKind::Single(SingleExport::ZoneSet),
     },
     Export {
+        format: "nav2-route",
         name: "nav2-route.geojson",
         media_type: "application/geo+json",
         purpose: "Route graph of Nav2",
-        options: &[],
+        options: &[RADIUS],
         kind: ExportKind::Single(SingleExport::Nav2Route),
     },
     Export {
+        format: "nav2-keepout",
         name: "nav2-keepout.zip",
         media_type: ZIP,
         purpose: "Costmap filter mask of Nav2: where vehicles must not drive",
@@ -124,6 +114,7 @@ const EXPORTS: &[Export] = &[
         kind: ExportKind::Single(SingleExport::Nav2Keepout),
     },
     Export {
+        format: "nav2-speed",
         name: "nav2-speed.zip",
         media_type: ZIP,
         purpose: "Costmap filter mask of Nav2: where vehicles must drive slowly",
@@ -131,59 +122,83 @@ const EXPORTS: &[Export] = &[
         kind: ExportKind::Single(SingleExport::Nav2Speed),
     },
     Export {
+        format: "nav2-vector-objects",
+        name: "nav2-vector-objects.yaml",
+        media_type: YAML,
+        purpose: "Where vehicles must not drive, as polygons for the vector object server of Nav2",
+        options: &["workPlaces"],
+        kind: ExportKind::Single(SingleExport::Nav2VectorObjects),
+    },
+    Export {
+        format: "rmf-nav-graph",
         name: "rmf-nav-graph.yaml",
         media_type: YAML,
         purpose: "Navigation graph of Open-RMF fleet adapters",
-        options: &[],
+        options: &[RADIUS],
         kind: ExportKind::Single(SingleExport::RmfNavGraph),
     },
     Export {
+        format: "rmf-building",
         name: "rmf.building.yaml",
         media_type: YAML,
         purpose: "Building file of the Open-RMF traffic editor",
-        options: &[],
+        options: &[RADIUS],
         kind: ExportKind::Single(SingleExport::RmfBuilding),
     },
     Export {
-        name: "drivable.map",
+        format: "moving-ai",
+        name: "map.map",
         media_type: "text/plain; charset=utf-8",
         purpose: "Grid map of the MovingAI benchmarks, for planners of many agents",
         options: &[],
         kind: ExportKind::Single(SingleExport::MovingAi),
     },
     Export {
+        format: "csv",
         name: "locations.csv",
         media_type: "text/csv; charset=utf-8",
         purpose: "Storage locations for inventory systems",
-        options: &["profile", "warehouse", "storageType"],
+        options: &["profile", "warehouse", "storageType", RADIUS],
         kind: ExportKind::Single(SingleExport::LocationsCsv),
     },
     Export {
+        format: "xlsx",
         name: "locations.xlsx",
         media_type: XLSX,
         purpose: "Storage locations as a spreadsheet",
-        options: &[],
+        options: &[RADIUS],
         kind: ExportKind::Single(SingleExport::LocationsXlsx),
     },
     Export {
+        format: "graphml",
         name: "graph.graphml",
         media_type: "application/graphml+xml",
         purpose: "The graph for tools that study graphs",
-        options: &[],
+        options: &[RADIUS],
         kind: ExportKind::Single(SingleExport::GraphMl),
     },
     Export {
+        format: "faces",
+        name: "faces.fgb",
+        media_type: "application/flatgeobuf",
+        purpose: "Faces with their properties as FlatGeobuf, for GIS",
+        options: &["crs"],
+        kind: ExportKind::Single(SingleExport::Faces),
+    },
+    Export {
+        format: "bundle",
         name: "bundle.zip",
         media_type: ZIP,
         purpose: "All of these with their checksums",
-        options: &[],
+        options: &["zones", "warehouse", "storageType", RADIUS],
         kind: ExportKind::Bundle,
     },
     Export {
+        format: "vda5050-download-map",
         name: "vda5050-download-map.json",
         media_type: JSON,
         purpose: "VDA 5050 3.0 instant action that lets a vehicle fetch the bundle",
-        options: &["manufacturer", "serialNumber", "link"],
+        options: &["link", "manufacturer", "serialNumber", "zones", "warehouse", "storageType", RADIUS],
         kind: ExportKind::DownloadMap,
     },
 ];
@@ -195,9 +210,21 @@ pub const fn list() -> &'static [Export] {
 }
 
 impl Export {
-    /// The export of a name.
+    /// The export of a file name.
     #[must_use]
     pub fn find(name: &str) -> Option<&'static Self> {
         list().iter().find(|export| export.name == name)
+    }
+
+    /// The export of a format, or of a file name.
+    #[must_use]
+    pub fn of_format(format: &str) -> Option<&'static Self> {
+        list().iter().find(|export| export.format == format).or_else(|| Self::find(format))
+    }
+
+    /// Whether it reads the graph.
+    #[must_use]
+    pub fn reads_graph(&self) -> bool {
+        self.options.contains(&RADIUS)
     }
 }

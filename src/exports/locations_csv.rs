@@ -78,6 +78,15 @@ impl Profile {
         }
     }
 
+    /// Most characters that the system takes for a name of a warehouse, of a storage type or of a zone.
+    pub(super) const fn longest_name(self) -> usize {
+        match self {
+            Self::Generic | Self::Odoo => 64,
+            Self::SapEwm => 4,
+            Self::BusinessCentral => 10,
+        }
+    }
+
     const fn columns(self) -> &'static [SheetColumn] {
         match self {
             Self::Generic => ALL,

@@ -3,18 +3,19 @@
 //! Source: Nav2, `nav2_costmap_2d/filters` and `map_io.cpp`, github.com/ros-navigation/navigation2.
 //!
 //! Method: a picture of the size and place of the map, each cell after the face it lies in. A keepout mask is trinary:
-//! black is forbidden, white allowed, grey unknown. A speed mask is in mode `scale` with thresholds 0 and 1, so that a
+//! black is forbidden, white allowed. What lies outside the decomposed part of the map is forbidden: nobody
+//! knows what is there. A speed mask is in mode `scale` with thresholds 0 and 1, so that a
 //! grey of `100 - v` percent stands for `v` percent of the greatest speed under the filter's usual base 100 and
 //! multiplier -1; white is no limit. Cost: O(cells). Limits: the filters themselves are set up in the parameters of
 //! Nav2.
 
 use super::archive::NamedFile;
 use super::source::ExportSource;
+use super::yaml::number;
 use super::zones::Ground;
 
-/// Grey of an occupied cell, of an unknown one and of a free one, as `map_saver` of Nav2 writes them.
+/// Grey of an occupied cell and of a free one, as `map_saver` of Nav2 writes them.
 const BLACK: u8 = 0;
-const GREY: u8 = 205;
 const WHITE: u8 = 254;
 /// Thresholds that `map_saver` of Nav2 writes.
 const OCCUPIED_THRESHOLD: f64 = 0.65;
@@ -36,6 +37,17 @@ impl Default for KeepoutOptions {
     }
 }
 
+impl KeepoutOptions {
+    /// Whether vehicles must keep off ground; `None` is that outside the decomposed part of the map.
+    pub(super) fn forbids(self, ground: Option<Ground>) -> bool {
+        match ground {
+            None | Some(Ground::Blocked) => true,
+            Some(Ground::WorkPlace) => self.work_places,
+            Some(Ground::Way | Ground::Junction) => false,
+        }
+    }
+}
+
 /// Speeds of a speed mask.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SpeedOptions {
@@ -52,15 +64,10 @@ impl Default for SpeedOptions {
     }
 }
 
-/// Where vehicles must not drive: picture and metadata. Cells outside the decomposed part of the map are unknown.
+/// Where vehicles must not drive: picture and metadata.
 #[must_use]
 pub fn keepout(source: &ExportSource<'_>, options: KeepoutOptions) -> [NamedFile; 2] {
-    let grey = |ground: Option<Ground>| match ground {
-        None => GREY,
-        Some(Ground::Blocked) => BLACK,
-        Some(Ground::WorkPlace) if options.work_places => BLACK,
-        Some(Ground::Way | Ground::Junction | Ground::WorkPlace) => WHITE,
-    };
+    let grey = |ground: Option<Ground>| if options.forbids(ground) { BLACK } else { WHITE };
     let picture = NamedFile { name: "nav2-keepout.pgm".to_owned(), bytes: picture(source, grey) };
     let metadata = metadata(source, &picture.name, "trinary", [OCCUPIED_THRESHOLD, FREE_THRESHOLD]);
     [picture, NamedFile { name: "nav2-keepout.yaml".to_owned(), bytes: metadata }]
@@ -98,8 +105,8 @@ fn picture(source: &ExportSource<'_>, grey: impl Fn(Option<Ground>) -> u8) -> Ve
 
 fn metadata(source: &ExportSource<'_>, image: &str, mode: &str, [occupied, free]: [f64; 2]) -> Vec<u8> {
     let frame = source.grid.frame();
-    let [x, y, yaw] = [frame.origin.x, frame.origin.y, frame.yaw];
-    let place = format!("resolution: {:?}\norigin: [{x:?}, {y:?}, {yaw:?}]\n", frame.resolution);
-    let reading = format!("negate: 0\noccupied_thresh: {occupied:?}\nfree_thresh: {free:?}\n");
+    let [x, y, yaw, resolution] = [frame.origin.x, frame.origin.y, frame.yaw, frame.resolution].map(number);
+    let place = format!("resolution: {resolution}\norigin: [{x}, {y}, {yaw}]\n");
+    let reading = format!("negate: 0\noccupied_thresh: {}\nfree_thresh: {}\n", number(occupied), number(free));
     format!("image: {image}\nmode: {mode}\n{place}{reading}").into_bytes()
 }

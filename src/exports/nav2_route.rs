@@ -2,16 +2,18 @@
 //!
 //! Source: Nav2, `nav2_route`, `geojson_graph_file_loader.cpp`, github.com/ros-navigation/navigation2.
 //!
-//! Method: a point for each node, a line for each lane. What the loader asks for: ids are unsigned numbers, unique
+//! Method: a point for each node and for each bend of a lane, because Nav2 drives the straight line between nodes and
+//! reads no course of an edge; a line for each straight edge. What the loader asks for: ids are unsigned numbers, unique
 //! among nodes and edges; metadata holds texts and numbers alone, no null and no list; numbers are written with a
 //! decimal point, because the scorers take an integer for another type and fail. Coordinates are metres of the frame
 //! `map`, told as EPSG:3857 as Nav2's own graphs do. Limits: the loader refuses a graph without edges, so there is
-//! none; Nav2 drives a straight line between nodes and reads no bends.
+//! none.
 
 use serde::Serialize;
-use stillage_core::graph::{GraphNode, Lane, NodeKind};
+use stillage_core::graph::NodeKind;
 
 use super::source::{ExportError, ExportSource};
+use super::straight_graph::{StraightEdge, StraightGraph, StraightNode};
 use crate::features::rounded;
 
 /// Frame of the coordinates in ROS (REP 105).
@@ -115,8 +117,9 @@ pub fn graph(source: &ExportSource<'_>) -> Result<RouteGraph, ExportError> {
     if source.graph.lanes.is_empty() {
         return Err(ExportError::NoLanes);
     }
-    let nodes = source.graph.nodes.iter().enumerate().map(|(id, each)| node(source, id, each));
-    let edges = (source.graph.nodes.len()..).zip(&source.graph.lanes).map(|(id, lane)| edge(source, id, lane));
+    let graph = StraightGraph::of(source);
+    let nodes = graph.nodes.iter().enumerate().map(|(id, each)| node(source, id, each));
+    let edges = (graph.nodes.len()..).zip(&graph.edges).map(|(id, &each)| edge(source, &graph, id, each));
     Ok(RouteGraph {
         r#type: "FeatureCollection",
         name: source.name.to_owned(),
@@ -125,32 +128,33 @@ pub fn graph(source: &ExportSource<'_>) -> Result<RouteGraph, ExportError> {
     })
 }
 
-fn node(source: &ExportSource<'_>, id: usize, node: &GraphNode) -> RouteFeature {
-    let location = node.location.and_then(|index| source.layout.locations.get(index));
+fn node(source: &ExportSource<'_>, id: usize, node: &StraightNode<'_>) -> RouteFeature {
+    let location = node.node.and_then(|node| source.layout.locations.get(node.location?));
     let metadata = RouteNodeMetadata {
-        name: node.name.clone(),
-        class: class(node.kind),
+        name: node.name.to_string(),
+        class: node.node.map_or("bend", |node| class(node.kind)),
         location: location.map(|location| location.code.clone()),
-        heading: node.heading.map(|angle| source.heading(angle)),
+        heading: node.node.and_then(|node| node.heading).map(|angle| source.heading(angle)),
     };
     RouteFeature::Node(GeoFeature {
         r#type: "Feature",
         properties: RouteNodeProperties { id, frame: FRAME, metadata },
-        geometry: GeoShape { r#type: "Point", coordinates: source.position(node.position) },
+        geometry: GeoShape { r#type: "Point", coordinates: node.position },
     })
 }
 
-fn edge(source: &ExportSource<'_>, id: usize, lane: &Lane) -> RouteFeature {
+fn edge(source: &ExportSource<'_>, graph: &StraightGraph<'_>, id: usize, edge: StraightEdge<'_>) -> RouteFeature {
+    let StraightEdge { from, to, lane } = edge;
     let metadata = RouteEdgeMetadata { class: source.lane_label(lane).to_owned(), width: rounded(lane.width) };
     let properties = RouteEdgeProperties {
         id,
-        startid: lane.from,
-        endid: lane.to,
-        cost: rounded(lane.length()),
+        startid: from,
+        endid: to,
+        cost: rounded(graph.length(edge)),
         overridable: true,
         metadata,
     };
-    let course = lane.path.iter().map(|&point| source.position(point)).collect();
+    let course = [from, to].map(|node| graph.nodes[node].position).into();
     RouteFeature::Edge(GeoFeature {
         r#type: "Feature",
         properties,

@@ -9,13 +9,10 @@
 
 use std::collections::BTreeSet;
 
-use stillage_core::graph::NodeKind;
-
-use super::rmf_graph::RmfGraph;
-use super::rmf_nav_graph::list_head;
+use super::rmf_nav_graph::{is_holding_point, list_head, vertex_name};
 use super::source::ExportSource;
-use super::yaml::quoted;
-use crate::features::rounded;
+use super::straight_graph::StraightGraph;
+use super::yaml::{number, quoted};
 
 /// What a file without people, without other levels and with one level on the ground has.
 const CROWD: &str = "crowd_sim: {agent_groups: [], agent_profiles: [], enable: 0, goal_sets: [], model_types: [], \
@@ -24,17 +21,17 @@ const CROWD: &str = "crowd_sim: {agent_groups: [], agent_profiles: [], enable: 0
 /// The building as YAML.
 #[must_use]
 pub fn building(source: &ExportSource<'_>) -> Vec<u8> {
-    let graph = RmfGraph::of(source);
+    let graph = StraightGraph::of(source);
     let mut text = head(source);
     let mut line = |line: String| text.extend([line.as_str(), "\n"]);
-    line(list_head("vertices", graph.vertices.is_empty()));
-    for vertex in &graph.vertices {
-        let properties = if vertex.kind == Some(NodeKind::DeadEnd) { "is_holding_point: [4, true]" } else { "" };
-        let [x, y] = vertex.position;
-        line(format!("      - [{x:?}, {y:?}, 0, {}, {{{properties}}}]", quoted(vertex.name)));
+    line(list_head("vertices", graph.nodes.is_empty()));
+    for vertex in &graph.nodes {
+        let properties = if is_holding_point(vertex) { "is_holding_point: [4, true]" } else { "" };
+        let ([x, y], name) = (vertex.position.map(number), quoted(vertex_name(vertex)));
+        line(format!("      - [{x}, {y}, 0, {name}, {{{properties}}}]"));
     }
-    line(list_head("lanes", graph.lanes.is_empty()));
-    let all: BTreeSet<[usize; 2]> = graph.lanes.iter().copied().collect();
+    line(list_head("lanes", graph.edges.is_empty()));
+    let all: BTreeSet<[usize; 2]> = graph.edges.iter().map(|edge| [edge.from, edge.to]).collect();
     for &[from, to] in &all {
         let is_both = all.contains(&[to, from]);
         if from < to || !is_both {
@@ -52,10 +49,10 @@ pub fn building(source: &ExportSource<'_>) -> Vec<u8> {
 /// Everything before the vertices.
 fn head(source: &ExportSource<'_>) -> String {
     let cell = source.grid.resolution();
-    let [width, height] = [source.grid.width(), source.grid.height()].map(|cells| rounded(cells as f64 * cell));
+    let [width, height] = [source.grid.width(), source.grid.height()].map(|cells| number(cells as f64 * cell));
     let building = format!("name: {}\ncoordinate_system: cartesian_meters\n{CROWD}\n", quoted(source.name));
     let level = "graphs: {}\nlevels:\n  L1:\n    elevation: 0\n    layers: {}\n";
-    let size = format!("    x_meters: {width:?}\n    y_meters: {height:?}\n");
+    let size = format!("    x_meters: {width}\n    y_meters: {height}\n");
     let offset = "    flattened_x_offset: 0\n    flattened_y_offset: 0\n    fiducials: []\n";
     [&building, level, &size, offset].concat()
 }

@@ -9,32 +9,41 @@
 
 use stillage_core::graph::NodeKind;
 
-use super::rmf_graph::RmfGraph;
 use super::source::ExportSource;
-use super::yaml::quoted;
+use super::straight_graph::{StraightGraph, StraightNode};
+use super::yaml::{number, quoted};
 
 /// The graph as YAML.
 #[must_use]
 pub fn nav_graph(source: &ExportSource<'_>) -> Vec<u8> {
-    let graph = RmfGraph::of(source);
+    let graph = StraightGraph::of(source);
     let mut text = format!("building_name: {}\ndoors: {{}}\nlifts: {{}}\nlevels:\n  L1:\n", quoted(source.name));
     let mut line = |line: String| text.extend([line.as_str(), "\n"]);
-    line(list_head("vertices", graph.vertices.is_empty()));
-    for vertex in &graph.vertices {
-        let mut properties =
-            if vertex.name.is_empty() { String::new() } else { format!("name: {}", quoted(vertex.name)) };
-        if vertex.kind == Some(NodeKind::DeadEnd) {
-            // A vehicle that waits there is in nobody's way.
+    line(list_head("vertices", graph.nodes.is_empty()));
+    for vertex in &graph.nodes {
+        let name = vertex_name(vertex);
+        let mut properties = if name.is_empty() { String::new() } else { format!("name: {}", quoted(name)) };
+        if is_holding_point(vertex) {
             properties.push_str(", is_holding_point: true");
         }
-        let [x, y] = vertex.position;
-        line(format!("    - [{x:?}, {y:?}, {{{properties}}}]"));
+        let [x, y] = vertex.position.map(number);
+        line(format!("    - [{x}, {y}, {{{properties}}}]"));
     }
-    line(list_head("lanes", graph.lanes.is_empty()));
-    for [from, to] in graph.lanes {
-        line(format!("    - [{from}, {to}, {{}}]"));
+    line(list_head("lanes", graph.edges.is_empty()));
+    for edge in graph.edges {
+        line(format!("    - [{}, {}, {{}}]", edge.from, edge.to));
     }
     text.into_bytes()
+}
+
+/// Name of a vertex; empty at a bend, which is no place to send a vehicle to.
+pub(super) fn vertex_name<'a>(vertex: &StraightNode<'a>) -> &'a str {
+    vertex.node.map_or("", |node| &node.name)
+}
+
+/// Whether a vehicle may wait there: at the end of a lane it is in nobody's way.
+pub(super) fn is_holding_point(vertex: &StraightNode<'_>) -> bool {
+    vertex.node.is_some_and(|node| node.kind == NodeKind::DeadEnd)
 }
 
 /// The key of a list; an empty list stands beside its key.

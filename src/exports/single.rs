@@ -3,11 +3,12 @@
 use serde::Serialize;
 
 use super::archive::zip;
-use super::list::{ExportOptions, SingleExport};
+use super::list::SingleExport;
+use super::options::ExportOptions;
 use super::source::{ExportError, ExportSource};
 use super::{
-    graph_ml, lif_1, lif_2, locations_csv, locations_xlsx, moving_ai, nav2_masks, nav2_route, rmf_building,
-    rmf_nav_graph, vda5050_zone_set,
+    faces, graph_ml, lif_1, lif_2, locations_csv, locations_xlsx, moving_ai, nav2_masks, nav2_route,
+    nav2_vector_objects, rmf_building, rmf_nav_graph, vda5050_zone_set,
 };
 
 /// Writes an export.
@@ -19,16 +20,18 @@ pub(super) fn single(
     Ok(match export {
         SingleExport::Lif1 => json(&lif_1::layout(source)),
         SingleExport::Lif2 => json(&lif_2::layout(source)),
-        SingleExport::ZoneSet => json(&vda5050_zone_set::zone_set(source, &options.zone_set)),
+        SingleExport::ZoneSet => json(&vda5050_zone_set::zone_set(source, &options.zones, &options.recipient)?),
         SingleExport::Nav2Route => json(&nav2_route::graph(source)?),
         SingleExport::Nav2Keepout => zip(&nav2_masks::keepout(source, options.keepout)),
         SingleExport::Nav2Speed => zip(&nav2_masks::speed(source, options.speed)),
+        SingleExport::Nav2VectorObjects => nav2_vector_objects::parameters(source, options.keepout),
         SingleExport::RmfNavGraph => rmf_nav_graph::nav_graph(source),
         SingleExport::RmfBuilding => rmf_building::building(source),
         SingleExport::MovingAi => moving_ai::map(source),
         SingleExport::LocationsCsv => locations_csv::locations(source, options.profile, &options.inventory),
         SingleExport::LocationsXlsx => locations_xlsx::locations(source)?,
         SingleExport::GraphMl => graph_ml::graph(source),
+        SingleExport::Faces => faces::faces(source, options.crs),
     })
 }
 

@@ -10,7 +10,8 @@ use stillage_core::semantics::SemanticMap;
 use stillage_core::{Analysis, OccupancyGrid, Point};
 use thiserror::Error;
 
-use crate::features::rounded;
+use crate::coordinates::Georeference;
+use crate::features::{AnalysedMap, rounded};
 
 /// Name of this program, where a format asks for the author of a file.
 pub(super) const CREATOR: &str = "stillage";
@@ -26,8 +27,8 @@ pub struct ExportSource<'a> {
     pub name: &'a str,
     /// Id of the map.
     pub map_id: &'a str,
-    /// Version of the map, counted up with every change.
-    pub version: u64,
+    /// Version of the map and its labels: another text with every change.
+    pub version: &'a str,
     /// When that version was made. Exports tell this time, not that of the export: the same version gives the same
     /// bytes.
     pub created: Timestamp,
@@ -41,12 +42,14 @@ pub struct ExportSource<'a> {
     pub cells: &'a CellFaces,
     /// Storage locations, aisles and rows.
     pub layout: &'a Layout,
-    /// Nodes and lanes.
+    /// Nodes and lanes; not read by exports that have no option `footprintRadiusM`.
     pub graph: &'a NavigationGraph,
+    /// Where the map lies on Earth.
+    pub georeference: Option<Georeference>,
 }
 
 /// Why a map cannot be exported in some format.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum ExportError {
     /// The format has no empty graph.
     #[error("the map has no lanes: label its corridors and junctions first")]
@@ -59,9 +62,32 @@ pub enum ExportError {
         /// The most that fit.
         most: usize,
     },
+    /// A vehicle needs an address to fetch the bundle from.
+    #[error("link is missing: say where vehicles fetch bundle.zip")]
+    NoLink,
+    /// An option is about a label that the map does not have.
+    #[error("no label has the id {label}; there are {known}")]
+    UnknownLabel {
+        /// The option.
+        option: &'static str,
+        /// The id.
+        label: String,
+        /// The ids that there are.
+        known: String,
+    },
 }
 
 impl<'a> ExportSource<'a> {
+    /// The map as [`crate::features`] reads it.
+    pub(super) const fn view(&self) -> AnalysedMap<'a> {
+        AnalysedMap { analysis: self.analysis, semantic: self.semantic, layout: self.layout }
+    }
+
+    /// When the version was made, ISO 8601 in UTC with milliseconds: the form that VDA 5050 asks for.
+    pub(super) fn created_text(&self) -> String {
+        format!("{:.3}", self.created)
+    }
+
     /// A point of the grid frame -> x and y in the map frame, metres, rounded to a tenth of a millimetre.
     pub(super) fn position(&self, point: Point) -> [f64; 2] {
         let point = self.analysis.frame.to_map(point);

@@ -4,39 +4,17 @@
 //! file over HTTP. Method: the link leads to the bundle of a version of the map; its hash is SHA-256. Limits: what a
 //! vehicle makes of the file is its manufacturer's affair.
 
-use jiff::Timestamp;
 use serde::Serialize;
 
 use super::source::ExportSource;
-
-/// Version of the protocol.
-const VERSION: &str = "3.0.0";
-
-/// To whom the order goes, and where the file lies.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct MapDownload {
-    /// Manufacturer of the vehicle.
-    pub manufacturer: String,
-    /// Its serial number.
-    pub serial_number: String,
-    /// Where the vehicle fetches the bundle.
-    pub link: String,
-}
-
-impl Default for MapDownload {
-    /// For any vehicle, beside this file.
-    fn default() -> Self {
-        let any = || "any".to_owned();
-        Self { manufacturer: any(), serial_number: any(), link: "bundle.zip".to_owned() }
-    }
-}
+use super::vda5050_header::{Recipient, VERSION};
 
 /// A message on the topic `instantActions`.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(rename_all = "camelCase")]
 pub struct InstantActions {
     header_id: u32,
-    timestamp: Timestamp,
+    timestamp: String,
     version: &'static str,
     manufacturer: String,
     serial_number: String,
@@ -62,19 +40,19 @@ pub struct ActionParameter {
 
 /// The order to fetch the bundle of a version of a map; `hash` is the SHA-256 of the bundle, in hexadecimal digits.
 #[must_use]
-pub fn download_map(source: &ExportSource<'_>, download: &MapDownload, hash: String) -> InstantActions {
+pub fn download_map(source: &ExportSource<'_>, recipient: &Recipient, link: &str, hash: String) -> InstantActions {
     let parameters = [
         ("mapId", source.map_id.to_owned()),
-        ("mapVersion", source.version.to_string()),
-        ("mapDownloadLink", download.link.clone()),
+        ("mapVersion", source.version.to_owned()),
+        ("mapDownloadLink", link.to_owned()),
         ("mapHash", hash),
     ];
     InstantActions {
         header_id: 0,
-        timestamp: source.created,
+        timestamp: source.created_text(),
         version: VERSION,
-        manufacturer: download.manufacturer.clone(),
-        serial_number: download.serial_number.clone(),
+        manufacturer: recipient.manufacturer.clone(),
+        serial_number: recipient.serial_number.clone(),
         actions: [DownloadAction {
             action_type: "downloadMap",
             action_id: format!("download-{}-{}", source.map_id, source.version),

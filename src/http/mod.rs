@@ -84,6 +84,8 @@ fn answered_in_time() -> OpenApiRouter<Arc<App>> {
         .routes(routes!(ogc::items::get))
         .routes(routes!(fleet::route::get))
         .routes(routes!(fleet::distance_matrix::create))
+        .routes(routes!(fleet::exports::list))
+        .routes(routes!(fleet::exports::get))
         .routes(routes!(ogc::jobs::list))
         .routes(routes!(ogc::jobs::get, ogc::jobs::dismiss))
         .routes(routes!(ogc::jobs::events))

@@ -8,6 +8,7 @@ pub mod category;
 pub mod comparison;
 pub mod diagnostics;
 pub mod evaluation;
+pub mod export;
 pub mod feature;
 pub mod georeference;
 pub mod id;

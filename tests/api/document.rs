@@ -182,6 +182,8 @@ async fn valid(site: &Site, operation: &str) -> (Sent, &'static [u16]) {
             let ends = json!({"from": ["-1,3.5", "face:1"], "to": ["12,0"], "crs": "EPSG:3857"});
             (Sent::new(Method::POST, format!("{map}/distance-matrix")).json(&ends), &[200])
         }
+        "listExports" => get(format!("{map}/exports")),
+        "getExport" => get(format!("{map}/exports/locations.csv?profile=odoo")),
         "listRuleSets" => get("/v1/rule-sets".into()),
         "createRuleSet" => (Sent::new(Method::POST, "/v1/rule-sets").json(&rule_set("new")), &[201]),
         "getRuleSet" => get("/v1/rule-sets/office".into()),
@@ -229,6 +231,7 @@ fn wrongs(site: &Site, operation: &str, good: &Sent) -> Vec<Sent> {
         }
         "getCollection" => vec![own(&format!("{}/collections/none", site.map))],
         "getFeature" => vec![own(&format!("{}/collections/vertices/items/999999", site.map))],
+        "getExport" => vec![own(&format!("{}/exports/none.json", site.map))],
         "getRoute" => vec![own(&format!("{}/routes?from=face:1&to=face:9999", site.map))],
         "dismissJob" => vec![own(&format!("/v1/jobs/{}", site.over))],
         "createRuleSet" => vec![sent().json(&rule_set("office"))],

@@ -10,6 +10,7 @@
 mod client;
 mod document;
 mod evaluations;
+mod exports;
 mod features;
 mod jobs;
 mod maps;

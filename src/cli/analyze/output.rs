@@ -11,9 +11,9 @@ use stillage_core::Occupancy;
 use stillage_core::analysis::ALGORITHM_VERSION;
 use stillage_core::semantics::Suggestion;
 
-use super::findings::Findings;
 use crate::app::StageReport;
 use crate::cli::failure::Failure;
+use crate::cli::findings::Findings;
 use crate::coordinates::Transform;
 use crate::features::{AnalysedMap, Collection, features};
 use crate::formats::{csv, geojson};

@@ -24,7 +24,7 @@ fn a_keepout_mask_is_read_back_cell_for_cell() {
     assert_eq!(mask.frame(), site.grid.frame());
     for (cell, &face) in mask.cells().iter().zip(site.cells.as_slice()) {
         let expected = match source.semantic.label(face) {
-            _ if face.0 == 0 => Occupancy::Unknown,
+            _ if face.0 == 0 => Occupancy::Occupied,
             label if label.is_drivable() => Occupancy::Free,
             _ => Occupancy::Occupied,
         };

@@ -6,8 +6,8 @@ use stillage_core::geometry::ring_area;
 use stillage_core::graph::NavigationGraph;
 
 use super::Site;
-use crate::exports::vda5050_zone_set::ZoneSetOptions;
-use crate::exports::{ExportError, ExportSource, nav2_route, rmf_building, rmf_nav_graph, vda5050_zone_set};
+use crate::exports::vda5050_zone_rules::ZoneRules;
+use crate::exports::{ExportError, ExportSource, Recipient, nav2_route, rmf_building, rmf_nav_graph, vda5050_zone_set};
 
 #[test]
 fn a_nav2_graph_is_written_as_its_loader_reads_it() {
@@ -18,12 +18,15 @@ fn a_nav2_graph_is_written_as_its_loader_reads_it() {
         {"type":"Feature","properties":{"id":1,"frame":"map","metadata":{"name":"N0002","class":"dead-end"}},"geometry":{"type":"Point","coordinates":[14.245,18.929]}}
         {"type":"Feature","properties":{"id":2,"frame":"map","metadata":{"name":"01-001","class":"approach","location":"01-001","heading":1.870796}},"geometry":{"type":"Point","coordinates":[6.3363,17.4247]}}
         {"type":"Feature","properties":{"id":3,"frame":"map","metadata":{"name":"01-002","class":"approach","location":"01-002","heading":-1.270796}},"geometry":{"type":"Point","coordinates":[6.8682,15.705]}}
-        {"type":"Feature","properties":{"id":4,"startid":0,"endid":1,"cost":16.0078,"overridable":true,"metadata":{"class":"co","width":2.5}},"geometry":{"type":"MultiLineString","coordinates":[[[-1.0404,14.2007],[6.5284,16.8037],[14.245,18.929]]]}}
-        {"type":"Feature","properties":{"id":5,"startid":0,"endid":2,"cost":8.0505,"overridable":true,"metadata":{"class":"co","width":2.5}},"geometry":{"type":"MultiLineString","coordinates":[[[-1.0404,14.2007],[6.3363,17.4247]]]}}
-        {"type":"Feature","properties":{"id":6,"startid":0,"endid":3,"cost":8.0505,"overridable":true,"metadata":{"class":"co","width":2.5}},"geometry":{"type":"MultiLineString","coordinates":[[[-1.0404,14.2007],[6.8682,15.705]]]}}
-        {"type":"Feature","properties":{"id":7,"startid":1,"endid":0,"cost":16.0078,"overridable":true,"metadata":{"class":"co","width":2.5}},"geometry":{"type":"MultiLineString","coordinates":[[[14.245,18.929],[6.5284,16.8037],[-1.0404,14.2007]]]}}
-        {"type":"Feature","properties":{"id":8,"startid":2,"endid":0,"cost":8.0505,"overridable":true,"metadata":{"class":"co","width":2.5}},"geometry":{"type":"MultiLineString","coordinates":[[[6.3363,17.4247],[-1.0404,14.2007]]]}}
-        {"type":"Feature","properties":{"id":9,"startid":3,"endid":0,"cost":8.0505,"overridable":true,"metadata":{"class":"co","width":2.5}},"geometry":{"type":"MultiLineString","coordinates":[[[6.8682,15.705],[-1.0404,14.2007]]]}}
+        {"type":"Feature","properties":{"id":4,"frame":"map","metadata":{"name":"N0001/N0002/1","class":"bend"}},"geometry":{"type":"Point","coordinates":[6.5284,16.8037]}}
+        {"type":"Feature","properties":{"id":5,"startid":0,"endid":4,"cost":8.0039,"overridable":true,"metadata":{"class":"co","width":2.5}},"geometry":{"type":"MultiLineString","coordinates":[[[-1.0404,14.2007],[6.5284,16.8037]]]}}
+        {"type":"Feature","properties":{"id":6,"startid":4,"endid":1,"cost":8.0039,"overridable":true,"metadata":{"class":"co","width":2.5}},"geometry":{"type":"MultiLineString","coordinates":[[[6.5284,16.8037],[14.245,18.929]]]}}
+        {"type":"Feature","properties":{"id":7,"startid":0,"endid":2,"cost":8.0505,"overridable":true,"metadata":{"class":"co","width":2.5}},"geometry":{"type":"MultiLineString","coordinates":[[[-1.0404,14.2007],[6.3363,17.4247]]]}}
+        {"type":"Feature","properties":{"id":8,"startid":0,"endid":3,"cost":8.0504,"overridable":true,"metadata":{"class":"co","width":2.5}},"geometry":{"type":"MultiLineString","coordinates":[[[-1.0404,14.2007],[6.8682,15.705]]]}}
+        {"type":"Feature","properties":{"id":9,"startid":1,"endid":4,"cost":8.0039,"overridable":true,"metadata":{"class":"co","width":2.5}},"geometry":{"type":"MultiLineString","coordinates":[[[14.245,18.929],[6.5284,16.8037]]]}}
+        {"type":"Feature","properties":{"id":10,"startid":4,"endid":0,"cost":8.0039,"overridable":true,"metadata":{"class":"co","width":2.5}},"geometry":{"type":"MultiLineString","coordinates":[[[6.5284,16.8037],[-1.0404,14.2007]]]}}
+        {"type":"Feature","properties":{"id":11,"startid":2,"endid":0,"cost":8.0505,"overridable":true,"metadata":{"class":"co","width":2.5}},"geometry":{"type":"MultiLineString","coordinates":[[[6.3363,17.4247],[-1.0404,14.2007]]]}}
+        {"type":"Feature","properties":{"id":12,"startid":3,"endid":0,"cost":8.0504,"overridable":true,"metadata":{"class":"co","width":2.5}},"geometry":{"type":"MultiLineString","coordinates":[[[6.8682,15.705],[-1.0404,14.2007]]]}}
     "#]].assert_eq(&lines);
 }
 
@@ -37,7 +40,7 @@ fn a_nav2_graph_without_edges_is_refused() {
 #[test]
 fn zones_cover_every_face_once() {
     let source = Site::whole().source();
-    let message = vda5050_zone_set::zone_set(&source, &ZoneSetOptions::default());
+    let message = vda5050_zone_set::zone_set(&source, &ZoneRules::default(), &Recipient::default()).unwrap();
     let zones = &message.zone_set.zones;
     let area = |zone: &vda5050_zone_set::Zone| {
         ring_area(&zone.vertices.iter().map(|corner| Point::new(corner.x, corner.y)).collect::<Vec<_>>())
@@ -56,13 +59,13 @@ fn zones_cover_every_face_once() {
 
 #[test]
 fn the_id_of_a_zone_set_changes_with_its_content_alone() {
-    let id = |source: &ExportSource<'_>, junction_speed: f64| {
-        let options = ZoneSetOptions { junction_speed, ..ZoneSetOptions::default() };
-        vda5050_zone_set::zone_set(source, &options).zone_set.zone_set_id
+    let id = |source: &ExportSource<'_>, speed: &str| {
+        let rules = ZoneRules::read(&format!("ju:SPEED_LIMIT:{speed}")).unwrap();
+        vda5050_zone_set::zone_set(source, &rules, &Recipient::default()).unwrap().zone_set.zone_set_id
     };
     let source = Site::whole().source();
-    assert_eq!(id(&source, 1.0), id(&ExportSource { version: 8, ..source }, 1.0));
-    assert_ne!(id(&source, 1.0), id(&source, 0.5));
+    assert_eq!(id(&source, "1"), id(&ExportSource { version: "8", ..source }, "1"));
+    assert_ne!(id(&source, "1"), id(&source, "0.5"));
 }
 
 #[test]

@@ -55,7 +55,7 @@ impl Site {
         ExportSource {
             name,
             map_id: "hall",
-            version: 7,
+            version: "7",
             created: "2026-01-15T08:00:00Z".parse().unwrap(),
             grid,
             analysis: view.analysis,
@@ -63,6 +63,7 @@ impl Site {
             cells,
             layout,
             graph,
+            georeference: None,
         }
     }
 }

@@ -1,15 +1,20 @@
 //! All exports at once.
 
 use std::collections::BTreeSet;
-use std::path::Path;
+
+use stillage_core::graph::NavigationGraph;
 
 use super::Site;
-use crate::exports::{Export, ExportOptions, list, write};
+use crate::exports::{Export, ExportOptions, ExportSource, list, write};
+
+fn options() -> ExportOptions {
+    ExportOptions { link: Some("https://maps.example/bundle.zip".to_owned()), ..ExportOptions::default() }
+}
 
 #[test]
 fn every_export_has_a_name_of_its_own_and_the_same_bytes_each_time() {
     let source = Site::whole().source();
-    let options = ExportOptions::default();
+    let options = options();
     let names: BTreeSet<&str> = list().iter().map(|export| export.name).collect();
     assert_eq!(names.len(), list().len());
     for export in list() {
@@ -20,13 +25,11 @@ fn every_export_has_a_name_of_its_own_and_the_same_bytes_each_time() {
     }
 }
 
-/// Writes all exports of the hall to the folder that `STILLAGE_EXPORTS` names, for `tests/exports/validate.py`.
 #[test]
-fn exports_for_the_validator() {
-    let Some(folder) = std::env::var_os("STILLAGE_EXPORTS") else { return };
-    std::fs::create_dir_all(&folder).unwrap();
-    for export in list() {
-        let bytes = write(export, &Site::whole().source(), &ExportOptions::default()).unwrap();
-        std::fs::write(Path::new(&folder).join(export.name), bytes).unwrap();
+fn exports_without_a_radius_do_not_read_the_graph() {
+    let (source, empty) = (Site::whole().source(), NavigationGraph::default());
+    for export in list().iter().filter(|export| !export.reads_graph()) {
+        let without = write(export, &ExportSource { graph: &empty, ..source }, &options()).unwrap();
+        assert_eq!(without, write(export, &source, &options()).unwrap(), "{}", export.name);
     }
 }

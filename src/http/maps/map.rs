@@ -44,6 +44,7 @@ fn map_links(base: &Base, map: &MapRecord) -> Vec<Link> {
         to("related", "/registry", JSON).titled("Codes and names of the site's places"),
         to("related", "/changes", JSON).titled("What changed since a version of the labels"),
         to("version-history", "/semantics/versions", JSON).titled("Versions of the labels"),
+        to("related", "/exports", JSON).titled("Files for fleet managers, planners and inventory systems"),
         to("related", "/routes", crate::http::links::GEO_JSON).titled("Routes between two places"),
     ];
     links.extend(pictures::NAMES.map(|(name, kind, title)| to("preview", &format!("/{name}"), kind).titled(title)));
