@@ -7,7 +7,7 @@
 
 /// A table: number and value of each field. Fields that are left out have the value that the schema gives them.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Table<'a>(pub Vec<(usize, Field<'a>)>);
+pub(super) struct FlatTable<'a>(pub Vec<(usize, Field<'a>)>);
 
 /// The value of a field.
 #[derive(Debug, Clone)]
@@ -20,8 +20,8 @@ pub(super) enum Field<'a> {
     Bytes(Vec<u8>),
     Uints(Vec<u32>),
     Doubles(Vec<f64>),
-    Table(Table<'a>),
-    Tables(Vec<Table<'a>>),
+    Table(FlatTable<'a>),
+    Tables(Vec<FlatTable<'a>>),
 }
 
 impl Field<'_> {
@@ -37,7 +37,7 @@ impl Field<'_> {
 }
 
 /// A buffer that begins with its size.
-pub(super) fn buffer(root: &Table<'_>) -> Vec<u8> {
+pub(super) fn buffer(root: &FlatTable<'_>) -> Vec<u8> {
     // Size of the buffer, then offset of the root.
     let mut out = vec![0; 8];
     refer(&mut out, 4, |out| table(out, root));
@@ -60,7 +60,7 @@ fn align(out: &mut Vec<u8>, to: usize, ahead: usize) {
 }
 
 /// Appends a table and what it refers to; where it begins.
-fn table(out: &mut Vec<u8>, table: &Table<'_>) -> usize {
+fn table(out: &mut Vec<u8>, table: &FlatTable<'_>) -> usize {
     // The largest first, so that little is lost between them.
     let mut fields: Vec<&(usize, Field<'_>)> = table.0.iter().collect();
     fields.sort_by_key(|(_, field)| std::cmp::Reverse(field.size()));

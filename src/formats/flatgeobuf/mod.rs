@@ -17,7 +17,7 @@ use stillage_core::geometry::Bounds;
 use crate::coordinates::{Crs, Transform};
 use crate::features::{Collection, CollectionSchema, Feature, Geometry, GeometryType, Kind, Property, Value};
 
-use flat_buffer::{Field, Table, buffer};
+use flat_buffer::{Field, FlatTable, buffer};
 
 /// `fgb`, major version 3, `fgb`, patch 0.
 const MAGIC: [u8; 8] = *b"fgb\x03fgb\x00";
@@ -37,7 +37,7 @@ pub fn collection<'a>(
     transform: &Transform,
 ) -> Vec<u8> {
     let schema = CollectionSchema::of(collection);
-    let shape = Shape::of(schema.geometry);
+    let shape = FileShape::of(schema.geometry);
     let mut bodies = Vec::new();
     let (mut count, mut bounds) = (0, Bounds::EMPTY);
     for feature in features {
@@ -48,7 +48,7 @@ pub fn collection<'a>(
         bodies.extend(buffer(&body(feature, shape, schema, transform)));
         count += 1;
     }
-    let mut header = Table(vec![
+    let mut header = FlatTable(vec![
         (0, Field::Text(collection.id())),
         (2, Field::Byte(shape as u8)),
         (7, Field::Tables(schema.properties.iter().enumerate().map(column).collect())),
@@ -67,7 +67,7 @@ pub fn collection<'a>(
 
 /// What shapes a file has, by their number in the format.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Shape {
+enum FileShape {
     Point = 1,
     LineString = 2,
     Polygon = 3,
@@ -75,7 +75,7 @@ enum Shape {
     MultiPolygon = 6,
 }
 
-impl Shape {
+impl FileShape {
     /// The one type that takes all of these.
     fn of(types: &[GeometryType]) -> Self {
         match types.last() {
@@ -88,15 +88,15 @@ impl Shape {
     }
 }
 
-fn crs(crs: Crs) -> Table<'static> {
+fn crs(crs: Crs) -> FlatTable<'static> {
     let code = match crs {
         Crs::Crs84 => 4326,
         Crs::WebMercator => 3857,
     };
-    Table(vec![(0, Field::Text("EPSG")), (1, Field::Int(code))])
+    FlatTable(vec![(0, Field::Text("EPSG")), (1, Field::Int(code))])
 }
 
-fn column((index, property): (usize, &Property)) -> Table<'static> {
+fn column((index, property): (usize, &Property)) -> FlatTable<'static> {
     let Property { name, title, description, kind, nullable, .. } = *property;
     let r#type = match kind {
         Kind::Boolean => BOOLEAN,
@@ -105,7 +105,7 @@ fn column((index, property): (usize, &Property)) -> Table<'static> {
         Kind::Text | Kind::Word(_) => STRING,
         _ => JSON,
     };
-    Table(vec![
+    FlatTable(vec![
         (0, Field::Text(name)),
         (1, Field::Byte(r#type)),
         (2, Field::Text(title)),
@@ -116,8 +116,8 @@ fn column((index, property): (usize, &Property)) -> Table<'static> {
     ])
 }
 
-fn body(feature: &Feature, shape: Shape, schema: &CollectionSchema, transform: &Transform) -> Table<'static> {
-    let mut table = Table(vec![(1, Field::Bytes(properties(feature, schema)))]);
+fn body(feature: &Feature, shape: FileShape, schema: &CollectionSchema, transform: &Transform) -> FlatTable<'static> {
+    let mut table = FlatTable(vec![(1, Field::Bytes(properties(feature, schema)))]);
     if feature.geometry.points().next().is_some() {
         table.0.push((0, Field::Table(geometry(&feature.geometry, shape, transform))));
     }
@@ -152,15 +152,15 @@ fn text(text: &str, out: &mut Vec<u8>) {
     out.extend(text.bytes());
 }
 
-fn geometry(geometry: &Geometry, shape: Shape, transform: &Transform) -> Table<'static> {
+fn geometry(geometry: &Geometry, shape: FileShape, transform: &Transform) -> FlatTable<'static> {
     let positions = |points: &mut dyn Iterator<Item = &Point>| -> Vec<f64> {
         points.flat_map(|&point| transform.forward(point)).collect()
     };
     let mut table = match geometry {
-        Geometry::Point(point) => Table(vec![(1, Field::Doubles(positions(&mut std::iter::once(point))))]),
+        Geometry::Point(point) => FlatTable(vec![(1, Field::Doubles(positions(&mut std::iter::once(point))))]),
         Geometry::LineString(path) => paths(std::slice::from_ref(path), false, transform),
         Geometry::MultiLineString(all) => paths(all, false, transform),
-        Geometry::Polygon(rings) if shape == Shape::MultiPolygon => several(std::slice::from_ref(rings), transform),
+        Geometry::Polygon(rings) if shape == FileShape::MultiPolygon => several(std::slice::from_ref(rings), transform),
         Geometry::Polygon(rings) => paths(rings, true, transform),
         Geometry::MultiPolygon(polygons) => several(polygons, transform),
     };
@@ -168,22 +168,22 @@ fn geometry(geometry: &Geometry, shape: Shape, transform: &Transform) -> Table<'
     table
 }
 
-fn several(polygons: &[Vec<Vec<Point>>], transform: &Transform) -> Table<'static> {
+fn several(polygons: &[Vec<Vec<Point>>], transform: &Transform) -> FlatTable<'static> {
     let part = |rings: &Vec<Vec<Point>>| {
         let mut part = paths(rings, true, transform);
-        part.0.push((6, Field::Byte(Shape::Polygon as u8)));
+        part.0.push((6, Field::Byte(FileShape::Polygon as u8)));
         part
     };
-    Table(vec![(7, Field::Tables(polygons.iter().map(part).collect()))])
+    FlatTable(vec![(7, Field::Tables(polygons.iter().map(part).collect()))])
 }
 
 /// Paths, or rings that end where they begin: where each ends, counted in positions, and all positions.
-fn paths(paths: &[Vec<Point>], is_closed: bool, transform: &Transform) -> Table<'static> {
+fn paths(paths: &[Vec<Point>], is_closed: bool, transform: &Transform) -> FlatTable<'static> {
     let (mut ends, mut positions) = (Vec::new(), Vec::new());
     for path in paths {
         let last = path.first().filter(|_| is_closed);
         positions.extend(path.iter().chain(last).flat_map(|&point| transform.forward(point)));
         ends.push((positions.len() / 2) as u32);
     }
-    Table(vec![(0, Field::Uints(ends)), (1, Field::Doubles(positions))])
+    FlatTable(vec![(0, Field::Uints(ends)), (1, Field::Doubles(positions))])
 }

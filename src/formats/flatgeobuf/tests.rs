@@ -60,7 +60,7 @@ fn a_file_has_a_header_and_a_buffer_for_each_feature() {
 fn every_double_is_aligned_and_rings_are_closed() {
     let ring = vec![Point::new(0.0, 0.0), Point::new(1.0, 0.0), Point::new(1.0, 2.0)];
     let shape = Geometry::Polygon(vec![ring]);
-    let table = Table(vec![(0, Field::Table(geometry(&shape, Shape::MultiPolygon, &Transform::map_frame())))]);
+    let table = FlatTable(vec![(0, Field::Table(geometry(&shape, FileShape::MultiPolygon, &Transform::map_frame())))]);
     let bytes = buffer(&table);
     let root = 4 + number(&bytes, 4);
     let parts = target(&bytes, target(&bytes, root, 0), 7);
