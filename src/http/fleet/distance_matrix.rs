@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use stillage_core::routing::Waypoint;
 use utoipa::ToSchema;
 
-use super::vehicle::{self, Numbers};
+use super::vehicle::{self, Footprint, Numbers};
 use super::waypoint::End;
 use crate::app::{App, Caller, MapContext};
 use crate::blocking::off_the_runtime;
@@ -36,7 +36,7 @@ pub struct MatrixRequest {
     /// Distance that the middle of the vehicle keeps from obstacles, metres.
     #[serde(rename = "footprintRadiusM")]
     footprint_radius: Option<f64>,
-    /// Outline of the vehicle in its place: x and y of its corners, metres.
+    /// Outline of the vehicle in its place: x and y of its corners, metres. Ways are those of the circle around it.
     #[schema(value_type = Option<String>)]
     footprint: Option<Numbers>,
     /// Ids of faces that may not be driven on.
@@ -84,7 +84,7 @@ pub async fn create(
 
 fn measure(context: &MapContext, body: &MatrixRequest) -> Result<MatrixView, Problem> {
     let transform = Transform::new(body.crs.0, context.record.georeference);
-    let radius = vehicle::radius(context, body.footprint_radius, body.footprint.as_ref())?;
+    let radius = Footprint::of(context, body.footprint_radius, body.footprint.as_ref())?.turning_radius();
     let speed = vehicle::speeds(body.speed_mps, None, None)?.speed;
     let blocked = vehicle::blocked(context, &body.blocked_faces, &body.blocked_edges)?;
     let waypoints = |ends: &[End]| -> Result<Vec<Waypoint<'_>>, Problem> {

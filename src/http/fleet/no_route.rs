@@ -57,6 +57,14 @@ pub fn problem(reason: &NoRoute, context: &MapContext, transform: &Transform, ra
                 2.0 * radius
             ),
         ),
+        NoRoute::CannotTurn { at, clearance } => (
+            ProblemType::RouteTooNarrow,
+            format!(
+                "the outline of the vehicle touches an obstacle at {}, which is {clearance:.2} m from its middle; it turns \
+                 anywhere with {radius:.2} m",
+                place(*at)
+            ),
+        ),
         NoRoute::Disconnected { from, to } if from == to => {
             (ProblemType::RouteDisconnected, format!("obstacles divide face {from} between the ends"))
         }

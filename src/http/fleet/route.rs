@@ -7,11 +7,11 @@ use axum::http::header;
 use axum::response::{IntoResponse, Response};
 use serde::{Deserialize, Serialize};
 use stillage_core::Point;
-use stillage_core::routing::{self, Route, SpeedProfile, instructions};
+use stillage_core::routing::{self, OutlineRouters, Route, SpeedProfile, instructions};
 use utoipa::{IntoParams, ToSchema};
 
 use super::no_route;
-use super::vehicle::{self, Ids, LabelCosts, Numbers, ProfileName};
+use super::vehicle::{self, Footprint, Ids, LabelCosts, Numbers, ProfileName};
 use super::waypoint::End;
 use crate::app::{App, Caller, MapContext};
 use crate::blocking::off_the_runtime;
@@ -49,15 +49,15 @@ pub struct RouteQuery {
     #[param(value_type = Option<f64>, minimum = 0, maximum = 10)]
     #[serde(rename = "footprintRadiusM")]
     footprint_radius: Option<f64>,
-    /// Outline of the vehicle in place of its radius: x and y of its corners in metres, x forwards from its middle. The
-    /// circle around it is kept clear, so that it can turn anywhere.
+    /// Outline of the vehicle in place of its radius: x and y of its corners in metres, x forwards from its middle. It
+    /// drives forwards and turns on the spot where there is room. `alternatives` keep the circle around it clear.
     #[param(value_type = Option<String>, pattern = "^-?[0-9.]+(,-?[0-9.]+)*$")]
     footprint: Option<Numbers>,
     /// What is best: `shortest`, or `clearance` for distance from obstacles.
     #[serde(default)]
     #[param(inline)]
     profile: ProfileName,
-    /// Factors on the length of ways over labels, from 1: `ju:2,ro:5`.
+    /// Factors from 1 on the length of ways over labels, by the id of a label or a functionality: `ju:2,connection:5`.
     #[serde(default)]
     #[param(value_type = Option<String>, pattern = "^[^:,]+:[0-9.]+(,[^:,]+:[0-9.]+)*$")]
     label_costs: LabelCosts,
@@ -110,7 +110,7 @@ pub struct RouteProperties {
     length_m: f64,
     /// Time for it, seconds: with the speeds asked for, stopping at sharp turns.
     time_s: f64,
-    /// Distance that the middle of the vehicle keeps from obstacles, metres.
+    /// Radius of the vehicle, metres; of one with an outline that of the circle around it.
     footprint_radius_m: f64,
     /// Least distance between the path and an obstacle, metres, to within a cell.
     clearance_m: f64,
@@ -191,24 +191,29 @@ pub async fn get(
     .await
 }
 
-/// The best route with its radius, and the others.
+/// The best route and the others, with the radius of the vehicle.
 struct Found {
     radius: f64,
     routes: Vec<Route>,
 }
 
 fn find(context: &MapContext, query: &RouteQuery, transform: &Transform) -> Result<Found, Problem> {
-    let radius = vehicle::radius(context, query.footprint_radius, query.footprint.as_ref())?;
+    let footprint = Footprint::of(context, query.footprint_radius, query.footprint.as_ref())?;
+    let radius = footprint.turning_radius();
     let preferences = vehicle::preferences(context, query.profile, &query.label_costs)?;
     let blocked = vehicle::blocked(context, &query.blocked_faces.0, &query.blocked_edges.0)?;
     let [from, to] = [&query.from, &query.to].map(|end| end.waypoint(context, transform));
     let (from, to) = (from?, to?);
-    let router = context.router(radius, blocked);
+    let router = context.router(radius, blocked.clone());
     let site = context.site();
-    let routes = if query.alternatives == 1 {
-        router.route(&site, &from, &to, &preferences).map(|route| vec![route])
-    } else {
-        router.alternatives(&site, &from, &to, &preferences, query.alternatives)
+    let routes = match footprint {
+        _ if query.alternatives > 1 => router.alternatives(&site, &from, &to, &preferences, query.alternatives),
+        Footprint::Disc(_) => router.route(&site, &from, &to, &preferences).map(|route| vec![route]),
+        Footprint::Outline(outline) => {
+            let passing = context.router(outline.passing_radius(), blocked);
+            let routers = OutlineRouters { turning: &router, passing: &passing };
+            routers.route(&site, &outline, &from, &to, &preferences).map(|route| vec![route])
+        }
     };
     let routes = routes.map_err(|reason| no_route::problem(&reason, context, transform, radius))?;
     Ok(Found { radius, routes })

@@ -1,12 +1,15 @@
 //! The vehicle that a route is for, and what the route should be like.
 
 use serde::Deserialize;
+use stillage_core::Point;
 use stillage_core::arrangement::{EdgeId, FaceId};
 use stillage_core::layout::LayoutSpec;
-use stillage_core::routing::{Blocked, Preferences, RouteProfile, SpeedProfile};
+use stillage_core::routing::{Blocked, Preferences, RouteProfile, SpeedProfile, VehicleOutline};
+use stillage_core::semantics::Label;
 use utoipa::ToSchema;
 
 use crate::app::MapContext;
+use crate::features::words;
 use crate::http::problem::Problem;
 
 /// Greatest radius of a vehicle, metres: no aisle of a warehouse is as wide.
@@ -23,30 +26,54 @@ pub enum ProfileName {
     Clearance,
 }
 
-/// The radius of the vehicle of a request, metres: given, or that around its outline, or half the width that the analysis
-/// was made for.
-pub fn radius(context: &MapContext, given: Option<f64>, outline: Option<&Numbers>) -> Result<f64, Problem> {
-    let around = outline.map(|outline| outline_radius(&outline.0)).transpose()?;
-    if given.is_some() && around.is_some() {
-        return Err(Problem::parameter("footprint", "stands beside footprintRadiusM: give one of them"));
+/// What of the vehicle must not touch anything.
+#[derive(Debug, Clone)]
+pub enum Footprint {
+    /// A disc around its middle, by its radius in metres.
+    Disc(f64),
+    /// Its outline.
+    Outline(VehicleOutline),
+}
+
+impl Footprint {
+    /// The footprint of a request: as given, or half the width that the analysis was made for.
+    pub fn of(context: &MapContext, radius: Option<f64>, outline: Option<&Numbers>) -> Result<Self, Problem> {
+        let checked = |name: &str, radius: f64| {
+            let is_known = (0.0..=WIDEST_RADIUS_M).contains(&radius);
+            let detail = || format!("{radius} is outside 0 to {WIDEST_RADIUS_M} m");
+            if is_known { Ok(radius) } else { Err(Problem::parameter(name, detail())) }
+        };
+        match (radius, outline) {
+            (Some(_), Some(_)) => {
+                Err(Problem::parameter("footprint", "stands beside footprintRadiusM: give one of them"))
+            }
+            (Some(radius), None) => checked("footprintRadiusM", radius).map(Self::Disc),
+            (None, Some(numbers)) => {
+                let outline = outline_of(&numbers.0)?;
+                checked("footprint", outline.turning_radius())?;
+                Ok(Self::Outline(outline))
+            }
+            (None, None) => Ok(Self::Disc(LayoutSpec::of(&context.analysis.options).vehicle_radius)),
+        }
     }
-    match given.or(around) {
-        None => Ok(LayoutSpec::of(&context.analysis.options).vehicle_radius),
-        Some(radius) if (0.0..=WIDEST_RADIUS_M).contains(&radius) => Ok(radius),
-        Some(radius) => {
-            let detail = format!("{radius} is outside 0 to {WIDEST_RADIUS_M} m");
-            Err(Problem::parameter(if around.is_some() { "footprint" } else { "footprintRadiusM" }, detail))
+
+    /// The radius of the circle around it, metres: what the vehicle needs to turn anywhere.
+    pub fn turning_radius(&self) -> f64 {
+        match self {
+            Self::Disc(radius) => *radius,
+            Self::Outline(outline) => outline.turning_radius(),
         }
     }
 }
 
-/// The radius of the circle around an outline: what a vehicle needs to turn on the spot.
-fn outline_radius(numbers: &[f64]) -> Result<f64, Problem> {
-    if numbers.len() < 6 || !numbers.len().is_multiple_of(2) {
-        let detail = "must be x,y of at least three corners in metres, x forwards from the middle of the vehicle";
-        return Err(Problem::parameter("footprint", detail));
-    }
-    Ok(numbers.chunks(2).map(|corner| corner[0].hypot(corner[1])).fold(0.0, f64::max))
+fn outline_of(numbers: &[f64]) -> Result<VehicleOutline, Problem> {
+    let corners: Vec<Point> = numbers.chunks_exact(2).map(|corner| Point::new(corner[0], corner[1])).collect();
+    let outline = numbers.len().is_multiple_of(2).then(|| VehicleOutline::new(&corners)).flatten();
+    outline.ok_or_else(|| {
+        let detail =
+            "must be x,y of at least three corners in metres, x forwards, around the middle of the vehicle (0,0)";
+        Problem::parameter("footprint", detail)
+    })
 }
 
 /// Numbers with commas between them.
@@ -101,12 +128,19 @@ impl TryFrom<String> for LabelCosts {
 pub fn preferences(context: &MapContext, profile: ProfileName, costs: &LabelCosts) -> Result<Preferences, Problem> {
     let rule_set = &context.semantic.rule_set;
     let mut label_costs = vec![1.0; rule_set.labels().len()];
-    for (id, factor) in &costs.0 {
-        let label = rule_set.find(id).ok_or_else(|| {
-            let known: Vec<&str> = rule_set.labels().iter().map(|label| label.id.as_str()).collect();
-            Problem::parameter("labelCosts", format!("no label has the id {id}; there are {}", known.join(", ")))
-        })?;
-        label_costs[usize::from(label.0)] = *factor;
+    for (name, factor) in &costs.0 {
+        let known = |label: &Label| {
+            label.id == *name || label.functionality.iter().any(|one| words::functionality(*one) == name)
+        };
+        let mut is_known = false;
+        for (cost, _) in label_costs.iter_mut().zip(rule_set.labels()).filter(|(_, label)| known(label)) {
+            (*cost, is_known) = (f64::max(*cost, *factor), true);
+        }
+        if !is_known {
+            let ids: Vec<&str> = rule_set.labels().iter().map(|label| label.id.as_str()).collect();
+            let detail = format!("no label has the id or the functionality {name}; there are {}", ids.join(", "));
+            return Err(Problem::parameter("labelCosts", detail));
+        }
     }
     let profile = match profile {
         ProfileName::Shortest => RouteProfile::Shortest,

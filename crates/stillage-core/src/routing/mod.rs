@@ -3,6 +3,7 @@
 //! | module | what comes out |
 //! | --- | --- |
 //! | [`router`] | routes for vehicles of one radius |
+//! | [`outline_route`], [`vehicle_outline`] | routes for vehicles that are longer than wide; the ground that such a one sweeps |
 //! | [`alternatives`], [`matrix`] | routes that differ; lengths between many ends |
 //! | [`mod@route`], [`no_route`] | a route, and what it should be like; why there is none |
 //! | [`ends`], [`ways_out`] | where it begins and ends; how a vehicle gets there from beside drivable ground |
@@ -19,8 +20,8 @@
 //! string pulling with an exact line of sight (Amanatides and Woo 1987). The paper adds where a path may go at all: over
 //! links that are connected, between drivable faces, so never through storage.
 //!
-//! Cost: O(cells) for each radius, then milliseconds for a route. Memory: some 4 bytes per cell for each radius. Limits: the
-//! vehicle is a disc; paths are locally the shortest, the way around another side of an obstacle may be shorter by some
+//! Cost: O(cells) for each radius, then milliseconds for a route. Memory: some 4 bytes per cell for each radius. Limits: a
+//! vehicle is a disc, or what [`OutlineRouters`] can do; paths are locally the shortest, the way around another side of an obstacle may be shorter by some
 //! percent.
 
 mod alternatives;
@@ -32,6 +33,7 @@ mod ground_cost;
 mod guidance;
 mod matrix;
 mod no_route;
+mod outline_route;
 mod road_map;
 mod route;
 mod router;
@@ -40,6 +42,7 @@ mod sight;
 mod tile_search;
 mod tile_ways;
 mod tiles;
+mod vehicle_outline;
 mod ways_out;
 
 #[cfg(test)]
@@ -49,5 +52,7 @@ pub use ends::Waypoint;
 pub use face_steps::Blocked;
 pub use guidance::{Action, Instruction, SpeedProfile, instructions};
 pub use no_route::{EndGround, NoRoute, RouteEnd};
+pub use outline_route::OutlineRouters;
 pub use route::{Preferences, Route, RouteProfile};
 pub use router::Router;
+pub use vehicle_outline::VehicleOutline;

@@ -80,6 +80,13 @@ pub enum NoRoute {
         /// That point.
         at: Point,
     },
+    /// A narrow vehicle finds a way, but not one on which the outline touches nothing.
+    CannotTurn {
+        /// Where it touches something.
+        at: Point,
+        /// The clearance there, metres.
+        clearance: f64,
+    },
     /// Not even a point finds a way: nothing drivable joins the ends.
     Disconnected {
         /// The face of the start.

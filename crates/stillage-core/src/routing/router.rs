@@ -267,9 +267,14 @@ impl Router {
         if path.len() == 1 {
             path.push(path[0]);
         }
+        self.described(map, path, goal.heading)
+    }
+
+    /// A path with all that there is to say of it.
+    pub(super) fn described(&self, map: &SiteMap<'_>, path: Vec<Point>, goal_heading: Option<f64>) -> Route {
         let (faces, edges) = sight::faces_along(&self.grid, map, &self.steps, &path);
         let clearance = self.clearance_along(map, &path);
-        Route { length: sight::length(&path), path, faces, edges, clearance, goal_heading: goal.heading }
+        Route { length: sight::length(&path), path, faces, edges, clearance, goal_heading }
     }
 
     /// Why two ends are not joined.

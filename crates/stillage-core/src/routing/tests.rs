@@ -534,6 +534,56 @@ fn wide_vehicles_take_the_wide_aisle_and_keep_clear() {
 }
 
 #[test]
+fn long_vehicles_pass_where_they_cannot_turn() {
+    let map = two_ways();
+    let semantic = map.semantic(&RuleSet::warehouse());
+    let site = map.site(&semantic);
+    let route = |half_length: f64| {
+        let corners = [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)];
+        let corners = corners.map(|(x, y)| Point::new(x * half_length, y * 0.2));
+        let outline = VehicleOutline::new(&corners).unwrap();
+        let [turning, passing] =
+            [outline.turning_radius(), outline.passing_radius()].map(|radius| Router::new(&site, radius));
+        let routers = OutlineRouters { turning: &turning, passing: &passing };
+        routers.route(&site, &outline, &point(&map, 3, 2), &point(&map, 3, 11), &Preferences::default())
+    };
+    let narrow = map.face_at(6, 6);
+    for half_length in [0.45, 0.55, 0.6] {
+        let short = route(half_length).unwrap();
+        assert!(short.faces.contains(&narrow), "{short:?}");
+        assert!(!is_touched(&map, &short.path, half_length), "{short:?}");
+        let disc = route_of(&map, half_length.hypot(0.2), Blocked::default(), &Preferences::default()).unwrap();
+        assert!(!disc.1, "the circle around it does not fit into the narrow aisle");
+    }
+    assert!(matches!(route(1.5), Err(NoRoute::CannotTurn { .. })), "{:?}", route(1.5));
+}
+
+/// Whether a vehicle of 0.4 m width touches a cell anywhere on a path: points of its sides at small steps and angles.
+fn is_touched(map: &DrawnMap, path: &[Point], half_length: f64) -> bool {
+    let sides = (-10..=10).map(f64::from).flat_map(|share| {
+        let (x, y) = (share / 10.0 * half_length, share / 10.0 * 0.2);
+        [(x, 0.2), (x, -0.2), (half_length, y), (-half_length, y)]
+    });
+    let sides: Vec<(f64, f64)> = sides.collect();
+    let touches = |at: Point, angle: f64| {
+        let is_free = |&(x, y): &(f64, f64)| {
+            let corner = at + crate::geometry::direction(angle) * x + crate::geometry::normal(angle) * y;
+            map.grid.cell_at(corner).is_some_and(|(column, row)| map.grid.row(row)[column] == Occupancy::Free)
+        };
+        !sides.iter().all(is_free)
+    };
+    let angles: Vec<f64> = path.windows(2).map(|pair| pair[1] - pair[0]).map(|way| way.y.atan2(way.x)).collect();
+    let along = path.windows(2).zip(&angles).any(|(pair, &angle)| {
+        (0..=50).any(|step| touches(pair[0] + (pair[1] - pair[0]) * (f64::from(step) / 50.0), angle))
+    });
+    let turning = angles.windows(2).zip(&path[1..]).any(|(pair, &at)| {
+        let turn = (pair[1] - pair[0]).sin().atan2((pair[1] - pair[0]).cos());
+        (0..=20).any(|step| touches(at, pair[0] + turn * f64::from(step) / 20.0))
+    });
+    along || turning
+}
+
+#[test]
 fn what_is_blocked_is_driven_around_until_nothing_is_left() {
     let map = two_ways();
     let plain = Preferences::default();
