@@ -56,13 +56,7 @@ impl App {
     /// What changed from one map to another of the same site. Maps that were not uploaded as one site are aligned first.
     pub async fn compare_maps(&self, caller: &Caller, before: Uuid, now: Uuid) -> Result<MapComparison, AppError> {
         let (first, second) = (self.context(caller, before).await?, self.context(caller, now).await?);
-        off_the_runtime(move || {
-            let alignment = align(&first, &second)?;
-            let (before, now) = (places(&first, &RigidMotion::identity()), places(&second, &alignment.motion));
-            let comparison = compare::compare(&before, &now);
-            Ok(MapComparison { before, now, alignment, comparison })
-        })
-        .await
+        off_the_runtime(move || MapComparison::of(&first, &second)).await
     }
 
     /// What changed since a version of the labels that were made on the analysis in force; 0 is the suggestion.
@@ -90,6 +84,16 @@ impl App {
         let comparison = compare::compare(&before, &now);
         let faces = compare::compare_labels(face_labels(&earlier), face_labels(&context));
         Ok(LabelComparison { version: context.semantics.version, faces, before, now, comparison })
+    }
+}
+
+impl MapComparison {
+    /// What changed from one map to another.
+    pub(crate) fn of(first: &MapContext, second: &MapContext) -> Result<Self, AppError> {
+        let alignment = align(first, second)?;
+        let (before, now) = (places(first, &RigidMotion::identity()), places(second, &alignment.motion));
+        let comparison = compare::compare(&before, &now);
+        Ok(Self { before, now, alignment, comparison })
     }
 }
 

@@ -57,9 +57,9 @@ impl App {
 
 /// The part of a context that no human decision changes.
 pub(super) struct GeometricLevel {
-    grid: Arc<OccupancyGrid>,
-    analysis: Arc<Analysis>,
-    cells: Arc<SiteCells>,
+    pub(super) grid: Arc<OccupancyGrid>,
+    pub(super) analysis: Arc<Analysis>,
+    pub(super) cells: Arc<SiteCells>,
 }
 
 impl GeometricLevel {

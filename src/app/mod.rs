@@ -25,6 +25,7 @@ mod context_cache;
 mod error;
 mod evaluations;
 mod exports;
+mod file_context;
 mod grid;
 mod jobs;
 mod latest;
@@ -45,6 +46,7 @@ pub use crate::records::{
 pub use caller::Caller;
 pub use comparisons::{LabelComparison, MapComparison, PairAlignment};
 pub use error::{AppError, FieldProblem};
+pub use file_context::FileMap;
 pub use grid::GridSource;
 pub use map_context::MapContext;
 pub use service::App;

@@ -1,6 +1,5 @@
 //! `stillage export`: a map file in, files for other programs out, without a server.
 
-use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 
 use jiff::Timestamp;
@@ -11,15 +10,15 @@ use stillage_core::routing::Router;
 
 use super::failure::Failure;
 use super::findings::{AnalysisArgs, Findings};
+use super::output;
 use super::progress::ProgressDisplay;
+use super::server;
 use crate::exports::{Export, ExportError, ExportOptions, ExportSource, NamedFile, list, option, write};
 
 /// In place of a format: every one.
 const ALL: &str = "all";
 /// In place of a format: what formats there are.
 const LIST: &str = "list";
-/// In place of a file: standard output.
-const STDOUT: &str = "-";
 
 /// Arguments of `stillage export`.
 #[derive(Debug, clap::Args)]
@@ -27,6 +26,9 @@ pub(super) struct ExportArgs {
     /// The map: a `map_server` YAML file with its image beside it, or a `nav_msgs/OccupancyGrid` message as JSON.
     #[arg(value_name = "MAP")]
     map: Option<PathBuf>,
+    /// Address of a map of a running service in place of a file: `http://localhost:8080/v1/maps/ID`.
+    #[arg(long, value_name = "URL", conflicts_with = "map")]
+    server: Option<String>,
     /// Format of the file, such as `lif` or `nav2-route`; `list` prints them all with their options, `all` writes them all.
     #[arg(long, value_name = "FORMAT")]
     format: String,
@@ -35,15 +37,10 @@ pub(super) struct ExportArgs {
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
     /// An option of the format, as often as there are some: `--set profile=odoo`.
-    #[arg(long = "set", value_name = "NAME=VALUE", value_parser = name_and_value)]
+    #[arg(long = "set", value_name = "NAME=VALUE", value_parser = super::name_and_value)]
     set: Vec<(String, String)>,
     #[command(flatten)]
     analysis: AnalysisArgs,
-}
-
-fn name_and_value(text: &str) -> Result<(String, String), &'static str> {
-    let (name, value) = text.split_once('=').ok_or("must be NAME=VALUE")?;
-    Ok((name.to_owned(), value.to_owned()))
 }
 
 /// Runs the command.
@@ -52,9 +49,12 @@ pub(super) fn run(arguments: &ExportArgs) -> Result<(), Failure> {
         print!("{}", formats());
         return Ok(());
     }
-    let map = arguments.map.as_deref().ok_or_else(|| Failure::Input("name the map file to export".to_owned()))?;
     let wanted = wanted(&arguments.format, &arguments.set)?;
-    let files = from_file(map, &arguments.analysis, &wanted)?;
+    let files = match (&arguments.map, &arguments.server) {
+        (_, Some(server)) => from_server(server, &wanted, &arguments.set)?,
+        (Some(map), None) => from_file(map, &arguments.analysis, &wanted)?,
+        (None, None) => return Err(Failure::Input("name the map file to export, or --server".to_owned())),
+    };
     put(arguments, files)
 }
 
@@ -83,6 +83,17 @@ fn wanted(format: &str, given: &[(String, String)]) -> Result<Vec<Wanted>, Failu
         given.iter().filter(|(name, _)| export.options.contains(&name.as_str())).cloned().collect()
     };
     list().iter().map(|export| read(export, &own(export))).collect()
+}
+
+/// Fetches exports of a map of a running service.
+fn from_server(server: &str, wanted: &[Wanted], given: &[(String, String)]) -> Result<Vec<NamedFile>, Failure> {
+    let fetch = |(export, _): &Wanted| {
+        let own = |(name, _): &&(String, String)| export.options.contains(&name.as_str());
+        let query: Vec<(String, String)> = given.iter().filter(own).cloned().collect();
+        let bytes = server::get(server, &format!("exports/{}", export.name), &query)?;
+        Ok(NamedFile { name: export.name.to_owned(), bytes })
+    };
+    wanted.iter().map(fetch).collect()
 }
 
 /// Analyses a map file and writes exports of it.
@@ -157,24 +168,11 @@ fn version(findings: &Findings) -> String {
 /// Puts the files where they belong and prints where that is.
 fn put(arguments: &ExportArgs, files: Vec<NamedFile>) -> Result<(), Failure> {
     let is_folder = arguments.format == ALL;
-    if arguments.out.as_deref() == Some(Path::new(STDOUT)) && !is_folder {
-        let written = files.iter().try_for_each(|file| io::stdout().write_all(&file.bytes));
-        return written.map_err(Failure::internal);
-    }
-    for NamedFile { name, bytes } in files {
-        let path = match &arguments.out {
-            Some(folder) if is_folder => folder.join(name),
-            Some(file) => file.clone(),
-            None => PathBuf::from(name),
-        };
-        let parent = path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
-        let written = std::fs::create_dir_all(parent).and_then(|()| std::fs::write(&path, bytes));
-        written.map_err(|error| {
-            Failure::Input(format!("{} cannot be written ({error}): name another place with --out", path.display()))
-        })?;
-        println!("{}", path.display());
-    }
-    Ok(())
+    files.into_iter().try_for_each(|NamedFile { name, bytes }| match &arguments.out {
+        Some(folder) if is_folder => output::write(&folder.join(name), &bytes),
+        Some(file) => output::put(Some(file), &bytes),
+        None => output::write(Path::new(&name), &bytes),
+    })
 }
 
 /// Every format with what it is for and its options.

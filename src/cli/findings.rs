@@ -12,6 +12,7 @@ use super::computation::{self, Computed};
 use super::failure::Failure;
 use super::input;
 use super::progress::ProgressDisplay;
+use crate::app::{FileMap, MapContext};
 
 /// How a map file is analysed and labelled.
 #[derive(Debug, clap::Args)]
@@ -45,6 +46,14 @@ pub(super) struct Findings {
 }
 
 impl Findings {
+    /// The map as the service reads it.
+    pub(super) fn into_context(self) -> Result<MapContext, Failure> {
+        let Self { name, grid, analysis, cells, assignment, semantic, .. } = self;
+        let rule_set = semantic.rule_set;
+        let file = FileMap { name, grid, analysis, cells, rule_set, assignment };
+        MapContext::of_file(file).map_err(Failure::internal)
+    }
+
     /// The map as layout, graph and routing read it.
     pub(super) fn site(&self) -> SiteMap<'_> {
         self.cells.map(&self.grid, &self.analysis, &self.semantic)

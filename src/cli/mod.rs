@@ -5,19 +5,24 @@
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "the command line talks to people")]
 
 mod analyze;
+mod compare;
 mod demo;
 mod evaluate;
 mod export;
 mod migrate;
 mod openapi;
+mod route;
 mod serve;
 
 mod computation;
 mod failure;
 mod findings;
 mod input;
+mod output;
 mod progress;
+mod server;
 
+use std::ffi::OsString;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
@@ -40,6 +45,10 @@ enum Command {
     Analyze(analyze::AnalyzeArgs),
     /// Analyses one map file and writes files for other programs: fleet managers, planners, inventory systems.
     Export(export::ExportArgs),
+    /// Finds the way from one place of a map to another.
+    Route(route::RouteArgs),
+    /// Says which storage locations changed between two maps of a site.
+    Compare(compare::CompareArgs),
     /// Analyses one map file and says how well the result fits its known truth.
     Evaluate(evaluate::EvaluateArgs),
     /// Serves on loopback with a temporary store, uploads an example map and shows where to look.
@@ -53,10 +62,12 @@ enum Command {
 /// Runs the command line.
 #[must_use]
 pub fn run() -> ExitCode {
-    let result = match Cli::parse().command {
+    let result = match Cli::parse_from(std::env::args_os().map(unlike_a_flag)).command {
         Command::Serve(arguments) => serve::run(&arguments).map_err(Failure::setup),
         Command::Analyze(arguments) => analyze::run(&arguments),
         Command::Export(arguments) => export::run(&arguments),
+        Command::Route(arguments) => route::run(&arguments),
+        Command::Compare(arguments) => compare::run(&arguments),
         Command::Evaluate(arguments) => evaluate::run(&arguments),
         Command::Demo(arguments) => demo::run(&arguments),
         Command::Openapi(arguments) => openapi::run(&arguments).map_err(Failure::setup),
@@ -75,9 +86,37 @@ pub fn run() -> ExitCode {
     }
 }
 
+/// Puts a space before a position with a minus, such as `-3.5,2`, which would pass for a flag.
+fn unlike_a_flag(argument: OsString) -> OsString {
+    match argument.to_str() {
+        Some(text) if text.starts_with('-') && text[1..].starts_with(|first: char| first.is_ascii_digit()) => {
+            format!(" {text}").into()
+        }
+        _ => argument,
+    }
+}
+
+/// Reads `NAME=VALUE`.
+fn name_and_value(text: &str) -> Result<(String, String), &'static str> {
+    let (name, value) = text.split_once('=').ok_or("must be NAME=VALUE")?;
+    Ok((name.to_owned(), value.to_owned()))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_position_with_a_minus_is_no_flag() {
+        let read = |arguments: &[&str]| {
+            let arguments =
+                ["stillage", "route"].iter().chain(arguments).map(|argument| unlike_a_flag(argument.into()));
+            Cli::try_parse_from(arguments).is_ok()
+        };
+        assert!(read(&["map.yaml", "-3.5,2", "-1,-1"]));
+        assert!(read(&["--server", "http://host/v1/maps/1", "face:3", "location:01-002", "--set", "alternatives=2"]));
+        assert!(!read(&["map.yaml"]) && !read(&["map.yaml", "-x,1", "2,2"]));
+    }
 
     #[test]
     fn the_commands_are_consistent() {

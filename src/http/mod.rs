@@ -9,13 +9,13 @@
 mod admin;
 mod docs;
 mod extract;
-mod fleet;
+pub(crate) mod fleet;
 mod guard;
-mod links;
+pub(crate) mod links;
 mod maps;
 mod ogc;
 mod paging;
-mod problem;
+pub(crate) mod problem;
 
 use std::sync::Arc;
 

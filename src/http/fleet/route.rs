@@ -23,7 +23,7 @@ use crate::http::extract::crs::CrsName;
 use crate::http::extract::{MapPath, Path, Query};
 use crate::http::links::GEO_JSON;
 use crate::http::ogc::items::CONTENT_CRS;
-use crate::http::problem::Problem;
+use crate::http::problem::{Problem, ProblemType};
 
 /// Routes that are found at most for one request.
 const MOST_ALTERNATIVES: usize = 5;
@@ -82,6 +82,19 @@ pub struct RouteQuery {
     /// Turning on the spot, degrees per second; 45 when absent.
     #[param(value_type = Option<f64>, exclusive_minimum = 0, maximum = 720)]
     turn_rate_degps: Option<f64>,
+}
+
+impl RouteQuery {
+    /// Reads a query string.
+    ///
+    /// # Errors
+    /// The parameter that is wrong.
+    pub fn read(query: &str) -> Result<Self, Problem> {
+        let address = format!("/?{query}").parse();
+        let address =
+            address.map_err(|_| Problem::new(ProblemType::BadParameter, "the parameters are no query string"));
+        Query::read(&address?).map(|Query(query)| query)
+    }
 }
 
 const fn one() -> usize {
@@ -174,21 +187,28 @@ pub async fn get(
     Path(path): Path<MapPath>,
     Query(query): Query<RouteQuery>,
 ) -> Result<Response, Problem> {
+    let context = app.context(&caller, path.map_id.0).await?;
+    off_the_runtime(move || {
+        let headers =
+            [(header::CONTENT_TYPE, GEO_JSON.parse().expect("is a header")), (CONTENT_CRS, query.crs.header())];
+        Ok((headers, answer(&context, &query)?).into_response())
+    })
+    .await
+}
+
+/// The GeoJSON of a route.
+///
+/// # Errors
+/// A parameter that is wrong, or the reason why there is no route.
+pub fn answer(context: &MapContext, query: &RouteQuery) -> Result<Vec<u8>, Problem> {
     if !(1..=MOST_ALTERNATIVES).contains(&query.alternatives) {
         let detail = format!("{} is outside 1 to {MOST_ALTERNATIVES}", query.alternatives);
         return Err(Problem::parameter("alternatives", detail));
     }
     let speeds = vehicle::speeds(query.speed_mps, query.acceleration_mps2, query.turn_rate_degps)?;
-    let context = app.context(&caller, path.map_id.0).await?;
-    off_the_runtime(move || {
-        let transform = Transform::new(query.crs.0, context.record.georeference);
-        let routes = find(&context, &query, &transform)?;
-        let headers =
-            [(header::CONTENT_TYPE, GEO_JSON.parse().expect("is a header")), (CONTENT_CRS, query.crs.header())];
-        let writer = RouteWriter { context: &context, transform: &transform, speeds };
-        Ok((headers, writer.write(&routes)).into_response())
-    })
-    .await
+    let transform = Transform::new(query.crs.0, context.record.georeference);
+    let routes = find(context, query, &transform)?;
+    Ok(RouteWriter { context, transform: &transform, speeds }.write(&routes))
 }
 
 /// The best route and the others, with the radius of the vehicle.

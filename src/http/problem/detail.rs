@@ -24,6 +24,15 @@ pub struct ProblemItem {
     pub detail: String,
 }
 
+impl ProblemItem {
+    fn message(&self) -> String {
+        match self.parameter.as_ref().or(self.pointer.as_ref()) {
+            Some(name) => format!("{name}: {}", self.detail),
+            None => self.detail.clone(),
+        }
+    }
+}
+
 /// A refusal.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Problem {
@@ -34,6 +43,13 @@ pub struct Problem {
 }
 
 impl Problem {
+    /// What is wrong, in one line for people.
+    #[must_use]
+    pub fn message(&self) -> String {
+        let items: Vec<String> = self.errors.iter().map(ProblemItem::message).collect();
+        if items.is_empty() { self.detail.clone() } else { items.join("; ") }
+    }
+
     /// A refusal with its reason, for people.
     #[must_use]
     pub fn new(kind: ProblemType, detail: impl Into<String>) -> Self {
