@@ -98,6 +98,8 @@ pub mod routing;
 
 pub mod graph;
 
+pub mod graph_report;
+
 pub mod alignment;
 
 pub mod compare;

@@ -13,7 +13,7 @@ use super::face_ways::Course;
 use super::navigation_graph::{GraphNode, Lane, LaneKind, NavigationGraph, NodeKind};
 use crate::arrangement::{EdgeId, FaceId};
 use crate::geometry::Point;
-use crate::layout::Layout;
+use crate::layout::{Layout, approach_before};
 use crate::routing::Router;
 use crate::site_map::SiteMap;
 
@@ -39,9 +39,8 @@ pub fn navigation_graph(map: &SiteMap<'_>, layout: &Layout, router: &Router) -> 
     // Locations behind others are served from where those in front are.
     let served = layout.locations.iter().enumerate().filter(|(_, location)| location.depth_in_row == 1);
     for (index, location) in served {
-        let Some(pose) = location.approach.filter(|pose| map.clearance.at(pose.position) >= router.radius()) else {
-            continue;
-        };
+        let known = location.approach.filter(|pose| map.clearance.at(pose.position) >= router.radius());
+        let Some(pose) = known.or_else(|| approach_before(map, location, router.radius())) else { continue };
         let node = draft.add(pose.position, Some((index, location.code.clone(), pose.heading)));
         attached.entry(map.face_at(pose.position)).or_default().push((node, LaneKind::Spur));
     }

@@ -15,6 +15,7 @@
 //! | [`sight`] | the path pulled tight, and the faces and edges that it crosses |
 //! | [`guidance`] | instructions along a route, and its time |
 //! | [`bottleneck`] | the narrowest point of the widest way |
+//! | [`widest_ways`] | how wide a vehicle may be to get somewhere, and where it gets stuck |
 //!
 //! Source: hierarchical path finding (Botea, Müller and Schaeffer 2004) with landmarks (Goldberg and Harrelson 2005), then
 //! string pulling with an exact line of sight (Amanatides and Woo 1987). The paper adds where a path may go at all: over
@@ -44,6 +45,7 @@ mod tile_ways;
 mod tiles;
 mod vehicle_outline;
 mod ways_out;
+mod widest_ways;
 
 #[cfg(test)]
 mod tests;
@@ -56,3 +58,4 @@ pub use outline_route::OutlineRouters;
 pub use route::{Preferences, Route, RouteProfile};
 pub use router::Router;
 pub use vehicle_outline::VehicleOutline;
+pub use widest_ways::{NarrowestPlace, WidestWays};
