@@ -8,6 +8,7 @@
 //! cargo run --release --example accuracy -- drawings --seeds 21..28 --only pods
 //! cargo run --release --example accuracy -- --zoo seen=1..2 --zoo unseen=5..6 --rotation 1
 //! cargo run --release --example accuracy -- --generated seen=DIR --rooms --write
+//! cargo run --release --example accuracy -- --layout 1..2 --layout-maps DIR
 //! ```
 
 #![allow(clippy::print_stderr, clippy::print_stdout, reason = "a tool of developers says what it does")]
@@ -15,6 +16,7 @@
 mod document;
 mod drawings;
 mod drawn_truth;
+mod layouts;
 mod location_errors;
 mod moved;
 mod offices;
@@ -79,6 +81,12 @@ struct Arguments {
     /// Seeds of the zoo, as NAME=FIRST..LAST: fills the section `zoo-NAME`, without and with speckle.
     #[arg(long, value_name = "NAME=SEEDS", value_parser = named::<Seeds>)]
     zoo: Vec<(String, Seeds)>,
+    /// Storage layouts of the zoo for some seeds, and of the maps of `--layout-maps`: fills the section `layout`.
+    #[arg(long, value_name = "FIRST..LAST")]
+    layout: Option<Seeds>,
+    /// Folders of maps of `generate.py` for `--layout`.
+    #[arg(long, value_name = "DIR", requires = "layout")]
+    layout_maps: Vec<PathBuf>,
     /// Folder of maps of `generate.py` of the paper's size: fills the section `paper-size`.
     #[arg(long, value_name = "DIR")]
     paper_size: Option<PathBuf>,
@@ -153,6 +161,9 @@ fn main() -> Outcome<()> {
     }
     if let Some(folder) = &arguments.paper_size {
         tell("paper-size", &tables::regions(&sites::generated(folder)?))?;
+    }
+    if let Some(seeds) = arguments.layout {
+        tell("layout", &layouts::layouts(seeds.0..=seeds.1, &arguments.layout_maps)?)?;
     }
     if let Some(seed) = arguments.rotation {
         tell("rotation", &rotation::table(seed)?)?;

@@ -86,6 +86,8 @@ fn answered_in_time() -> OpenApiRouter<Arc<App>> {
         .routes(routes!(fleet::distance_matrix::create))
         .routes(routes!(fleet::exports::list))
         .routes(routes!(fleet::exports::get))
+        .routes(routes!(fleet::graph_report::get))
+        .routes(routes!(fleet::graph_report::picture))
         .routes(routes!(ogc::jobs::list))
         .routes(routes!(ogc::jobs::get, ogc::jobs::dismiss))
         .routes(routes!(ogc::jobs::events))

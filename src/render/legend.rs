@@ -2,8 +2,10 @@
 
 use stillage_core::semantics::{Cogency, SemanticMap};
 
-use super::drawing::{Colour, Pixel, Shape, Stroke, Text};
-use super::style::{INK, parse_colour, stroke};
+use super::drawing::{Colour, Drawing, Pixel, Shape, Stroke, Text};
+use super::frame::Frame;
+use super::mark::Mark;
+use super::style::{INK, PAPER, parse_colour, stroke};
 use super::typeface;
 
 /// Distances in ems: around and between the items, from line to line, width of a colour or line, from it to its name.
@@ -25,21 +27,35 @@ pub(super) struct Legend {
     em: f64,
 }
 
-struct Item {
+/// A thing on the map, and its name.
+pub(super) struct Item {
     sample: Sample,
     name: String,
 }
 
-enum Sample {
+/// What a thing looks like.
+pub(super) enum Sample {
+    /// An area of a colour.
     Area(Colour),
-    Line(Cogency),
+    /// A line; its thickness in pixels.
+    Line(Stroke),
+    /// A mark of a size of 1 em.
+    Mark(Mark, Colour),
     /// The scale bar, its length in ems.
     Bar(f64),
 }
 
 impl Item {
+    pub(super) fn new(sample: Sample, name: impl Into<String>) -> Self {
+        Self { sample, name: name.into() }
+    }
+
     fn sample_width(&self) -> f64 {
-        if let Sample::Bar(length) = self.sample { length } else { SAMPLE }
+        match self.sample {
+            Sample::Bar(length) => length,
+            Sample::Mark(..) => 1.0,
+            Sample::Area(_) | Sample::Line(_) => SAMPLE,
+        }
     }
 
     /// Ems with the space behind it.
@@ -49,27 +65,38 @@ impl Item {
 }
 
 impl Legend {
-    /// The labels of the rule set, the kinds of edges and the scale bar.
-    pub(super) fn new(semantic: &SemanticMap, pixels_per_metre: f64, em: f64) -> Self {
+    /// The scale bar and what is explained behind it.
+    pub(super) fn new(items: impl IntoIterator<Item = Item>, frame: &Frame) -> Self {
+        let metres = round_length(BAR * frame.em / frame.per_metre);
+        let bar = Item::new(Sample::Bar(metres * frame.per_metre / frame.em), format!("{metres} m"));
+        Self { items: std::iter::once(bar).chain(items).collect(), em: frame.em }
+    }
+
+    /// The labels of the rule set and the kinds of edges.
+    pub(super) fn of_labels(semantic: &SemanticMap, frame: &Frame) -> Self {
         let labels = semantic.rule_set.labels().iter();
-        let areas =
-            labels.map(|label| Item { sample: Sample::Area(parse_colour(&label.color)), name: label.name.clone() });
+        let areas = labels.map(|label| Item::new(Sample::Area(parse_colour(&label.color)), label.name.clone()));
         let lines =
             [(Cogency::Cogent, "obstruction"), (Cogency::StorageAccess, "storage access"), (Cogency::Invalid, "open")];
-        let lines = lines.map(|(cogency, name)| Item { sample: Sample::Line(cogency), name: name.to_owned() });
-        let metres = round_length(BAR * em / pixels_per_metre);
-        let bar = Item { sample: Sample::Bar(metres * pixels_per_metre / em), name: format!("{metres} m") };
-        Self { items: std::iter::once(bar).chain(areas).chain(lines).collect(), em }
+        let lines = lines.map(|(cogency, name)| Item::new(Sample::Line(stroke(cogency, THIN * frame.em)), name));
+        Self::new(areas.chain(lines), frame)
     }
 
     /// Pixels that the longest item needs.
-    pub(super) fn least_width(&self) -> usize {
+    fn least_width(&self) -> usize {
         let widest = self.items.iter().map(Item::width).fold(0.0, f64::max);
         ((widest + MARGIN) * self.em).ceil() as usize
     }
 
+    /// The drawing of a map with the strip below it.
+    pub(super) fn below<'a>(&self, frame: &Frame, mut shapes: Vec<Shape<'a>>) -> Drawing<'a> {
+        let width = frame.size[0].max(self.least_width()).max(1);
+        let height = self.draw([width, frame.size[1]], &mut shapes);
+        Drawing { width, height: frame.size[1] + height, background: PAPER, shapes }
+    }
+
     /// Draws the strip for a picture of some width below some height; the height of the strip, pixels.
-    pub(super) fn draw(&self, [width, top]: [usize; 2], shapes: &mut Vec<Shape<'_>>) -> usize {
+    fn draw(&self, [width, top]: [usize; 2], shapes: &mut Vec<Shape<'_>>) -> usize {
         let most = width as f64 / self.em;
         let (mut left, mut middle) = (MARGIN, MARGIN + LINE / 2.0);
         for item in &self.items {
@@ -92,9 +119,12 @@ impl Legend {
         };
         match item.sample {
             Sample::Area(colour) => shapes.extend([rectangle(0.0, SWATCH, INK), rectangle(THIN, SWATCH, colour)]),
-            Sample::Line(cogency) => {
+            Sample::Line(stroke) => {
                 let segments = vec![[[left, 0.0], [right, 0.0]].map(&place)];
-                shapes.push(Shape::Lines { segments, stroke: stroke(cogency, THIN * self.em) });
+                shapes.push(Shape::Lines { segments, stroke });
+            }
+            Sample::Mark(mark, colour) => {
+                shapes.push(mark.shape(place([left + 0.5, 0.0]), self.em, colour, String::new()));
             }
             Sample::Bar(_) => {
                 let ends = [left, right].map(|x| [[x, -0.4], [x, 0.4]].map(&place));

@@ -4,14 +4,18 @@
 //! - [`categories`]: a palette picture, the index of a pixel is its category + 1, 0 for none;
 //! - [`regions`]: a palette picture, regions coloured over the dimmed map;
 //! - [`semantic_png`] and [`semantic_svg`]: drawn like the paper's Fig. 9, with codes, a legend and a scale bar. Both are
-//!   made from one drawing: a list of shapes in pixels.
+//!   made from one drawing: a list of shapes in pixels;
+//! - [`graph_report_png`]: the navigation graph over the map, with what its report finds, drawn likewise.
 //!
 //! The first three have the size of the map. Deterministic; O(cells).
 
 mod cells;
 mod drawing;
 mod encoding;
+mod frame;
+mod graph_report;
 mod legend;
+mod mark;
 mod raster;
 mod semantic;
 mod style;
@@ -20,28 +24,17 @@ mod typeface;
 
 use stillage_core::{Analysis, Occupancy, OccupancyGrid};
 
+pub use graph_report::graph_report_png;
 pub use semantic::{semantic_png, semantic_svg};
 
 use cells::Veil;
-use drawing::Colour;
 use encoding::{Palette, encode};
+use style::colour;
 
 /// Grey levels of `map_saver`.
 const FREE: u8 = 254;
 const UNKNOWN: u8 = 205;
 const OCCUPIED: u8 = 0;
-
-/// Colours of categories and regions that stay apart for most eyes (after Okabe and Ito, 2008), then turns of the wheel.
-const COLOURS: [Colour; 8] = [
-    [86, 180, 233],
-    [230, 159, 0],
-    [0, 158, 115],
-    [240, 228, 66],
-    [204, 121, 167],
-    [213, 94, 0],
-    [0, 114, 178],
-    [153, 153, 153],
-];
 
 /// The cells, as `map_saver` draws them.
 #[must_use]
@@ -97,20 +90,6 @@ pub fn regions(analysis: &Analysis, grid: &OccupancyGrid) -> Vec<u8> {
         }));
     }
     encode(grid.width(), grid.height(), png::ColorType::Indexed, Some(Palette::opaque(palette)), &pixels)
-}
-
-/// The colour of a category or region.
-fn colour(index: usize) -> Colour {
-    COLOURS.get(index).copied().unwrap_or_else(|| {
-        // The golden angle never comes back to a hue; one in three is darker.
-        let hue = (index as f64 * 137.507_764) % 360.0;
-        let value = if index.is_multiple_of(3) { 0.6 } else { 0.9 };
-        let channel = |shift: f64| {
-            let distance = ((hue / 60.0 + shift) % 6.0 - 3.0).abs() - 1.0;
-            (value * 255.0 * (0.3 + 0.7 * distance.clamp(0.0, 1.0))).round() as u8
-        };
-        [channel(0.0), channel(4.0), channel(2.0)]
-    })
 }
 
 #[cfg(test)]

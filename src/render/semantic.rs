@@ -9,25 +9,13 @@ use stillage_core::layout::Location;
 use stillage_core::semantics::{Cogency, SemanticMap};
 use stillage_core::{Analysis, OccupancyGrid};
 
-use super::drawing::{Drawing, Pixel, Scale, Shape, Text};
+use super::drawing::{Drawing, Shape, Text};
 use super::encoding::encode;
+use super::frame::Frame;
 use super::legend::Legend;
 use super::style::{INK, PAPER, parse_colour, stroke};
 use super::{raster, svg, typeface};
 
-/// A small map is enlarged by a whole factor until its longer side has at least so many pixels: a wide screen, on which
-/// the codes of pallet places of a site of 80 m can be read.
-const ENLARGED_SIDE: usize = 1_600;
-/// Pixels on each side of a cell that no enlargement exceeds: a map of a few cells stays a small picture.
-const LARGEST_CELL: usize = 40;
-/// Pixels of a map beyond which several cells share one. A pixel takes seven bytes while it is drawn and encoded, so that
-/// a picture takes at most 175 MB; a site of the paper's size (20.5 million cells) still has one pixel for each cell.
-const MOST_PIXELS: usize = 25_000_000;
-
-/// Ems of the legend to the longer side of the map.
-const SIDE_PER_EM: f64 = 100.0;
-/// Smallest and largest em of the legend, pixels.
-const EMS: [f64; 2] = [16.0, 44.0];
 /// Thickness of the thin lines to an em.
 const EM_PER_THICKNESS: f64 = 14.0;
 /// Em below which a code cannot be read and is left out, pixels.
@@ -64,42 +52,13 @@ fn drawing<'a>(
     semantic: &SemanticMap,
     locations: &[Location],
 ) -> Drawing<'a> {
-    let scale = scale(grid.width(), grid.height());
-    let [map_width, map_height] = [grid.width(), grid.height()].map(|cells| scale.pixels(cells));
-    let em = (map_width.max(map_height) as f64 / SIDE_PER_EM).clamp(EMS[0], EMS[1]);
-    let frame = Frame { height: grid.height() as f64 * scale.factor(), per_metre: scale.factor() / grid.resolution() };
-    let legend = Legend::new(semantic, frame.per_metre, em);
-    let width = map_width.max(legend.least_width()).max(1);
+    let frame = Frame::of(grid);
     let mut shapes = faces(analysis, semantic, locations, &frame);
-    shapes.push(Shape::Cells { grid, scale });
-    shapes.extend(edges(analysis, semantic, &frame, em / EM_PER_THICKNESS));
-    let codes = locations.iter().filter_map(|location| code(location, middle(analysis, location), &frame, em));
+    shapes.push(Shape::Cells { grid, scale: frame.scale });
+    shapes.extend(edges(analysis, semantic, &frame, frame.em / EM_PER_THICKNESS));
+    let codes = locations.iter().filter_map(|location| code(location, middle(analysis, location), &frame, frame.em));
     shapes.extend(codes.map(Shape::Text));
-    let legend_height = legend.draw([width, map_height], &mut shapes);
-    Drawing { width, height: map_height + legend_height, background: PAPER, shapes }
-}
-
-/// Chooses the size of a cell.
-fn scale(width: usize, height: usize) -> Scale {
-    if width.saturating_mul(height) <= MOST_PIXELS {
-        return Scale::Enlarged(ENLARGED_SIDE.div_ceil(width.max(height).max(1)).min(LARGEST_CELL));
-    }
-    let fits = |&divisor: &usize| width.div_ceil(divisor).saturating_mul(height.div_ceil(divisor)) <= MOST_PIXELS;
-    Scale::Reduced((2..=usize::MAX).find(fits).unwrap_or(usize::MAX))
-}
-
-/// From the grid frame to the picture.
-struct Frame {
-    /// Of the map, pixels.
-    height: f64,
-    /// Pixels.
-    per_metre: f64,
-}
-
-impl Frame {
-    fn pixel(&self, point: Point) -> Pixel {
-        [point.x * self.per_metre, self.height - point.y * self.per_metre]
-    }
+    Legend::of_labels(semantic, &frame).below(&frame, shapes)
 }
 
 /// The faces, with their label and code as titles.
@@ -153,18 +112,4 @@ fn code(location: &Location, middle: Point, frame: &Frame, most: f64) -> Option<
         colour: INK,
         halo: Some(PAPER),
     })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn small_maps_are_enlarged_and_huge_ones_reduced() {
-        assert_eq!(scale(16, 6), Scale::Enlarged(40));
-        assert_eq!(scale(300, 800), Scale::Enlarged(2));
-        assert_eq!(scale(3800, 5400), Scale::Enlarged(1));
-        assert_eq!(scale(10_000, 10_000), Scale::Reduced(2));
-        assert_eq!(scale(0, 0), Scale::Enlarged(40));
-    }
 }

@@ -4,6 +4,7 @@ use stillage_core::layout::{self, LayoutSpec};
 use stillage_core::semantics::{self, Assignment, RuleSet};
 use stillage_core::{AnalysisOptions, SiteCells, Watch};
 
+use super::drawing::Colour;
 use super::*;
 
 /// A room with a wall and an unknown corner.

@@ -11,6 +11,7 @@ pub mod evaluation;
 pub mod export;
 pub mod feature;
 pub mod georeference;
+pub mod graph_report;
 pub mod id;
 pub mod job;
 pub mod link;

@@ -156,6 +156,8 @@ async fn valid(site: &Site, operation: &str) -> (Sent, &'static [u16]) {
         "getCategoriesImage" => get(format!("{map}/categories.png")),
         "getRegionsImage" => get(format!("{map}/regions.png")),
         "getSemanticImage" => get(format!("{map}/semantic.png")),
+        "getGraphReport" => get(format!("{map}/graph-report")),
+        "getGraphReportImage" => get(format!("{map}/graph-report.png")),
         "getSemanticDrawing" => get(format!("{map}/semantic.svg")),
         "listCategories" => get(format!("{map}/categories")),
         "getSemantics" => get(format!("{map}/semantics")),

@@ -12,6 +12,7 @@ mod document;
 mod evaluations;
 mod exports;
 mod features;
+mod graph_report;
 mod jobs;
 mod maps;
 mod protocol;

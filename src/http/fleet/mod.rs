@@ -1,7 +1,9 @@
-//! What fleet managers ask for: routes, the ways between many ends, and files for other programs.
+//! What fleet managers ask for: routes, the ways between many ends, a report on the navigation graph, and files for other
+//! programs.
 
 pub mod distance_matrix;
 pub mod exports;
+pub mod graph_report;
 mod no_route;
 pub mod route;
 mod vehicle;

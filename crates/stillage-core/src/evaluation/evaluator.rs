@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 use super::boundary;
 use super::occupancy::OccupancyScores;
-use super::overlap::{FaceAreas, Match};
+use super::overlap::{Match, ShapeAreas};
 use super::scores::{GeometryScores, LabelOverlap, LabelScores, PlaceScores};
 use super::truth::{GroundTruth, TrueArea, TruePlace};
 use super::truth_labels::{MissingLabel, TruthLabels};
@@ -18,7 +18,7 @@ use crate::semantics::{Assignment, LabelId, RuleSet, SemanticMap};
 use crate::watch::{Stopped, Watch};
 
 /// Share of a place's surroundings that the robot must have seen for the place to count.
-const OBSERVED: f64 = 0.5;
+pub(super) const OBSERVED: f64 = 0.5;
 
 /// Area below which a face is a sliver, as a share of the median place.
 const SLIVER: f64 = 0.25;
@@ -47,7 +47,7 @@ impl<'a> Evaluator<'a> {
     /// [`Stopped`] when the watch says so.
     pub fn new(analysis: &'a Analysis, truth: &'a GroundTruth, watch: &Watch<'_>) -> Result<Self, Stopped> {
         let frame = &analysis.frame;
-        let faces = FaceAreas::new(&analysis.subdivision);
+        let faces = ShapeAreas::of_faces(&analysis.subdivision);
         let overlaps = |areas: &[&TrueArea]| -> Result<Vec<Vec<(u32, f64)>>, Stopped> {
             let one = |area: &&TrueArea| watch.check().map(|()| faces.overlaps(&area.in_grid(frame)));
             areas.par_iter().map(one).collect()

@@ -20,7 +20,7 @@
 //!
 //! Areas are those of the polygons, not of cells. [`evaluate`] gives all figures. [`Evaluator`] compares the geometry
 //! once; [`Evaluator::score`] then scores any labels in milliseconds, and [`Evaluator::decision`] gives the decision
-//! per category of a person who knows the truth.
+//! per category of a person who knows the truth. [`LayoutScores`] compare the storage layout: places, codes, approaches.
 //!
 //! Cost: O(true areas x faces they meet), seconds for a site of 6,000 places. Limits: true areas of one label must not
 //! overlap.
@@ -28,6 +28,7 @@
 mod boundary;
 mod box_index;
 mod evaluator;
+mod layout_scores;
 mod occupancy;
 mod overlap;
 mod scores;
@@ -43,6 +44,7 @@ use crate::watch::{Stopped, Watch};
 use truth_labels::TruthLabels;
 
 pub use evaluator::Evaluator;
+pub use layout_scores::{AisleOrder, LayoutScores};
 pub use occupancy::OccupancyScores;
 pub use scores::{GeometryScores, LabelOverlap, LabelScores, PlaceScores};
 pub use truth::{GroundTruth, TrueArea, TruePlace, TrueRegion};

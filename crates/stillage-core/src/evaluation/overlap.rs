@@ -10,27 +10,31 @@ use crate::geometry::{Bounds, Point, polygon};
 /// Intersection over union above which a face fits a place: above one half at most one face can.
 const SAME: f64 = 0.5;
 
-/// The faces of a subdivision, ready to be measured against areas.
+/// Shapes (the faces of a subdivision, the locations of a layout), ready to be measured against areas.
 #[derive(Debug)]
-pub(super) struct FaceAreas {
-    /// By face; entry 0, the unbounded face, is empty.
+pub(super) struct ShapeAreas {
+    /// By shape.
     pieces: Vec<Vec<ConvexPiece>>,
     rings: Vec<Vec<Vec<Point>>>,
     pub(super) areas: Vec<f64>,
     index: BoxIndex,
 }
 
-impl FaceAreas {
-    pub(super) fn new(subdivision: &Subdivision) -> Self {
-        let rings: Vec<Vec<Vec<Point>>> = (0..subdivision.face_count() as u32)
-            .map(|face| if face == FaceId::OUTER.0 { Vec::new() } else { subdivision.rings(FaceId(face)) })
-            .collect();
+impl ShapeAreas {
+    /// The faces of a subdivision; that of the unbounded face is empty.
+    pub(super) fn of_faces(subdivision: &Subdivision) -> Self {
+        let rings = |face| if face == FaceId::OUTER.0 { Vec::new() } else { subdivision.rings(FaceId(face)) };
+        Self::of((0..subdivision.face_count() as u32).map(rings).collect())
+    }
+
+    /// Shapes by their rings: outlines counter-clockwise, holes clockwise.
+    pub(super) fn of(rings: Vec<Vec<Vec<Point>>>) -> Self {
         let areas = rings.iter().map(|rings| polygon::area(rings)).collect();
         let index = BoxIndex::new(rings.iter().map(|rings| Bounds::around(rings.iter().flatten())).collect());
         Self { pieces: rings.iter().map(|rings| pieces(rings)).collect(), rings, areas, index }
     }
 
-    /// The faces that an area lies in, ascending, with the area in common.
+    /// The shapes that an area lies in, ascending, with the area in common.
     pub(super) fn overlaps(&self, rings: &[Vec<Point>]) -> Vec<(u32, f64)> {
         let mut clip = Clip::default();
         let overlap = |face: u32| {

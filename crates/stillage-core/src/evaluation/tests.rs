@@ -5,7 +5,7 @@ use expect_test::{Expect, expect};
 use super::*;
 use crate::geometry::{Point, direction, normal};
 use crate::semantics::apply;
-use crate::semantics::pictures::{DrawnMap, RESOLUTION};
+use crate::semantics::pictures::{DrawnMap, RESOLUTION, VEHICLE_RADIUS};
 
 /// Two rows of places (letters p and q) along a corridor (c), and a junction (j); cells of half a metre.
 fn map() -> DrawnMap {
@@ -325,4 +325,37 @@ fn a_comparison_can_be_stopped() {
     let stop = crate::watch::StopFlag::default();
     stop.raise();
     assert!(Evaluator::new(&map.analysis, &truth(&map), &Watch::new(&stop, &Nobody)).is_err());
+}
+
+#[test]
+fn a_layout_is_compared_place_by_place_and_code_by_code() {
+    use crate::routing::Router;
+
+    let map = map();
+    let semantic = map.semantic(&RuleSet::warehouse());
+    let (site, layout) = (map.site(&semantic), map.layout(&semantic));
+    let router = Router::new(&site, VEHICLE_RADIUS);
+    let scored = |truth: &GroundTruth, layout: &crate::layout::Layout| {
+        let scores = LayoutScores::of(&site, layout, &router, truth, &Watch::unwatched()).unwrap();
+        let LayoutScores { places, found, locations, false_locations, approaches, standing, reachable, .. } = scores;
+        let orders: Vec<String> =
+            scores.orders.iter().map(|order| format!("{}: {:.1} of {}", order.aisle, order.tau, order.pairs)).collect();
+        format!(
+            "{found} of {places} found, {false_locations} of {locations} false, {standing} of {approaches} standing, {reachable} reachable, {orders:?}"
+        )
+    };
+    expect![[r#"4 of 4 found, 0 of 4 false, 4 of 4 standing, 4 reachable, ["1: 1.0 of 2"]"#]]
+        .assert_eq(&scored(&truth(&map), &layout));
+    // A place that is not there, one seen too little, and codes against the order of the places.
+    let mut wrong = truth(&map);
+    wrong.places[0].area = area(&map, 5..7, 0..2);
+    wrong.places[1].observed = 0.1;
+    expect![[r#"2 of 3 found, 1 of 4 false, 4 of 4 standing, 4 reachable, ["1: 1.0 of 1"]"#]]
+        .assert_eq(&scored(&wrong, &layout));
+    let mut swapped = layout.clone();
+    let codes: Vec<String> = layout.locations.iter().map(|location| location.code.clone()).collect();
+    swapped.locations[0].code.clone_from(&codes[2]);
+    swapped.locations[2].code.clone_from(&codes[0]);
+    expect![[r#"4 of 4 found, 0 of 4 false, 4 of 4 standing, 4 reachable, ["1: 0.0 of 2"]"#]]
+        .assert_eq(&scored(&truth(&map), &swapped));
 }
