@@ -9,6 +9,7 @@ use stillage_core::AnalysisOptions;
 use stillage_core::alignment::SiteAlignment;
 use stillage_core::analysis::Diagnostic;
 use stillage_core::geometry::RigidMotion;
+use stillage_core::layout::LayoutOptions;
 use stillage_core::semantics::{Assignment, RuleSetDraft};
 use uuid::Uuid;
 
@@ -93,6 +94,14 @@ pub struct MapRecord {
     pub warnings: Vec<Diagnostic>,
     /// Raised with every change (the strong `ETag` of the record).
     pub version: u64,
+}
+
+impl MapRecord {
+    /// From its map frame to the frame of its site.
+    #[must_use]
+    pub fn to_site(&self) -> RigidMotion {
+        self.alignment.map_or_else(RigidMotion::identity, |alignment| alignment.to_site)
+    }
 }
 
 /// How a map lies on an earlier one of its site.
@@ -270,6 +279,8 @@ pub struct SemanticsRecord {
     pub draft: RuleSetDraft,
     /// The decision.
     pub assignment: Assignment,
+    /// How locations are cut and numbered.
+    pub layout: LayoutOptions,
     /// 0 is the suggestion; assigned versions count from 1.
     pub version: u64,
     /// Who decided.
@@ -295,6 +306,8 @@ pub struct NewSemantics {
     pub rule_set: Option<String>,
     /// The decision.
     pub assignment: Assignment,
+    /// How locations are cut and numbered; as in force when absent.
+    pub layout: Option<LayoutOptions>,
 }
 
 /// The result of asking for an analysis.

@@ -11,7 +11,7 @@ use stillage_core::layout::{Location, OccupancyState};
 use uuid::Uuid;
 
 use super::context::GeometricLevel;
-use super::registries::{codes_of, site_motion};
+use super::registries::codes_of;
 use super::{App, AppError, Caller, MapContext};
 use crate::blocking::off_the_runtime;
 
@@ -75,9 +75,10 @@ impl App {
         let now = Arc::clone(&context);
         let earlier = off_the_runtime(move || {
             let analysis = (now.analysis_id, now.semantics.created);
-            let earlier = GeometricLevel::of(&now).read_under(now.record.clone(), analysis, decision)?;
+            let (level, layout) = (GeometricLevel::of(&now), now.semantics.layout.clone());
+            let earlier = level.read_under(now.record.clone(), analysis, decision, layout)?;
             let codes = codes_of(&site.registry, &earlier);
-            Ok::<_, AppError>(earlier.with_codes(codes))
+            Ok::<_, AppError>(earlier.with_codes(&site.registry, codes))
         })
         .await?;
         let (before, now) = (places(&earlier, &RigidMotion::identity()), places(&context, &RigidMotion::identity()));
@@ -102,7 +103,7 @@ fn align(first: &MapContext, second: &MapContext) -> Result<PairAlignment, AppEr
     let (one, other) = (&first.record, &second.record);
     if one.site == other.site {
         let found = other.alignment.filter(|record| record.previous == one.id).map(|record| record.found);
-        return Ok(PairAlignment { motion: site_motion(other).then(&site_motion(one).inverse()), found });
+        return Ok(PairAlignment { motion: other.to_site().then(&one.to_site().inverse()), found });
     }
     let found = alignment::align(&second.grid, &first.grid, &Watch::unwatched()).expect("nobody stops it");
     let found = found.map_err(|refusal| AppError::NotSameSite(format!("{refusal}: compare maps of one site")))?;

@@ -7,16 +7,17 @@
 use std::sync::Arc;
 
 use jiff::Timestamp;
-use stillage_core::layout::{self, LayoutSpec};
+use stillage_core::layout::{self, LayoutOptions, LayoutSpec};
 use stillage_core::semantics::{self, Assignment, RuleSet, RuleSetDraft};
 use stillage_core::{Analysis, OccupancyGrid, SiteCells};
 use uuid::Uuid;
 
 use super::map_context::{FeatureCache, MapContext};
-use super::registries::{numbered, site_motion};
+use super::registries::{numbered, site_to_grid};
 use super::routers::RouterCache;
 use super::{AnalysisRecord, App, AppError, Caller, MapRecord, SemanticsOrigin, SemanticsRecord};
 use crate::blocking::off_the_runtime;
+use crate::features::MapNames;
 use crate::ingest::{self, Limits, MapSource};
 use crate::store::{Blob, Snapshot};
 
@@ -38,7 +39,7 @@ impl App {
     ) -> Result<Arc<MapContext>, AppError> {
         let snapshot =
             self.store.snapshot(caller.tenant(), map).await?.ok_or_else(|| AppError::not_found("map", map))?;
-        let Snapshot { record, source, analysis, semantics, job } = snapshot;
+        let Snapshot { record, source, analysis, semantics, layout, job } = snapshot;
         let (analysis, blob) = analysis.ok_or(AppError::NotAnalysed { map, job })?;
         let _permit = self.decoders.acquire().await.map_err(|_| AppError::Unavailable)?;
         let geometry = if let Some(previous) = previous.filter(|previous| previous.analysis_id == analysis.id) {
@@ -49,9 +50,9 @@ impl App {
             off_the_runtime(move || GeometricLevel::read(&source, &blob, &record, &limits)).await?
         };
         let (id, created) = (analysis.id, analysis.created);
-        let context = off_the_runtime(move || geometry.read_under(record, (id, created), semantics)).await?;
-        let (_, codes) = self.carried_registry(caller, &context).await?;
-        Ok(Arc::new(context.with_codes(codes)))
+        let context = off_the_runtime(move || geometry.read_under(record, (id, created), semantics, layout)).await?;
+        let (site, codes) = self.carried_registry(caller, &context).await?;
+        Ok(Arc::new(off_the_runtime(move || context.with_codes(&site.registry, codes)).await))
     }
 }
 
@@ -76,12 +77,13 @@ impl GeometricLevel {
     }
 
     /// Adds the human level: the stored decision, or the suggestion under the default rule set. `analysis` is its id and
-    /// when it was made. The locations have the codes of a fresh numbering.
+    /// when it was made; `suggested_layout` goes with the suggestion. The locations have the codes of a fresh numbering.
     pub(super) fn read_under(
         self,
         record: MapRecord,
         (analysis_id, created): (Uuid, Timestamp),
         decision: Option<SemanticsRecord>,
+        suggested_layout: LayoutOptions,
     ) -> Result<MapContext, AppError> {
         let rule_set = decision.as_ref().map_or_else(|| Ok(RuleSet::default()), |made| read_rule_set(&made.draft))?;
         let suggestions = semantics::suggest(&self.analysis, &rule_set);
@@ -90,14 +92,17 @@ impl GeometricLevel {
             rule_set: RuleSet::DEFAULT_ID.to_owned(),
             draft: rule_set.draft().clone(),
             assignment: Assignment::suggested(&suggestions, &rule_set),
+            layout: suggested_layout,
             version: 0,
             origin: SemanticsOrigin::Suggested,
             created,
         });
         let semantic = semantics::apply(&self.analysis, &rule_set, &semantics.assignment)?;
         let Self { grid, analysis: geometric, cells } = self;
-        let layout = layout::layout(&cells.map(&grid, &geometric, &semantic), &LayoutSpec::of(&geometric.options));
-        let (grid_frame, to_site) = (*grid.frame(), site_motion(&record));
+        let frame = *grid.frame();
+        let layout_spec = LayoutSpec::wished(&semantics.layout, &geometric.options, &site_to_grid(&record, frame));
+        let layout = layout::layout(&cells.map(&grid, &geometric, &semantic), &layout_spec);
+        let numbered = numbered(&layout, frame, &record.to_site());
         Ok(MapContext {
             record,
             grid,
@@ -107,8 +112,10 @@ impl GeometricLevel {
             semantics,
             semantic,
             suggestions,
-            numbered: numbered(&layout, grid_frame, &to_site),
+            numbered,
             layout,
+            layout_spec,
+            names: MapNames::default(),
             features: FeatureCache::default(),
             routers: RouterCache::default(),
         })

@@ -2,8 +2,6 @@
 
 use std::sync::Arc;
 
-use stillage_core::layout::LayoutSpec;
-
 use super::map_context::MapContext;
 use crate::exports::{Export, ExportError, ExportOptions, ExportSource, write};
 
@@ -13,9 +11,8 @@ impl MapContext {
     /// # Errors
     /// [`ExportError`] when the format has no place for the map, or an option does not fit it.
     pub fn export(&self, export: &Export, options: &ExportOptions) -> Result<Vec<u8>, ExportError> {
-        let usual = || LayoutSpec::of(&self.analysis.options).vehicle_radius;
         let graph = if export.reads_graph() {
-            self.graph(options.footprint_radius.unwrap_or_else(usual))
+            self.graph(options.footprint_radius.unwrap_or(self.layout_spec.vehicle_radius))
         } else {
             Arc::default()
         };
@@ -29,6 +26,7 @@ impl MapContext {
             semantic: &self.semantic,
             cells: &self.cells.faces,
             layout: &self.layout,
+            names: &self.names,
             graph: &graph,
             georeference: self.record.georeference,
         };

@@ -3,15 +3,16 @@
 use std::sync::{Arc, OnceLock};
 
 use stillage_core::graph::NavigationGraph;
-use stillage_core::layout::Layout;
-use stillage_core::registry::{GivenCode, NumberedLocation};
+use stillage_core::layout::{Layout, LayoutSpec};
+use stillage_core::registry::{GivenCode, NumberedLocation, Registry};
 use stillage_core::routing::{Blocked, Router};
 use stillage_core::semantics::{SemanticMap, Suggestion};
 use stillage_core::{Analysis, OccupancyGrid, SiteCells, SiteMap};
 use uuid::Uuid;
 
+use super::names::names_of;
 use super::routers::RouterCache;
-use crate::features::{self, AnalysedMap, Collection, Feature};
+use crate::features::{self, AnalysedMap, Collection, Feature, MapNames};
 use crate::records::{MapRecord, SemanticsRecord};
 
 /// An analysed map in memory, ready to answer. Shared, immutable; replaced when the semantics change.
@@ -35,6 +36,10 @@ pub struct MapContext {
     pub suggestions: Vec<Suggestion>,
     /// Storage locations, aisles and rows.
     pub layout: Layout,
+    /// How they were cut, numbered and approached.
+    pub layout_spec: LayoutSpec,
+    /// What people call its things.
+    pub names: MapNames,
     /// Its locations with the codes of a fresh numbering, in the frame of the site.
     pub(super) numbered: Vec<NumberedLocation>,
     /// Its collections, made when they are first asked for.
@@ -48,8 +53,9 @@ pub struct MapContext {
 pub struct FeatureCache([OnceLock<Vec<Feature>>; Collection::ALL.len()]);
 
 impl MapContext {
-    /// The map with these codes for its locations, in their order.
-    pub(super) fn with_codes(mut self, codes: Vec<GivenCode>) -> Self {
+    /// The map with these codes for its locations, in their order, and the names that the registry of its site has.
+    pub(super) fn with_codes(mut self, registry: &Registry, codes: Vec<GivenCode>) -> Self {
+        self.names = names_of(&self, registry, &codes);
         for (location, given) in self.layout.locations.iter_mut().zip(codes) {
             location.code = given.code;
         }
@@ -59,7 +65,7 @@ impl MapContext {
     /// The map as [`crate::features`] reads it.
     #[must_use]
     pub fn view(&self) -> AnalysedMap<'_> {
-        AnalysedMap { analysis: &self.analysis, semantic: &self.semantic, layout: &self.layout }
+        AnalysedMap { analysis: &self.analysis, semantic: &self.semantic, layout: &self.layout, names: &self.names }
     }
 
     /// The map as layout, graph and routing read it.

@@ -7,6 +7,7 @@
 //! | `rule_sets` | the vocabulary of labels |
 //! | `semantics` | the human decision on a map |
 //! | `registries` | uploads aligned to an earlier map, the codes of a site's places |
+//! | `names` | what people call locations, places, aisles and rows |
 //! | `comparisons` | what changed between two maps, or two versions of labels |
 //! | `grid` | the cells of a map, before any analysis |
 //! | `context`, `map_context`, `context_cache` | the analysed map in memory, with its collections |
@@ -31,6 +32,7 @@ mod jobs;
 mod latest;
 mod map_context;
 mod maps;
+mod names;
 mod registries;
 mod routers;
 mod rule_sets;
@@ -49,4 +51,5 @@ pub use error::{AppError, FieldProblem};
 pub use file_context::FileMap;
 pub use grid::GridSource;
 pub use map_context::MapContext;
+pub use names::{Nameable, area_kind};
 pub use service::App;

@@ -20,7 +20,7 @@ use crate::store::{SiteRegistry, StoreError};
 use stillage_core::spec::GridOptions;
 
 /// How often a registry is written anew when others write it at the same time.
-const ATTEMPTS: usize = 8;
+pub(super) const ATTEMPTS: usize = 8;
 /// Agreement below which the codes of an aligned map are in doubt: scans that are bent.
 const SURE_AGREEMENT: f64 = 0.5;
 /// Outlines are kept to a tenth of a millimetre, so that they are read as they were written.
@@ -31,7 +31,7 @@ impl App {
     pub async fn registry(&self, caller: &Caller, map: Uuid) -> Result<(SiteRegistry, RigidMotion), AppError> {
         let context = self.context(caller, map).await?;
         let (site, _) = self.carried_registry(caller, &context).await?;
-        Ok((site, site_motion(&context.record)))
+        Ok((site, context.record.to_site()))
     }
 
     /// Confirms the stale places with these codes, or all: they are where the newest map of the site shows them. Answers
@@ -72,12 +72,19 @@ impl App {
             let site = site.ok_or_else(|| AppError::not_found("map", map))?;
             let trust = trust(&site, context.record.alignment.as_ref());
             let (before, numbered, scan) = (site.registry.clone(), context.numbered.clone(), map.to_string());
-            let carried = off_the_runtime(move || before.carry(&numbered, trust, &scan)).await;
-            let Carried { registry, codes } = carried;
+            let numbering = context.semantics.layout.numbering();
+            // Another template or entrance is a wish for new codes: other maps of the site answer differently then.
+            let is_new_numbering = trust != Trust::Earlier && site.registry.numbering != numbering;
+            let carry = move || {
+                let before = if is_new_numbering { before.renumbered(&numbered, numbering) } else { before };
+                before.carry(&numbered, trust, &scan)
+            };
+            let Carried { registry, codes } = off_the_runtime(carry).await;
             if registry == site.registry {
                 return Ok((site, codes));
             }
-            let written = self.store.put_registry(caller.tenant(), map, &registry, site.version, false).await;
+            let written =
+                self.store.put_registry(caller.tenant(), map, &registry, site.version, is_new_numbering).await;
             match written {
                 Ok(true) => return Ok((SiteRegistry { registry, version: site.version + 1, ..site }, codes)),
                 Ok(false) => {}
@@ -115,20 +122,24 @@ impl App {
             let detail = format!("previous: {refusal}. Upload the map without previous, or name a map of its site");
             AppError::NotSameSite(detail)
         })?;
-        let to_site = found.motion.then(&site_motion(&earlier));
+        let to_site = found.motion.then(&earlier.to_site());
         Ok((decoded, earlier.site, AlignmentRecord { previous, found, to_site }))
     }
 }
 
-/// From the map frame of a map to the frame of its site.
-pub(super) fn site_motion(record: &MapRecord) -> RigidMotion {
-    record.alignment.map_or_else(RigidMotion::identity, |alignment| alignment.to_site)
+/// From the frame of the site of a map to its grid frame.
+pub(super) fn site_to_grid(record: &MapRecord, frame: GridFrame) -> RigidMotion {
+    frame.motion().then(&record.to_site()).inverse()
+}
+
+/// A point as it is kept.
+pub(super) fn kept(point: Point) -> Point {
+    Point::from((point.coords * KEPT_PER_M).map(f64::round) / KEPT_PER_M)
 }
 
 /// The locations of a fresh numbering in the frame of the site.
 pub(super) fn numbered(layout: &Layout, frame: GridFrame, to_site: &RigidMotion) -> Vec<NumberedLocation> {
     let motion = frame.motion().then(to_site);
-    let kept = |point: Point| Point::from((point.coords * KEPT_PER_M).map(f64::round) / KEPT_PER_M);
     let footprint = |location: &Location| {
         let placed = Footprint { outline: location.outline.clone(), center: location.center }.moved(&motion);
         Footprint { outline: placed.outline.into_iter().map(kept).collect(), center: kept(placed.center) }

@@ -3,14 +3,17 @@
 //! Until somebody decides, the suggestion is in force, as version 0. A decision is a new immutable version; it keeps the
 //! rule set as it was. It belongs to the analysis whose categories it names: when another analysis comes into force, its
 //! own newest decision is (or its suggestion, version 0 again). Versions of decisions count on over all analyses of a
-//! map.
+//! map. A decision holds how locations are cut and numbered, too; the suggestion has the layout of the newest decision
+//! on the map, or on an earlier map of the site.
 
 use std::sync::Arc;
 
-use stillage_core::semantics;
+use stillage_core::layout::{self, CodeTemplate, LONGEST_CODE, LayoutOptions, LayoutSpec};
+use stillage_core::semantics::{self, SemanticMap};
 use uuid::Uuid;
 
 use super::context::read_rule_set;
+use super::registries::site_to_grid;
 use super::{App, AppError, Caller, MapContext, NewSemantics, SemanticsRecord};
 use crate::blocking::off_the_runtime;
 use crate::store::{NewSemanticsRow, now};
@@ -35,10 +38,17 @@ impl App {
             return Err(AppError::PreconditionFailed { current: context.semantics.version });
         }
         let row = self.checked_semantics(caller, &context, new).await?;
+        let is_other_layout = row.layout != context.semantics.layout;
         match self.store.insert_semantics(caller.tenant(), &row, now()).await? {
             None => Err(AppError::not_found("map", map)),
             Some(Err(current)) => Err(AppError::PreconditionFailed { current }),
-            Some(Ok(record)) => Ok(record),
+            Some(Ok(record)) => {
+                if is_other_layout {
+                    // Writes the new codes, which raises the version of the map: not under the first who asks for it.
+                    self.context(caller, map).await?;
+                }
+                Ok(record)
+            }
         }
     }
 
@@ -66,12 +76,39 @@ impl App {
             },
         };
         let checked = read_rule_set(&draft)?;
-        let (analysis, assignment) = (Arc::clone(&context.analysis), new.assignment);
-        let assignment = off_the_runtime(move || {
-            semantics::apply(&analysis, &checked, &assignment).map(|_| assignment).map_err(AppError::from)
+        let (assignment, layout) = (new.assignment, new.layout.unwrap_or_else(|| context.semantics.layout.clone()));
+        let on = Arc::clone(context);
+        let (assignment, layout) = off_the_runtime(move || {
+            let semantic = semantics::apply(&on.analysis, &checked, &assignment)?;
+            check_layout(&on, &semantic, &layout)?;
+            Ok::<_, AppError>((assignment, layout))
         })
         .await?;
         let (map, analysis, replaces) = (context.record.id, context.analysis_id, context.semantics.version);
-        Ok(NewSemanticsRow { map, analysis, replaces, rule_set, draft, assignment })
+        Ok(NewSemanticsRow { map, analysis, replaces, rule_set, draft, assignment, layout })
     }
+}
+
+/// Refuses a layout whose codes would be too long.
+fn check_layout(context: &MapContext, semantic: &SemanticMap, wish: &LayoutOptions) -> Result<(), AppError> {
+    /// How many codes are told.
+    const TOLD: usize = 3;
+    if wish.code_template == CodeTemplate::default() {
+        return Ok(());
+    }
+    let to_grid = site_to_grid(&context.record, *context.grid.frame());
+    let spec = LayoutSpec::wished(wish, &context.analysis.options, &to_grid);
+    let map = context.cells.map(&context.grid, &context.analysis, semantic);
+    let long = layout::layout(&map, &spec).long_codes;
+    if long.is_empty() {
+        return Ok(());
+    }
+    let first = long.iter().take(TOLD).map(|code| format!("`{code}`")).collect::<Vec<_>>().join(", ");
+    let detail = format!(
+        "{} codes would be longer than {LONGEST_CODE} characters, like {first}: shorten the template, for example to \
+         `{}`",
+        long.len(),
+        CodeTemplate::default().as_str()
+    );
+    Err(AppError::invalid("/layout/codeTemplate", detail))
 }

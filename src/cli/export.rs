@@ -14,6 +14,7 @@ use super::output;
 use super::progress::ProgressDisplay;
 use super::server;
 use crate::exports::{Export, ExportError, ExportOptions, ExportSource, NamedFile, list, option, write};
+use crate::features::MapNames;
 
 /// In place of a format: every one.
 const ALL: &str = "all";
@@ -149,6 +150,7 @@ fn export_of(
         semantic: &findings.semantic,
         cells: &findings.cells.faces,
         layout: &findings.layout,
+        names: MapNames::none(),
         graph,
         georeference: None,
     };

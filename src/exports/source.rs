@@ -11,7 +11,7 @@ use stillage_core::{Analysis, OccupancyGrid, Point};
 use thiserror::Error;
 
 use crate::coordinates::Georeference;
-use crate::features::{AnalysedMap, rounded};
+use crate::features::{AnalysedMap, MapNames, rounded};
 
 /// Name of this program, where a format asks for the author of a file.
 pub(super) const CREATOR: &str = "stillage";
@@ -42,6 +42,8 @@ pub struct ExportSource<'a> {
     pub cells: &'a CellFaces,
     /// Storage locations, aisles and rows.
     pub layout: &'a Layout,
+    /// What people call its things.
+    pub names: &'a MapNames,
     /// Nodes and lanes; not read by exports that have no option `footprintRadiusM`.
     pub graph: &'a NavigationGraph,
     /// Where the map lies on Earth.
@@ -80,7 +82,7 @@ pub enum ExportError {
 impl<'a> ExportSource<'a> {
     /// The map as [`crate::features`] reads it.
     pub(super) const fn view(&self) -> AnalysedMap<'a> {
-        AnalysedMap { analysis: self.analysis, semantic: self.semantic, layout: self.layout }
+        AnalysedMap { analysis: self.analysis, semantic: self.semantic, layout: self.layout, names: self.names }
     }
 
     /// When the version was made, ISO 8601 in UTC with milliseconds: the form that VDA 5050 asks for.

@@ -6,6 +6,7 @@
 //! | `schema`, `property` | title, description, shapes and properties of a collection |
 //! | `rows` | a file for each collection: its columns, and how its rows are read off a map |
 //! | `feature`, `id`, `geometry`, `value`, `words` | one feature |
+//! | `names` | what people call the things of a map |
 //! | `query` | which features: by ids, by a box, in which order, page by page |
 //! | `view`, `shape`, `rings` | the map that is read; outlines of faces and of what they make up |
 //!
@@ -20,6 +21,7 @@ mod collection;
 mod feature;
 mod geometry;
 mod id;
+mod names;
 mod property;
 pub mod query;
 mod rings;
@@ -38,8 +40,10 @@ pub use collection::Collection;
 pub use feature::{Feature, Row};
 pub use geometry::{Geometry, GeometryType, Ring};
 pub use id::FeatureId;
+pub use names::{MapNames, Naming};
 pub use property::{Kind, Property};
 pub use schema::CollectionSchema;
+pub use shape::place_shape;
 pub use value::{BoxValue, Pose, Value};
 pub use view::{AnalysedMap, LabelWords, rounded};
 

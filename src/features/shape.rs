@@ -16,6 +16,13 @@ pub fn of_face(view: &AnalysedMap<'_>, face: FaceId) -> Geometry {
     area(view, subdivision.cycles(face).iter().map(walk).flat_map(simple_rings))
 }
 
+/// The shape of a place, by its id: the union of its faces.
+#[must_use]
+pub fn place_shape(view: &AnalysedMap<'_>, place: u32) -> Geometry {
+    let faces = &view.semantic.places[place as usize].faces;
+    of_union(view, faces, |face| view.semantic.face_places[face.index()] == Some(place))
+}
+
 /// The union of faces: walks along the edges that have one of them on the left only.
 pub fn of_union(view: &AnalysedMap<'_>, faces: &[FaceId], is_inside: impl Fn(FaceId) -> bool) -> Geometry {
     let subdivision = &view.analysis.subdivision;

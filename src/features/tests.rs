@@ -61,7 +61,7 @@ fn whole() -> &'static Whole {
 /// The hall, analysed.
 pub(crate) fn hall_view() -> AnalysedMap<'static> {
     let whole = whole();
-    AnalysedMap { analysis: &whole.analysis, semantic: &whole.semantic, layout: &whole.layout }
+    AnalysedMap { analysis: &whole.analysis, semantic: &whole.semantic, layout: &whole.layout, names: MapNames::none() }
 }
 
 /// Every collection of the hall.
@@ -106,11 +106,11 @@ fn each_collection_has_its_properties() {
         links (LineString): id, from, to, connectivity, drivable, edge
         lines (LineString): id, orientation, offset, support, region
         regions (Polygon): id, orientations, share, box
-        places (Polygon): id, label, labelName, functionality, areaM2, room, faces
+        places (Polygon): id, name, groups, label, labelName, functionality, areaM2, room, faces
         doors (LineString): id, widthM, from, to, links
-        locations (Polygon): code, face, part, label, labelName, aisle, bay, row, depthInRow, side, centre, widthM, depthM, headingDeg, areaM2, occupancy, occupiedFraction, occupancyConfidence, accessEdges, accessFrom, corridor, approach
-        aisles (LineString): id, lengthM, widthM, headingDeg, place, left, right
-        rows (LineString): id, aisle, side, lengthM, depthM, layers, locations
+        locations (Polygon): code, name, groups, stale, face, part, parts, label, labelName, aisle, bay, row, depthInRow, side, centre, widthM, depthM, headingDeg, areaM2, occupancy, occupiedFraction, occupancyConfidence, accessEdges, accessFrom, corridor, approach
+        aisles (LineString): id, name, groups, lengthM, widthM, headingDeg, place, left, right
+        rows (LineString): id, name, groups, aisle, side, lengthM, depthM, layers, locations
     "#]].assert_eq(&lists.concat());
 }
 

@@ -8,6 +8,7 @@ use stillage_core::layout::Layout;
 use stillage_core::semantics::{LabelId, SemanticMap};
 use stillage_core::{Analysis, Point};
 
+use super::names::MapNames;
 use super::words;
 
 /// An analysed map with its labels and its storage layout.
@@ -19,6 +20,8 @@ pub struct AnalysedMap<'a> {
     pub semantic: &'a SemanticMap,
     /// Storage locations, aisles and rows.
     pub layout: &'a Layout,
+    /// What people call its things.
+    pub names: &'a MapNames,
 }
 
 /// What a label says of a face, place or location.

@@ -6,9 +6,9 @@ use crate::features::{Feature, Row, Value};
 /// Reads a cell off a location.
 type ReadCell = fn(&LocationRow) -> Value<'_>;
 
-/// The columns: the properties of a location that are no lists, its centre and its approach spread out. Their order is
+/// The columns: the properties of a location that are no lists of ids, its centre and its approach spread out. Their order is
 /// what importers rely on: new columns come last.
-const COLUMNS: [(&str, ReadCell); 17] = [
+const COLUMNS: [(&str, ReadCell); 20] = [
     ("code", |location| location.code.as_str().into()),
     ("label", |location| location.label.id.as_str().into()),
     ("labelName", |location| location.label.name.as_str().into()),
@@ -26,6 +26,9 @@ const COLUMNS: [(&str, ReadCell); 17] = [
     ("approachY", |location| location.approach.map(|pose| pose.y).into()),
     ("approachHeadingDeg", |location| location.approach.map(|pose| pose.heading_deg).into()),
     ("face", |location| location.face.into()),
+    ("name", |location| location.naming.name.as_deref().into()),
+    ("groups", |location| location.naming.groups.as_slice().into()),
+    ("stale", |location| location.stale.into()),
 ];
 
 /// Storage locations as CSV, a row each; positions are map-frame metres. Features of other collections have no row.
@@ -55,6 +58,7 @@ fn cell(value: Value<'_>) -> String {
     match value {
         Value::Null => String::new(),
         Value::Text(text) => harmless(text),
+        Value::Texts(texts) => harmless(&texts.join("|")),
         other => serde_json::to_string(&other).expect("a number is JSON"),
     }
 }

@@ -81,7 +81,11 @@ fn answered_in_time() -> OpenApiRouter<Arc<App>> {
         .routes(routes!(ogc::collections::list))
         .routes(routes!(ogc::collections::get))
         .routes(routes!(ogc::items::list))
-        .routes(routes!(ogc::items::get))
+        .routes(routes!(ogc::items::get, ogc::item_names::update))
+        .route(
+            "/v1/maps/{mapId}/collections/{collectionId}/items/{featureId}",
+            axum::routing::options(ogc::item_names::options),
+        )
         .routes(routes!(fleet::route::get))
         .routes(routes!(fleet::distance_matrix::create))
         .routes(routes!(fleet::exports::list))

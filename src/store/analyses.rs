@@ -7,6 +7,7 @@ use async_trait::async_trait;
 use jiff::Timestamp;
 use stillage_core::AnalysisOptions;
 use stillage_core::analysis::Diagnostic;
+use stillage_core::layout::LayoutOptions;
 use uuid::Uuid;
 
 use super::{BlobId, NewJob, StoreError};
@@ -70,6 +71,9 @@ pub struct Snapshot {
     pub analysis: Option<(AnalysisRecord, BlobId)>,
     /// The newest human decision on that analysis.
     pub semantics: Option<SemanticsRecord>,
+    /// How locations are cut and numbered where nobody decided on that analysis: as the newest decision on the map says,
+    /// or that on the newest of the site's maps before it.
+    pub layout: LayoutOptions,
     /// The newest job of the map.
     pub job: Option<Uuid>,
 }

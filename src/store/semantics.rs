@@ -2,6 +2,7 @@
 
 use async_trait::async_trait;
 use jiff::Timestamp;
+use stillage_core::layout::LayoutOptions;
 use stillage_core::semantics::{Assignment, RuleSetDraft};
 use uuid::Uuid;
 
@@ -23,6 +24,8 @@ pub struct NewSemanticsRow {
     pub draft: RuleSetDraft,
     /// The decision.
     pub assignment: Assignment,
+    /// How locations are cut and numbered.
+    pub layout: LayoutOptions,
 }
 
 /// What is kept of human decisions.
@@ -31,7 +34,8 @@ pub trait SemanticsVersions {
     /// Stores a decision, when the analysis and the version it was made on are still in force; otherwise `Err` with the
     /// version in force, and `None` when the map is gone.
     ///
-    /// Versions count on over all analyses of a map, so that a number never means two decisions.
+    /// Versions count on over all analyses of a map, so that a number never means two decisions. The record versions of
+    /// later maps of the site are raised: without a decision of their own they have its layout.
     async fn insert_semantics(
         &self,
         tenant: &Tenant,

@@ -14,6 +14,7 @@ pub mod georeference;
 pub mod graph_report;
 pub mod id;
 pub mod job;
+pub mod layout;
 pub mod link;
 pub mod map;
 pub mod name;

@@ -1,8 +1,9 @@
 //! The registry of a site.
 
 use serde::{Deserialize, Serialize};
-use stillage_core::geometry::RigidMotion;
-use stillage_core::registry::{PlaceState, RegistryEntry};
+use stillage_core::Point;
+use stillage_core::geometry::{RigidMotion, polygon};
+use stillage_core::registry::{AreaKind, NamedArea, PlaceState, RegistryEntry};
 use utoipa::ToSchema;
 
 use super::id::Id;
@@ -27,6 +28,8 @@ pub struct RegistryView {
     lost: usize,
     /// The places, by code.
     entries: Vec<RegistryEntryView>,
+    /// The places in the sense of the collection `places`, aisles and rows that have names or groups.
+    areas: Vec<NamedAreaView>,
     links: Vec<Link>,
 }
 
@@ -39,6 +42,8 @@ pub struct RegistryEntryView {
     key: u32,
     #[schema(example = "03-012")]
     code: String,
+    /// Whether a person gave the code.
+    code_given: bool,
     /// The name that people gave it.
     #[serde(skip_serializing_if = "Option::is_none")]
     name: Option<String>,
@@ -50,6 +55,32 @@ pub struct RegistryEntryView {
     /// Where it was seen since, when that is not confirmed yet.
     #[serde(skip_serializing_if = "Option::is_none")]
     seen_at: Option<[f64; 2]>,
+}
+
+/// Ground that has a name or groups.
+#[derive(Debug, Serialize, ToSchema)]
+#[schema(as = NamedArea)]
+pub struct NamedAreaView {
+    /// What it is.
+    kind: AreaKindView,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    name: Option<String>,
+    groups: Vec<String>,
+    /// Its middle when it was named, x and y, metres of this map's frame.
+    centre: [f64; 2],
+}
+
+/// What an area is.
+#[derive(Debug, Serialize, ToSchema)]
+#[schema(as = AreaKind)]
+#[serde(rename_all = "lowercase")]
+pub enum AreaKindView {
+    /// A place: a room, a corridor, a junction.
+    Place,
+    /// An aisle.
+    Aisle,
+    /// A row of locations.
+    Row,
 }
 
 /// How surely a place is where its code says.
@@ -97,6 +128,7 @@ impl RegistryView {
         let entry = |entry: RegistryEntry| RegistryEntryView {
             key: entry.key,
             code: entry.code,
+            code_given: entry.is_code_given,
             name: entry.name,
             groups: entry.groups,
             state: entry.state.into(),
@@ -105,6 +137,17 @@ impl RegistryView {
         };
         let mut entries: Vec<RegistryEntryView> = site.registry.entries.into_iter().map(entry).collect();
         entries.sort_by(|one, other| one.code.cmp(&other.code));
-        Self { site: Id(site.site), version: site.version, current, stale, lost, entries, links }
+        let area = |area: NamedArea| NamedAreaView {
+            kind: match area.kind {
+                AreaKind::Place => AreaKindView::Place,
+                AreaKind::Aisle => AreaKindView::Aisle,
+                AreaKind::Row => AreaKindView::Row,
+            },
+            name: area.name,
+            groups: area.groups,
+            centre: position(polygon::centroid(&area.rings).unwrap_or_else(Point::origin)),
+        };
+        let areas = site.registry.areas.into_iter().map(area).collect();
+        Self { site: Id(site.site), version: site.version, current, stale, lost, entries, areas, links }
     }
 }

@@ -5,8 +5,10 @@ use std::collections::BTreeMap;
 use jiff::Timestamp;
 use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
+use stillage_core::geometry::RigidMotion;
 use utoipa::ToSchema;
 
+use super::layout::LayoutView;
 use super::link::Link;
 use crate::records::{SemanticsOrigin, SemanticsRecord};
 
@@ -21,6 +23,7 @@ pub struct SemanticsView {
     #[schema(value_type = BTreeMap<String, String>, example = json!({"0": "co", "1": "pc"}))]
     assignment: BTreeMap<u8, String>,
     overrides: Vec<OverrideView>,
+    layout: LayoutView,
     /// 0 is the suggestion; assigned versions count from 1.
     version: u64,
     origin: OriginView,
@@ -50,13 +53,16 @@ pub enum OriginView {
     Assigned,
 }
 
-impl From<SemanticsRecord> for SemanticsView {
-    fn from(record: SemanticsRecord) -> Self {
+impl SemanticsView {
+    /// The labels of a map that `to_site` carries to the frame of its site.
+    #[must_use]
+    pub fn new(record: SemanticsRecord, to_site: &RigidMotion) -> Self {
         let overrides = record.assignment.overrides.into_iter().map(|(face, label)| OverrideView { face, label });
         Self {
             rule_set: record.rule_set,
             assignment: record.assignment.assignment,
             overrides: overrides.collect(),
+            layout: LayoutView::new(&record.layout, to_site),
             version: record.version,
             origin: match record.origin {
                 SemanticsOrigin::Suggested => OriginView::Suggested,
@@ -82,6 +88,10 @@ pub struct SemanticsBody {
     /// Labels of single faces.
     #[serde(default)]
     pub overrides: Vec<OverrideView>,
+    /// How locations are cut and numbered; as in force when absent. Another template, entrance or width of places is a wish
+    /// for new codes: only those that people gave stay.
+    #[schema(required = false)]
+    pub layout: Option<LayoutView>,
     #[serde(default, rename = "version")]
     #[schema(read_only, value_type = serde_json::Value)]
     _version: IgnoredAny,

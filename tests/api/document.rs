@@ -170,6 +170,11 @@ async fn valid(site: &Site, operation: &str) -> (Sent, &'static [u16]) {
         "getCollection" => get(format!("{map}/collections/doors")),
         "getFeatures" => get(format!("{map}/collections/faces/items")),
         "getFeature" => get(format!("{map}/collections/vertices/items/0")),
+        "nameFeature" => {
+            let sent =
+                Sent::new(Method::PATCH, format!("{map}/collections/places/items/0")).json(&json!({"name": "Hall"}));
+            (sent.with("if-match", "*"), &[200])
+        }
         "getRoute" => {
             // Robots may drive wherever cells are free.
             let every = json!({"assignment": site.api.all_labelled(map, "co").await});
@@ -234,6 +239,11 @@ fn wrongs(site: &Site, operation: &str, good: &Sent) -> Vec<Sent> {
         "getCollection" => vec![own(&format!("{}/collections/none", site.map))],
         "getFeature" => vec![own(&format!("{}/collections/vertices/items/999999", site.map))],
         "getExport" => vec![own(&format!("{}/exports/none.json", site.map))],
+        "nameFeature" => {
+            let path = format!("{}/collections/locations/items", site.map);
+            let code = |id: &str, code: &str| own(&format!("{path}/{id}")).json(&json!({"code": code}));
+            vec![own(&format!("{}/collections/edges/items/1", site.map)), code("01-001", "01-003")]
+        }
         "getRoute" => vec![own(&format!("{}/routes?from=face:1&to=face:9999", site.map))],
         "dismissJob" => vec![own(&format!("/v1/jobs/{}", site.over))],
         "createRuleSet" => vec![sent().json(&rule_set("office"))],

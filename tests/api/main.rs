@@ -15,6 +15,7 @@ mod features;
 mod graph_report;
 mod jobs;
 mod maps;
+mod names;
 mod protocol;
 mod routes;
 mod semantics;

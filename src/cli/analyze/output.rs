@@ -15,7 +15,7 @@ use crate::app::StageReport;
 use crate::cli::failure::Failure;
 use crate::cli::findings::Findings;
 use crate::coordinates::Transform;
-use crate::features::{AnalysedMap, Collection, features};
+use crate::features::{AnalysedMap, Collection, MapNames, features};
 use crate::formats::{csv, geojson};
 use crate::render;
 use crate::stage_clock::peak_rss_mib;
@@ -72,7 +72,7 @@ fn parent(folder: &Path) -> &Path {
 /// Name and content of each file.
 fn files(findings: &Findings, stages: &[StageReport]) -> Vec<(PathBuf, Vec<u8>)> {
     let Findings { grid, analysis, semantic, .. } = findings;
-    let view = AnalysedMap { analysis, semantic, layout: &findings.layout };
+    let view = AnalysedMap { analysis, semantic, layout: &findings.layout, names: MapNames::none() };
     let layer = |collection: Collection| {
         let members: geojson::Members<'_> = &[("crs", &geojson::EPSG_3857)];
         let bytes = geojson::feature_collection(&features(&view, collection), &Transform::map_frame(), members);

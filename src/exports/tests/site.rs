@@ -9,6 +9,7 @@ use stillage_core::semantics::LabelId;
 use stillage_core::{OccupancyGrid, Point};
 
 use crate::exports::ExportSource;
+use crate::features::MapNames;
 use crate::features::tests::{hall, hall_view};
 
 /// What the exports of a test read.
@@ -62,6 +63,7 @@ impl Site {
             semantic: view.semantic,
             cells,
             layout,
+            names: MapNames::none(),
             graph,
             georeference: None,
         }

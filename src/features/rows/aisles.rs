@@ -2,7 +2,9 @@
 
 use stillage_core::layout::Aisle;
 
+use super::common::{GROUPS, NAME};
 use crate::features::geometry::{Geometry, GeometryType};
+use crate::features::names::{MapNames, Naming};
 use crate::features::property::{Kind, Property};
 use crate::features::table::{Column, Table};
 use crate::features::view::{AnalysedMap, rounded};
@@ -12,6 +14,8 @@ use crate::features::view::{AnalysedMap, rounded};
 pub struct AisleRow {
     /// Its number.
     pub id: u32,
+    /// What people call it.
+    pub naming: Naming,
     /// Length of its middle line.
     pub length: f64,
     /// Distance between its sides.
@@ -35,6 +39,8 @@ pub const TABLE: Table<AisleRow> = Table {
         Column::new(Property::new("id", Kind::Integer, "Id", "Number of the aisle, as in the codes"), |aisle| {
             aisle.id.into()
         }),
+        Column::new(NAME, |aisle| aisle.naming.name.as_deref().into()),
+        Column::new(GROUPS, |aisle| aisle.naming.groups.as_slice().into()),
         Column::new(Property::new("lengthM", Kind::Number, "Length", "Length of its middle line").unit("m"), |aisle| {
             aisle.length.into()
         }),
@@ -69,8 +75,9 @@ pub const TABLE: Table<AisleRow> = Table {
 /// The aisles of a map, by number.
 #[must_use]
 pub fn read(view: &AnalysedMap<'_>) -> Vec<(Geometry, AisleRow)> {
-    let row = |aisle: &Aisle| AisleRow {
+    let row = |(index, aisle): (usize, &Aisle)| AisleRow {
         id: aisle.number,
+        naming: MapNames::at(&view.names.aisles, index),
         length: rounded(aisle.length()),
         width: rounded(aisle.width),
         heading: view.heading_degrees(aisle.heading()),
@@ -79,5 +86,5 @@ pub fn read(view: &AnalysedMap<'_>) -> Vec<(Geometry, AisleRow)> {
         right: view.codes(&aisle.right),
     };
     let line = |aisle: &Aisle| Geometry::LineString(aisle.center_line.map(|end| view.position(end)).to_vec());
-    view.layout.aisles.iter().map(|aisle| (line(aisle), row(aisle))).collect()
+    view.layout.aisles.iter().enumerate().map(|(index, aisle)| (line(aisle), row((index, aisle)))).collect()
 }

@@ -3,6 +3,12 @@
 use crate::features::property::{Kind, Property};
 use crate::features::words::FUNCTIONALITIES;
 
+/// The name that people gave.
+pub const NAME: Property = Property::new("name", Kind::Text, "Name", "The name that people gave it").nullable();
+
+/// The groups that people put it in.
+pub const GROUPS: Property = Property::new("groups", Kind::Texts, "Groups", "The groups that people put it in");
+
 /// Id of a label.
 pub const LABEL: Property = Property::new("label", Kind::Text, "Label", "Id of the label");
 

@@ -127,7 +127,13 @@ pub const TABLE: Table<FaceRow> = Table {
             |face| face.place.into(),
         ),
         Column::new(
-            Property::new("location", Kind::Text, "Location", "Code of the storage location it is").nullable(),
+            Property::new(
+                "location",
+                Kind::Text,
+                "Location",
+                "Code of the storage location it is; of the first one where it is cut into several",
+            )
+            .nullable(),
             |face| face.location.as_deref().into(),
         ),
     ],
@@ -139,7 +145,7 @@ pub fn read(view: &AnalysedMap<'_>) -> Vec<(Geometry, FaceRow)> {
     let subdivision = &view.analysis.subdivision;
     let mut codes = vec![None; subdivision.face_count()];
     for location in &view.layout.locations {
-        codes[location.face.index()] = Some(&location.code);
+        codes[location.face.index()].get_or_insert(&location.code);
     }
     let labels = view.labels();
     let row = |face: FaceId| {

@@ -4,8 +4,9 @@ use std::sync::Arc;
 
 use stillage_core::layout::{ApproachPose, Location};
 
-use super::common::{LABEL, LABEL_NAME};
+use super::common::{GROUPS, LABEL, LABEL_NAME, NAME};
 use crate::features::geometry::{Geometry, GeometryType};
+use crate::features::names::{MapNames, Naming};
 use crate::features::property::{Kind, Property};
 use crate::features::rings::polygons;
 use crate::features::shape;
@@ -19,10 +20,16 @@ use crate::features::words;
 pub struct LocationRow {
     /// Its id: `aisle-bay`.
     pub code: String,
+    /// What people call it.
+    pub naming: Naming,
+    /// Whether its code waits for a person to confirm it.
+    pub stale: bool,
     /// Id of its face.
     pub face: u32,
     /// Which part of the face it is.
     pub part: u32,
+    /// Of how many parts its face is.
+    pub parts: u32,
     /// Its label.
     pub label: Arc<LabelWords>,
     /// Number of its aisle, 0 without one.
@@ -70,10 +77,20 @@ pub const TABLE: Table<LocationRow> = Table {
         Column::new(Property::new("code", Kind::Text, "Code", "Aisle and bay, unique in the map"), |location| {
             location.code.as_str().into()
         }),
+        Column::new(NAME, |location| location.naming.name.as_deref().into()),
+        Column::new(GROUPS, |location| location.naming.groups.as_slice().into()),
+        Column::new(
+            Property::new("stale", Kind::Boolean, "Stale", "Whether its code waits for a person to confirm it"),
+            |location| location.stale.into(),
+        ),
         Column::new(Property::new("face", Kind::Integer, "Face", "Id of its face"), |location| location.face.into()),
         Column::new(
             Property::new("part", Kind::Integer, "Part", "Which part of its face it is, from 0; 0 for a whole face"),
             |location| location.part.into(),
+        ),
+        Column::new(
+            Property::new("parts", Kind::Integer, "Parts", "Of how many parts its face is; 1 for a whole face"),
+            |location| location.parts.into(),
         ),
         Column::new(LABEL, |location| location.label.id.as_str().into()),
         Column::new(LABEL_NAME, |location| location.label.name.as_str().into()),
@@ -198,10 +215,13 @@ pub fn read(view: &AnalysedMap<'_>) -> Vec<(Geometry, LocationRow)> {
         let [x, y] = view.rounded_position(pose.position);
         Pose { x, y, heading_deg: view.heading_degrees(pose.heading) }
     };
-    let row = |location: &Location| LocationRow {
+    let row = |(index, location): (usize, &Location)| LocationRow {
         code: location.code.clone(),
+        naming: MapNames::at(&view.names.locations, index),
+        stale: view.names.is_stale(index),
         face: location.face.0,
         part: location.part,
+        parts: location.parts,
         label: labels.of(location.label),
         aisle: location.aisle,
         bay: location.bay,
@@ -225,7 +245,13 @@ pub fn read(view: &AnalysedMap<'_>) -> Vec<(Geometry, LocationRow)> {
         let outline = location.outline.iter().map(|&point| view.position(point)).collect();
         if location.parts > 1 { Geometry::area(polygons(vec![outline])) } else { shape::of_face(view, location.face) }
     };
-    let mut rows: Vec<_> = view.layout.locations.iter().map(|location| (shape(location), row(location))).collect();
+    let mut rows: Vec<_> = view
+        .layout
+        .locations
+        .iter()
+        .enumerate()
+        .map(|(index, location)| (shape(location), row((index, location))))
+        .collect();
     // Codes come from the registry of the site, not from where a location lies.
     rows.sort_by(|(_, one), (_, other)| one.code.cmp(&other.code));
     rows

@@ -4,8 +4,9 @@ use std::sync::Arc;
 
 use stillage_core::semantics::Place;
 
-use super::common::{FUNCTIONALITY, LABEL_NAME};
+use super::common::{FUNCTIONALITY, GROUPS, LABEL_NAME, NAME};
 use crate::features::geometry::{Geometry, GeometryType};
+use crate::features::names::{MapNames, Naming};
 use crate::features::property::{Kind, Property};
 use crate::features::shape;
 use crate::features::table::{Column, Table};
@@ -15,6 +16,7 @@ use crate::features::view::{AnalysedMap, LabelWords, rounded};
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlaceRow {
     id: u32,
+    naming: Naming,
     label: Arc<LabelWords>,
     area: f64,
     room: Option<u32>,
@@ -28,6 +30,8 @@ pub const TABLE: Table<PlaceRow> = Table {
     geometry: GeometryType::AREAS,
     columns: &[
         Column::new(Property::new("id", Kind::Integer, "Id", "Number of the place"), |place| place.id.into()),
+        Column::new(NAME, |place| place.naming.name.as_deref().into()),
+        Column::new(GROUPS, |place| place.naming.groups.as_slice().into()),
         Column::new(
             Property::new("label", Kind::Text, "Label", "Id of the label; of a room that of most of its area"),
             |place| place.label.id.as_str().into(),
@@ -51,9 +55,10 @@ pub fn read(view: &AnalysedMap<'_>) -> Vec<(Geometry, PlaceRow)> {
     let labels = view.labels();
     let row = |(index, place): (usize, &Place)| {
         let id = index as u32;
-        let geometry = shape::of_union(view, &place.faces, |face| view.semantic.face_places[face.index()] == Some(id));
+        let geometry = shape::place_shape(view, id);
         let row = PlaceRow {
             id,
+            naming: MapNames::at(&view.names.places, index),
             label: labels.of(place.label),
             area: rounded(place.area),
             room: place.room,

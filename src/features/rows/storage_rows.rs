@@ -2,7 +2,9 @@
 
 use stillage_core::layout::Row;
 
+use super::common::{GROUPS, NAME};
 use crate::features::geometry::{Geometry, GeometryType};
+use crate::features::names::{MapNames, Naming};
 use crate::features::property::{Kind, Property};
 use crate::features::table::{Column, Table};
 use crate::features::view::{AnalysedMap, rounded};
@@ -13,6 +15,8 @@ use crate::features::words;
 pub struct StorageRow {
     /// Its number.
     pub id: u32,
+    /// What people call it.
+    pub naming: Naming,
     /// Number of its aisle.
     pub aisle: u32,
     /// `left` or `right` of the aisle.
@@ -34,6 +38,8 @@ pub const TABLE: Table<StorageRow> = Table {
     geometry: &[GeometryType::LineString],
     columns: &[
         Column::new(Property::new("id", Kind::Integer, "Id", "Number of the row"), |row| row.id.into()),
+        Column::new(NAME, |row| row.naming.name.as_deref().into()),
+        Column::new(GROUPS, |row| row.naming.groups.as_slice().into()),
         Column::new(Property::new("aisle", Kind::Integer, "Aisle", "Number of the aisle it is reached from"), |row| {
             row.aisle.into()
         }),
@@ -66,8 +72,9 @@ pub const TABLE: Table<StorageRow> = Table {
 /// The rows of a map, by number.
 #[must_use]
 pub fn read(view: &AnalysedMap<'_>) -> Vec<(Geometry, StorageRow)> {
-    let record = |row: &Row| StorageRow {
+    let record = |(index, row): (usize, &Row)| StorageRow {
         id: row.number,
+        naming: MapNames::at(&view.names.rows, index),
         aisle: row.aisle,
         side: words::side(row.side),
         length: rounded(row.length()),
@@ -76,5 +83,5 @@ pub fn read(view: &AnalysedMap<'_>) -> Vec<(Geometry, StorageRow)> {
         locations: view.codes(&row.locations),
     };
     let line = |row: &Row| Geometry::LineString(row.center_line.map(|end| view.position(end)).to_vec());
-    view.layout.rows.iter().map(|row| (line(row), record(row))).collect()
+    view.layout.rows.iter().enumerate().map(|(index, row)| (line(row), record((index, row)))).collect()
 }

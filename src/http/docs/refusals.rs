@@ -43,6 +43,8 @@ refusals! {
     Forbidden = 403, "A page of another site tried to write, or the resource is read-only";
     /// 404: named by handlers.
     NotFound = 404, "There is no such resource";
+    /// 405: named by handlers that serve several kinds of resources.
+    MethodNotAllowed = 405, "The resource does not answer this method";
     /// 406: of every read that has content.
     NotAcceptable = 406, "No representation of an accepted media type";
     /// 408: of every body.

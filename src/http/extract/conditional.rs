@@ -77,7 +77,8 @@ impl EntityTag {
         Some(tagged(known, StatusCode::NOT_MODIFIED.into_response()))
     }
 
-    fn on(&self, response: Response) -> Response {
+    /// An answer with this tag.
+    pub fn on(&self, response: Response) -> Response {
         tagged(self.header(), response)
     }
 }

@@ -3,7 +3,6 @@
 use serde::Deserialize;
 use stillage_core::Point;
 use stillage_core::arrangement::{EdgeId, FaceId};
-use stillage_core::layout::LayoutSpec;
 use stillage_core::routing::{Blocked, Preferences, RouteProfile, SpeedProfile, VehicleOutline};
 use stillage_core::semantics::Label;
 use utoipa::ToSchema;
@@ -36,7 +35,8 @@ pub enum Footprint {
 }
 
 impl Footprint {
-    /// The footprint of a request: as given, or half the width that the analysis was made for.
+    /// The footprint of a request: as given, or that of the layout in force: half the width that the
+    /// analysis was made for, unless people wish another.
     pub fn of(context: &MapContext, radius: Option<f64>, outline: Option<&Numbers>) -> Result<Self, Problem> {
         let checked = |name: &str, radius: f64| {
             let is_known = (0.0..=WIDEST_RADIUS_M).contains(&radius);
@@ -53,7 +53,7 @@ impl Footprint {
                 checked("footprint", outline.turning_radius())?;
                 Ok(Self::Outline(outline))
             }
-            (None, None) => Ok(Self::Disc(LayoutSpec::of(&context.analysis.options).vehicle_radius)),
+            (None, None) => Ok(Self::Disc(context.layout_spec.vehicle_radius)),
         }
     }
 

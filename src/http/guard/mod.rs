@@ -60,6 +60,8 @@ pub async fn other_origins(request: Request, next: Next) -> Response {
         let allow = response.headers_mut().remove(header::ALLOW);
         response = StatusCode::NO_CONTENT.into_response();
         response.headers_mut().extend(allow.map(|allow| (header::ALLOW, allow)));
+    }
+    if is_options {
         response.headers_mut().extend([
             fixed("access-control-allow-methods", "GET, HEAD"),
             fixed("access-control-allow-headers", "accept, if-none-match, last-event-id"),

@@ -7,16 +7,19 @@ use axum::Json;
 use axum::extract::State;
 use axum::http::header;
 use axum::response::{IntoResponse, Response};
+use stillage_core::Point;
+use stillage_core::layout::LayoutOptions;
 use stillage_core::semantics::Assignment;
 use uuid::Uuid;
 
-use crate::app::{App, Caller, NewSemantics, SemanticsRecord};
+use crate::app::{App, Caller, MapContext, NewSemantics, SemanticsRecord};
 use crate::http::docs::refusals::{NotAnalysed, NotFound, PreconditionRequired};
 use crate::http::extract::conditional::{EntityTag, IfMatch, IfNoneMatch};
 use crate::http::extract::{JsonBody, MapPath, Path, pointer_step};
 use crate::http::links::{Base, JSON};
 use crate::http::problem::Problem;
 use crate::views::category::{CategoryList, CategoryView};
+use crate::views::layout::LayoutView;
 use crate::views::semantics::{OverrideView, SemanticsBody, SemanticsHistory, SemanticsView};
 
 /// List categories
@@ -49,9 +52,11 @@ pub async fn categories(
     .await
 }
 
-/// The tag of the labels in force. Version 0 is the suggestion of whatever analysis is in force, so that is in it too.
+/// The tag of the labels in force. Version 0 is the suggestion of whatever analysis is in force, with the layout of the
+/// newest decision on the site, so these are in it too.
 fn tag(analysis: Uuid, record: &SemanticsRecord) -> EntityTag {
-    EntityTag::of_content(&["semantics", &analysis.to_string(), &record.version.to_string()])
+    let layout = serde_json::to_string(&record.layout).expect("a layout is plain data");
+    EntityTag::of_content(&["semantics", &analysis.to_string(), &record.version.to_string(), &layout])
 }
 
 fn read_assignment(body: SemanticsBody) -> Result<Assignment, Problem> {
@@ -87,7 +92,8 @@ pub async fn get(
 ) -> Result<Response, Problem> {
     let context = app.context(&caller, path.map_id.0).await?;
     let tag = tag(context.analysis_id, &context.semantics);
-    let answer = move || Ok(Json(SemanticsView::from(context.semantics.clone())).into_response());
+    let answer =
+        move || Ok(Json(SemanticsView::new(context.semantics.clone(), &context.record.to_site())).into_response());
     tag.answer_computed(&if_none_match, answer).await
 }
 
@@ -110,13 +116,34 @@ pub async fn assign(
 ) -> Result<Response, Problem> {
     let map = path.map_id.0;
     let faces: Vec<u32> = body.overrides.iter().map(|entry| entry.face).collect();
-    let new = NewSemantics { rule_set: body.rule_set.clone(), assignment: read_assignment(body)? };
     let context = app.context(&caller, map).await?;
+    let layout = body.layout.as_ref().map(|layout| read_layout(layout, &context)).transpose()?;
+    let new = NewSemantics { rule_set: body.rule_set.clone(), assignment: read_assignment(body)?, layout };
     let if_match = if_match.against(&tag(context.analysis_id, &context.semantics), context.semantics.version)?;
     let record = app.put_semantics(&caller, map, new, if_match).await;
     let record = record.map_err(|error| Problem::from(error).map_pointers(|pointer| list_pointer(pointer, &faces)))?;
     let headers = [(header::ETAG, tag(context.analysis_id, &record).header())];
-    Ok((headers, Json(SemanticsView::from(record))).into_response())
+    Ok((headers, Json(SemanticsView::new(record, &context.record.to_site()))).into_response())
+}
+
+/// The layout that is wished. The entrance lies in the map, or just outside it.
+fn read_layout(body: &LayoutView, context: &MapContext) -> Result<LayoutOptions, Problem> {
+    /// How far outside the grid an entrance may lie, metres: a map may end before the door.
+    const OUTSIDE_M: f64 = 10.0;
+    let wrong = |pointer: &str, detail: String| Problem::invalid(format!("/layout{pointer}"), detail);
+    let layout = body.read(&context.semantics.layout, &context.record.to_site());
+    let layout = layout.map_err(|unusable| wrong(unusable.pointer, unusable.detail))?;
+    if let Some(entrance) = body.entrance() {
+        let (grid, at) = (&context.grid, context.grid.frame().to_grid(Point::from(entrance)));
+        let is_near =
+            |place: f64, cells: usize| (-OUTSIDE_M..=cells as f64 * grid.resolution() + OUTSIDE_M).contains(&place);
+        if !(is_near(at.x, grid.width()) && is_near(at.y, grid.height())) {
+            let detail =
+                format!("lies more than {OUTSIDE_M} m outside the map: give x and y in metres of the map frame");
+            return Err(wrong("/entrance", detail));
+        }
+    }
+    Ok(layout)
 }
 
 /// The core names an override by its face (`/overrides/12`); in the request it is an entry of a list.
@@ -141,7 +168,9 @@ pub async fn versions(
     base: Base,
     Path(path): Path<MapPath>,
 ) -> Result<Json<SemanticsHistory>, Problem> {
-    let versions = app.semantics_versions(&caller, path.map_id.0).await?.into_iter().map(Into::into).collect();
+    let to_site = app.map(&caller, path.map_id.0).await?.to_site();
+    let versions = app.semantics_versions(&caller, path.map_id.0).await?.into_iter();
+    let versions = versions.map(|record| SemanticsView::new(record, &to_site)).collect();
     let links = vec![
         base.link("self", &format!("/v1/maps/{}/semantics/versions", path.map_id), JSON),
         base.link("latest-version", &format!("/v1/maps/{}/semantics", path.map_id), JSON),

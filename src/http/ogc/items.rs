@@ -152,12 +152,12 @@ fn headers(crs: CrsName) -> HeaderMap {
 #[allow(clippy::struct_field_names, reason = "they are the names in the path")]
 pub struct FeaturePath {
     /// The map.
-    map_id: Id,
+    pub map_id: Id,
     /// The collection.
-    collection_id: CollectionId,
+    pub collection_id: CollectionId,
     /// The feature: a number, or the code of a location.
     #[param(example = "5")]
-    feature_id: String,
+    pub feature_id: String,
 }
 
 /// How to write a feature.
@@ -168,7 +168,7 @@ pub struct ItemQuery {
     /// System of the coordinates of the answer; CRS84 when absent.
     #[serde(default)]
     #[param(value_type = Option<CrsName>)]
-    crs: CrsName,
+    pub crs: CrsName,
 }
 
 /// A feature
@@ -191,20 +191,32 @@ pub async fn get(
     let (collection, id) = (path.collection_id.0, path.feature_id);
     let context = app.context(&caller, path.map_id.0).await?;
     off_the_runtime(move || {
-        let wanted = CollectionSchema::of(collection).feature_id(&id).ok();
-        let found = wanted.and_then(|wanted| query::find(context.features(collection), &wanted));
-        let missing = || Problem::not_found(format!("there is no feature {id} in {}", collection.id()));
-        let feature = found.ok_or_else(missing)?;
-        Ok(EntityTag::of_map("item", &context).answer(&if_none_match, || {
-            let path = collection_path(&context, collection);
-            let links = [
-                base.link("self", &format!("{path}/items/{}", encode(&id)), GEO_JSON),
-                base.link("collection", &path, JSON),
-            ];
-            let transform = Transform::new(parameters.crs.0, context.record.georeference);
-            let body = geojson::feature(feature, &transform, &[("links", &links)]);
-            (headers(parameters.crs), body).into_response()
-        }))
+        let answer = feature_answer(&base, &context, collection, &id, parameters.crs)?;
+        Ok(EntityTag::of_map("item", &context).answer(&if_none_match, || answer))
     })
     .await
+}
+
+/// A feature as an answer.
+pub fn feature_answer(
+    base: &Base,
+    context: &MapContext,
+    collection: Collection,
+    id: &str,
+    crs: CrsName,
+) -> Result<Response, Problem> {
+    let wanted = CollectionSchema::of(collection).feature_id(id).ok();
+    let found = wanted.and_then(|wanted| query::find(context.features(collection), &wanted));
+    let feature = found.ok_or_else(|| missing(collection, id))?;
+    let path = collection_path(context, collection);
+    let links =
+        [base.link("self", &format!("{path}/items/{}", encode(id)), GEO_JSON), base.link("collection", &path, JSON)];
+    let transform = Transform::new(crs.0, context.record.georeference);
+    let body = geojson::feature(feature, &transform, &[("links", &links)]);
+    Ok((headers(crs), body).into_response())
+}
+
+/// There is no such feature.
+pub fn missing(collection: Collection, id: &str) -> Problem {
+    Problem::not_found(format!("there is no feature {id} in {}", collection.id()))
 }

@@ -1,6 +1,7 @@
 //! The resources of the OGC API standards: collections and their features, jobs.
 
 pub mod collections;
+pub mod item_names;
 pub mod items;
 mod items_query;
 pub mod jobs;

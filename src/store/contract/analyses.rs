@@ -2,6 +2,8 @@
 
 use stillage_core::semantics::Assignment;
 
+use stillage_core::layout::LayoutOptions;
+
 use super::*;
 use crate::records::MapPatch;
 
@@ -36,6 +38,7 @@ pub async fn decisions_are_bound_to_their_analysis_and_replace_what_they_saw(eng
     let first = claim(store, now()).await.unwrap();
     finish(store, &first).await.unwrap();
     let analysis = store.map(&local(), map).await.unwrap().unwrap().analysis.unwrap();
+    let layout = LayoutOptions { place_width_m: Some(1.2), ..LayoutOptions::default() };
     let decide = async |analysis, replaces| {
         let row = NewSemanticsRow {
             map,
@@ -44,6 +47,7 @@ pub async fn decisions_are_bound_to_their_analysis_and_replace_what_they_saw(eng
             rule_set: "warehouse".into(),
             draft: draft(),
             assignment: Assignment::default(),
+            layout: layout.clone(),
         };
         let decided = store.insert_semantics(&local(), &row, now()).await.unwrap().expect("the map is there");
         decided.map(|record| record.version)
@@ -62,6 +66,7 @@ pub async fn decisions_are_bound_to_their_analysis_and_replace_what_they_saw(eng
     let versions = store.semantics_versions(&local(), map).await.unwrap();
     let versions: Vec<u64> = versions.iter().map(|record| record.version).collect();
     assert_eq!(versions, [3, 2, 1]);
+    assert_eq!(snapshot.layout, layout, "another analysis has the layout of the newest decision");
 
     request(store, map, 1).await;
     let snapshot = store.snapshot(&local(), map).await.unwrap().unwrap();
@@ -91,6 +96,7 @@ pub async fn the_state_of_a_map_changes_with_every_answer_about_it(engine: &impl
         rule_set: "warehouse".into(),
         draft: draft(),
         assignment: Assignment::default(),
+        layout: LayoutOptions::default(),
     };
     store.insert_semantics(&local(), &row, now()).await.unwrap().unwrap().unwrap();
     assert_eq!(state().await.semantics, 1);

@@ -9,6 +9,7 @@ fn registry(code: &str) -> Registry {
     let entry = RegistryEntry {
         key: 1,
         code: code.into(),
+        is_code_given: false,
         name: None,
         groups: Vec::new(),
         outline: Vec::new(),
@@ -17,7 +18,7 @@ fn registry(code: &str) -> Registry {
         seen: None,
         confirmed_in: None,
     };
-    Registry { entries: vec![entry] }
+    Registry { entries: vec![entry], ..Registry::default() }
 }
 
 async fn read(store: &Arc<dyn Store>, map: Uuid) -> SiteRegistry {

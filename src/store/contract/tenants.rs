@@ -2,6 +2,8 @@
 
 use stillage_core::semantics::Assignment;
 
+use stillage_core::layout::LayoutOptions;
+
 use super::*;
 use crate::records::MapPatch;
 
@@ -36,6 +38,7 @@ pub async fn what_belongs_to_another_tenant_is_not_there(engine: &impl Engine) {
         rule_set: "warehouse".into(),
         draft: draft(),
         assignment: Assignment::default(),
+        layout: LayoutOptions::default(),
     };
     assert_eq!(store.insert_semantics(&other, &row, now()).await.unwrap(), None);
     assert!(!store.delete_map(&other, job.map).await.unwrap());

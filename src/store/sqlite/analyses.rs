@@ -115,6 +115,14 @@ impl Analyses for Sqlite {
                 .bind(record.analysis.map(|id| id.to_string()))
                 .fetch_optional(&mut *transaction)
                 .await?;
+        let layout = sqlx::query(
+            "SELECT semantics_versions.layout FROM semantics_versions JOIN maps ON maps.id = semantics_versions.map \
+             WHERE maps.site = $1 AND maps.id <= $2 ORDER BY maps.id DESC, semantics_versions.version DESC LIMIT 1",
+        )
+        .bind(record.site.to_string())
+        .bind(map.to_string())
+        .fetch_optional(&mut *transaction)
+        .await?;
         let job = sqlx::query("SELECT id FROM jobs WHERE map = $1 ORDER BY id DESC LIMIT 1")
             .bind(map.to_string())
             .fetch_optional(&mut *transaction)
@@ -125,6 +133,7 @@ impl Analyses for Sqlite {
                 .map(|row| Ok::<_, StoreError>((analysis_record(&row)?, row.blob("blob")?)))
                 .transpose()?,
             semantics: semantics.as_ref().map(semantics_record).transpose()?,
+            layout: layout.map(|row| row.json("layout")).transpose()?.unwrap_or_default(),
             job: job.map(|row| row.uuid("id")).transpose()?,
             record,
         }))

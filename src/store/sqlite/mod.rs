@@ -65,6 +65,7 @@ static MIGRATIONS: LazyLock<Migrator> = LazyLock::new(|| {
             include_str!("../../../migrations/sqlite/0002_tenants_and_processes.sql"),
         ),
         migration(3, "sites", include_str!("../../../migrations/sqlite/0003_sites.sql")),
+        migration(4, "layouts", include_str!("../../../migrations/sqlite/0004_layouts.sql")),
     ])
 });
 

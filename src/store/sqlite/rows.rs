@@ -153,6 +153,7 @@ pub(super) fn semantics_record(row: &SqliteRow) -> Result<SemanticsRecord, Store
         rule_set: row.text("rule_set")?,
         draft: row.json("draft")?,
         assignment: row.json("assignment")?,
+        layout: row.json("layout")?,
         version: row.whole("version")?,
         origin: SemanticsOrigin::Assigned,
         created: row.time("created")?,

@@ -35,8 +35,8 @@ impl SemanticsVersions for Sqlite {
             return Ok(Some(Err(in_force)));
         }
         let row = sqlx::query(
-            "INSERT INTO semantics_versions (map, version, analysis, rule_set, draft, assignment, created) \
-             VALUES ($1, $2, $3, $4, $5, $6, $7) RETURNING *",
+            "INSERT INTO semantics_versions (map, version, analysis, rule_set, draft, assignment, layout, created) \
+             VALUES ($1, $2, $3, $4, $5, $6, $7, $8) RETURNING *",
         )
         .bind(new.map.to_string())
         .bind(row.try_get::<i64, _>("newest")? + 1)
@@ -44,8 +44,16 @@ impl SemanticsVersions for Sqlite {
         .bind(&new.rule_set)
         .bind(json(&new.draft))
         .bind(json(&new.assignment))
+        .bind(json(&new.layout))
         .bind(now.as_microsecond())
         .fetch_one(&mut *transaction)
+        .await?;
+        sqlx::query(
+            "UPDATE maps SET version = version + 1 \
+             WHERE site = (SELECT site FROM maps AS decided WHERE decided.id = $1) AND id > $1",
+        )
+        .bind(new.map.to_string())
+        .execute(&mut *transaction)
         .await?;
         transaction.commit().await?;
         Ok(Some(Ok(semantics_record(&row)?)))

@@ -17,21 +17,34 @@ pub(crate) struct ConvexPiece {
 
 /// Area inside both of two rings as a share of the area inside either, 0 to 1. Rings turn counter-clockwise.
 pub(crate) fn overlap_share(first: &[Point], second: &[Point]) -> f64 {
-    let mut clip = Clip::default();
-    let window = [second.to_vec()];
-    let common: f64 = pieces(&window).iter().map(|piece| piece.sign * clip.area(first, &piece.window)).sum();
-    let either = ring_area(first) + ring_area(second) - common;
+    shared_fraction(std::slice::from_ref(&first), std::slice::from_ref(&second))
+}
+
+/// Area inside both of two polygons as a share of the area inside either, 0 to 1. Their outlines turn counter-clockwise,
+/// their holes clockwise.
+pub(crate) fn shared_fraction(first: &[impl AsRef<[Point]>], second: &[impl AsRef<[Point]>]) -> f64 {
+    let common = common_area(first, second);
+    let area = |ring: &dyn AsRef<[Point]>| ring_area(ring.as_ref());
+    let either =
+        first.iter().map(|ring| area(ring)).sum::<f64>() + second.iter().map(|ring| area(ring)).sum::<f64>() - common;
     if either > 0.0 { (common / either).clamp(0.0, 1.0) } else { 0.0 }
 }
 
+/// Area inside both of two polygons, square metres.
+fn common_area(first: &[impl AsRef<[Point]>], second: &[impl AsRef<[Point]>]) -> f64 {
+    let mut clip = Clip::default();
+    let mut inside = |window: &[Point]| first.iter().map(|ring| clip.area(ring.as_ref(), window)).sum::<f64>();
+    pieces(second).iter().map(|piece| piece.sign * inside(&piece.window)).sum()
+}
+
 /// A polygon as a signed sum of convex windows.
-pub(crate) fn pieces(rings: &[Vec<Point>]) -> Vec<ConvexPiece> {
+pub(crate) fn pieces(rings: &[impl AsRef<[Point]>]) -> Vec<ConvexPiece> {
     if let [ring] = rings
-        && is_convex(ring)
+        && is_convex(ring.as_ref())
     {
-        return vec![ConvexPiece { sign: 1.0, window: ring.clone() }];
+        return vec![ConvexPiece { sign: 1.0, window: ring.as_ref().to_vec() }];
     }
-    let triangles = rings.iter().flat_map(|ring| {
+    let triangles = rings.iter().map(AsRef::as_ref).flat_map(|ring| {
         let apex = ring.first().copied();
         ring.windows(2).skip(1).filter_map(move |pair| {
             let window = [apex?, pair[0], pair[1]];

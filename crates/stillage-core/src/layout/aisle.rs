@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::location::Side;
-use crate::geometry::Point;
+use crate::geometry::{OrientedBox, Point};
 
 /// A straight stretch of drivable ground with locations along it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -27,6 +27,12 @@ impl Aisle {
     #[must_use]
     pub fn length(&self) -> f64 {
         (self.center_line[1] - self.center_line[0]).norm()
+    }
+
+    /// Its border, grid frame, counter-clockwise, metres.
+    #[must_use]
+    pub fn outline(&self) -> Vec<Point> {
+        strip(self.center_line, self.width)
     }
 
     /// Its direction, from its start, radians, grid frame.
@@ -62,4 +68,17 @@ impl Row {
     pub fn length(&self) -> f64 {
         (self.center_line[1] - self.center_line[0]).norm()
     }
+    /// Its border, grid frame, counter-clockwise, metres.
+    #[must_use]
+    pub fn outline(&self) -> Vec<Point> {
+        strip(self.center_line, self.depth)
+    }
+}
+
+/// The border of what is so wide along a line.
+fn strip(line: [Point; 2], width: f64) -> Vec<Point> {
+    let along = line[1] - line[0];
+    let half_extents = [along.norm() / 2.0, width / 2.0];
+    let center = nalgebra::center(&line[0], &line[1]);
+    OrientedBox { center, angle: along.y.atan2(along.x), half_extents }.corners().to_vec()
 }

@@ -7,10 +7,9 @@ use std::fmt::Write as _;
 
 use serde::{Deserialize, Serialize};
 
+use super::code::{LONGEST_CODE, is_allowed};
 use super::location::Side;
 
-/// Longest code, characters: that of a storage bin in SAP.
-pub const LONGEST_CODE: usize = 18;
 /// The template where nobody asks for another.
 const DEFAULT: &str = "{aisle:02}-{bay:03}";
 
@@ -118,11 +117,12 @@ impl CodeTemplate {
             let what = "codes would not be unique: name {bay} and {aisle}, like {aisle:02}-{bay:03}".to_owned();
             return Err(TemplateProblem { at: text.chars().count().max(1), what });
         }
-        if let Some(at) = text.chars().position(char::is_control) {
-            return Err(TemplateProblem {
-                at: at + 1,
-                what: "control characters do not belong into a code".to_owned(),
-            });
+        if let Some(at) = text.chars().position(|character| !is_allowed(character)) {
+            let what = "commas and control characters do not belong into a code".to_owned();
+            return Err(TemplateProblem { at: at + 1, what });
+        }
+        if text.trim() != text {
+            return Err(TemplateProblem { at: 1, what: "a code neither begins nor ends with a space".to_owned() });
         }
         Ok(Self { text: text.to_owned(), pieces })
     }
@@ -134,7 +134,7 @@ impl CodeTemplate {
     }
 
     /// The template with its numbers wide enough for some locations, so that all codes are of one width and sort as text.
-    pub(super) fn widened(&self, all: &[CodeNumbers]) -> Self {
+    fn widened(&self, all: &[CodeNumbers]) -> Self {
         let digits = |field: Field| all.iter().map(|numbers| numbers.of(field)).max().unwrap_or(0).to_string().len();
         let widen = |piece: &TemplatePart| match *piece {
             TemplatePart::Field(field, width) => TemplatePart::Field(field, width.max(digits(field))),
@@ -143,8 +143,18 @@ impl CodeTemplate {
         Self { text: self.text.clone(), pieces: self.pieces.iter().map(widen).collect() }
     }
 
+    /// The codes of locations, in their order; the codes that are too long, where there are some.
+    pub(super) fn write_all(&self, all: &[CodeNumbers]) -> Result<Vec<String>, Vec<String>> {
+        let template = self.widened(all);
+        let codes: Vec<String> = all.iter().map(|&numbers| template.write(numbers)).collect();
+        let is_long = |code: &&String| code.chars().count() > LONGEST_CODE;
+        let mut long: Vec<String> = codes.iter().filter(is_long).cloned().collect();
+        long.sort();
+        if long.is_empty() { Ok(codes) } else { Err(long) }
+    }
+
     /// The code of a location. Locations behind others carry their depth at the end, unless the template names it.
-    pub(super) fn write(&self, numbers: CodeNumbers) -> String {
+    fn write(&self, numbers: CodeNumbers) -> String {
         let mut code = String::new();
         let mut names_depth = false;
         for piece in &self.pieces {
@@ -225,5 +235,6 @@ mod tests {
         assert!(problem("{gang}-{bay}").ends_with("there are {aisle}, {bay}, {row}, {depth}, {side}"));
         assert!(problem("{aisle}-{bay:33}").ends_with("a number from 1 to 9, like {bay:03}"));
         assert!(problem("{aisle}").contains("would not be unique"));
+        assert!(problem("{aisle},{bay}").starts_with("at character 8 of the template: commas"));
     }
 }

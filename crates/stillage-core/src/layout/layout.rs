@@ -6,7 +6,7 @@ use super::access;
 use super::aisle::{Aisle, Row};
 use super::aisles::{AisleFront, FrontLine, aisles_of};
 use super::approach::{ApproachFront, approach};
-use super::code_template::CodeNumbers;
+use super::code_template::{CodeNumbers, CodeTemplate};
 use super::depths::{DepthInRow, depths};
 use super::draft::{Draft, drafts_of};
 use super::layout_spec::LayoutSpec;
@@ -24,6 +24,8 @@ pub struct Layout {
     pub aisles: Vec<Aisle>,
     /// Rows, by number.
     pub rows: Vec<Row>,
+    /// Codes of the wished template that are too long. Where there are some, all codes are of the default template.
+    pub long_codes: Vec<String>,
 }
 
 /// The numbers of one location.
@@ -148,9 +150,12 @@ impl<'a> Numbering<'a> {
         let Self { drafts, depths, numbers, mut aisles, mut rows, .. } = self;
         let numbers: Vec<Numbers> = numbers.into_iter().flatten().collect();
         let all: Vec<CodeNumbers> = numbers.iter().map(Numbers::code).collect();
-        let template = spec.code.widened(&all);
         let mut order: Vec<usize> = (0..drafts.len()).collect();
         order.sort_by_key(|&index| (numbers[index].aisle, numbers[index].bay, numbers[index].depth));
+        let (codes, long_codes) = match spec.code.write_all(&all) {
+            Ok(codes) => (codes, Vec::new()),
+            Err(long) => (CodeTemplate::default().write_all(&all).unwrap_or_else(|codes| codes), long),
+        };
         let location = |&index: &usize| {
             let first = depths[index].map_or(index, |depth| depth.first);
             let (own, served) = (&drafts[index], &drafts[first]);
@@ -163,7 +168,7 @@ impl<'a> Numbering<'a> {
             let corridor = from.and_then(|face| map.semantic.face_places[face.index()]);
             let Numbers { aisle, bay, row, side, depth } = numbers[index];
             Location {
-                code: template.write(all[index]),
+                code: codes[index].clone(),
                 face: own.face,
                 part: own.part,
                 parts: own.parts,
@@ -196,7 +201,7 @@ impl<'a> Numbering<'a> {
         for index in lists.chain(rows.iter_mut().map(|row| &mut row.locations)).flatten() {
             *index = places[*index];
         }
-        Layout { locations, aisles, rows }
+        Layout { locations, aisles, rows, long_codes }
     }
 }
 

@@ -1,7 +1,8 @@
 //! How locations are cut and numbered.
 
 use super::code_template::CodeTemplate;
-use crate::geometry::Point;
+use super::layout_options::LayoutOptions;
+use crate::geometry::{Point, RigidMotion};
 use crate::spec::{AnalysisOptions, VehicleWidth};
 
 /// Half the width of a vehicle where nobody says how wide it is, metres: the narrow side of a EUR pallet (0.8 m, EN
@@ -31,5 +32,17 @@ impl LayoutSpec {
             VehicleWidth::Auto => VEHICLE_RADIUS_M,
         };
         Self { code: CodeTemplate::default(), entrance: None, place_width: None, vehicle_radius }
+    }
+
+    /// What people wish, and what follows from the analysis where they wish nothing. `to_grid` leads from the frame of the
+    /// site to the grid frame.
+    #[must_use]
+    pub fn wished(wish: &LayoutOptions, options: &AnalysisOptions, to_grid: &RigidMotion) -> Self {
+        Self {
+            code: wish.code_template.clone(),
+            entrance: wish.entrance.map(|entrance| to_grid.apply(entrance)),
+            place_width: wish.place_width_m,
+            vehicle_radius: wish.vehicle_radius_m.unwrap_or_else(|| Self::of(options).vehicle_radius),
+        }
     }
 }

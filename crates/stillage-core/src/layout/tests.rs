@@ -51,7 +51,7 @@ fn warehouse() -> DrawnMap {
 
 fn check(map: &DrawnMap, expected: &Expect) -> Vec<Location> {
     let semantic = map.semantic(&RuleSet::warehouse());
-    let Layout { locations, aisles, rows } = map.layout(&semantic);
+    let Layout { locations, aisles, rows, .. } = map.layout(&semantic);
     let codes: BTreeSet<&str> = locations.iter().map(|location| location.code.as_str()).collect();
     assert_eq!(codes.len(), locations.len(), "codes are unique");
     assert!(locations.is_sorted_by_key(|location| location.code.clone()), "locations come by code");
@@ -244,6 +244,21 @@ fn the_robot_stands_inside_a_face_too_narrow_for_its_distance() {
 fn a_map_without_storage_has_no_locations() {
     let map = DrawnMap::new("..", "cc");
     assert!(map.layout(&map.semantic(&RuleSet::office())).locations.is_empty());
+}
+
+#[test]
+fn codes_that_would_be_too_long_are_those_of_the_default_template() {
+    let map = warehouse();
+    let semantic = map.semantic(&RuleSet::warehouse());
+    let coded = |template: &str| {
+        let code = CodeTemplate::parse(template).expect("it is a template");
+        layout(&map.site(&semantic), &LayoutSpec { code, ..LayoutSpec::of(&map.analysis.options) })
+    };
+    let short = coded("hall 7 {aisle}.{bay:04}");
+    assert_eq!((short.locations[0].code.as_str(), short.long_codes.len()), ("hall 7 1.0001", 0));
+    let long = coded("hall number seven {aisle}.{bay}");
+    assert_eq!((long.locations[0].code.as_str(), long.long_codes.len()), ("01-001", long.locations.len()));
+    assert_eq!(long.long_codes[0], "hall number seven 1.1");
 }
 
 #[test]

@@ -7,7 +7,7 @@ use super::next_code::unused;
 use crate::compare::{Footprint, pairs};
 
 /// Least share of common ground for a place that is surely the same: above a half, no other place has as much.
-const SURE_SHARE: f64 = 0.5;
+pub(super) const SURE_SHARE: f64 = 0.5;
 
 /// A location of a map as a numbering found it.
 #[derive(Debug, Clone, PartialEq)]
@@ -16,6 +16,19 @@ pub struct NumberedLocation {
     pub code: String,
     /// Its ground in the frame of the site.
     pub footprint: Footprint,
+}
+
+impl NumberedLocation {
+    /// The indices of locations in the order of their proposed codes, then of where they lie.
+    pub(super) fn in_order(locations: &[Self]) -> Vec<usize> {
+        let mut order: Vec<usize> = (0..locations.len()).collect();
+        order.sort_by(|&one, &other| {
+            let (one, other) = (&locations[one], &locations[other]);
+            let (here, there) = (one.footprint.center, other.footprint.center);
+            one.code.cmp(&other.code).then(here.x.total_cmp(&there.x)).then(here.y.total_cmp(&there.y))
+        });
+        order
+    }
 }
 
 /// How far a map may speak for the site.
@@ -29,13 +42,17 @@ pub enum Trust {
     Earlier,
 }
 
-/// The code of one location.
+/// The code of one location, and what people call it.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct GivenCode {
     /// Key of its place in the registry.
     pub key: u32,
     /// Its code.
     pub code: String,
+    /// Its name.
+    pub name: Option<String>,
+    /// Its groups.
+    pub groups: Vec<String>,
     /// Whether a person should confirm that it is the right one.
     pub is_stale: bool,
 }
@@ -72,8 +89,8 @@ impl Registry {
             }
         }
         let codes = registry.completed(locations, &entry_of, trust).into_iter().map(|entry| {
-            let RegistryEntry { key, code, state, .. } = &registry.entries[entry];
-            GivenCode { key: *key, code: code.clone(), is_stale: *state == PlaceState::Stale }
+            let RegistryEntry { key, code, name, groups, state, .. } = registry.entries[entry].clone();
+            GivenCode { key, code, name, groups, is_stale: state == PlaceState::Stale }
         });
         let codes = codes.collect();
         Carried { registry, codes }
@@ -81,13 +98,7 @@ impl Registry {
 
     /// Adds the locations without an entry, in the order of their proposed codes; the entries of all.
     fn completed(&mut self, locations: &[NumberedLocation], entry_of: &[Option<usize>], trust: Trust) -> Vec<usize> {
-        let mut new: Vec<usize> = (0..locations.len()).filter(|&index| entry_of[index].is_none()).collect();
-        new.sort_by(|&one, &other| {
-            let (one, other) = (&locations[one], &locations[other]);
-            let by_code = one.code.cmp(&other.code);
-            let (here, there) = (one.footprint.center, other.footprint.center);
-            by_code.then(here.x.total_cmp(&there.x)).then(here.y.total_cmp(&there.y))
-        });
+        let new = NumberedLocation::in_order(locations).into_iter().filter(|&index| entry_of[index].is_none());
         let mut used: BTreeSet<String> = self.entries.iter().map(|entry| entry.code.clone()).collect();
         let state = match trust {
             Trust::Newest => PlaceState::Current,
@@ -100,12 +111,7 @@ impl Registry {
             let NumberedLocation { code, footprint } = &locations[index];
             let code = unused(code, &used);
             used.insert(code.clone());
-            entries[index] = self.entries.len();
-            let key = self.entries.len() as u32 + 1;
-            let Footprint { outline, center } = footprint.clone();
-            let (name, groups, confirmed_in) = (None, Vec::new(), None);
-            let seen = (state == PlaceState::Stale).then(|| (outline.clone(), center));
-            self.entries.push(RegistryEntry { key, code, name, groups, outline, center, state, seen, confirmed_in });
+            entries[index] = self.add(code, footprint, state);
         }
         entries
     }

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::named_area::NamedArea;
 use crate::compare::Footprint;
 use crate::geometry::Point;
 
@@ -24,6 +25,9 @@ pub struct RegistryEntry {
     pub key: u32,
     /// Its code, unique in the registry.
     pub code: String,
+    /// Whether a person gave the code: no numbering changes it.
+    #[serde(default)]
+    pub is_code_given: bool,
     /// The name that people gave it.
     pub name: Option<String>,
     /// The groups that people put it in.
@@ -46,11 +50,17 @@ impl RegistryEntry {
     }
 }
 
-/// All places that ever had a code at a site, by key.
+/// All storage places that ever had a code at a site, by key, and the areas that have names.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Registry {
     /// The places, by key, from 1 without a gap.
     pub entries: Vec<RegistryEntry>,
+    /// The numbering that its codes follow ([`LayoutOptions::numbering`](crate::layout::LayoutOptions::numbering)).
+    #[serde(default)]
+    pub numbering: String,
+    /// The places (in the sense of the semantic map), aisles and rows that have names.
+    #[serde(default)]
+    pub areas: Vec<NamedArea>,
 }
 
 /// Codes that a registry does not have.
@@ -59,6 +69,26 @@ pub struct Registry {
 pub struct UnknownCodes(pub Vec<String>);
 
 impl Registry {
+    /// Adds a place; its index.
+    pub(super) fn add(&mut self, code: String, footprint: &Footprint, state: PlaceState) -> usize {
+        let index = self.entries.len();
+        let Footprint { outline, center } = footprint.clone();
+        let seen = (state == PlaceState::Stale).then(|| (outline.clone(), center));
+        self.entries.push(RegistryEntry {
+            key: index as u32 + 1,
+            code,
+            is_code_given: false,
+            name: None,
+            groups: Vec::new(),
+            outline,
+            center,
+            state,
+            seen,
+            confirmed_in: None,
+        });
+        index
+    }
+
     /// The place with a code.
     #[must_use]
     pub fn find(&self, code: &str) -> Option<&RegistryEntry> {

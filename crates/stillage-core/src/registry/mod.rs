@@ -11,15 +11,26 @@
 //! | nothing on its ground | never given to another | lost; current again when it comes back |
 //! | a location where no place was | the proposed one, or the next free number in its aisle | current |
 //!
+//! Where people wish another template, entrance or width of places, [`Registry::renumbered`] writes all codes anew but those
+//! that people gave ([`Registry::give`]). Places in the sense of the semantic map, aisles and rows have no codes: those that
+//! people named are kept as areas, and found again by the ground they have in common ([`Registry::areas_of`]).
+//!
 //! The same registry and locations give the same codes, in whatever order the locations come, and once is as good as
 //! twice. Cost: that of [`crate::compare::pairs`].
 
+mod areas;
 mod carry;
 mod entry;
+mod given;
+mod named_area;
 mod next_code;
+mod renumber;
 
 #[cfg(test)]
 mod tests;
 
+pub use areas::Ground;
 pub use carry::{Carried, GivenCode, NumberedLocation, Trust};
 pub use entry::{PlaceState, Registry, RegistryEntry, UnknownCodes};
+pub use given::{CodeConflict, CodeOwner, Given};
+pub use named_area::{AreaKind, NamedArea};

@@ -104,7 +104,93 @@ fn rows() -> impl Strategy<Value = Vec<NumberedLocation>> {
     })
 }
 
+#[test]
+fn a_new_numbering_gives_new_codes_but_where_people_gave_one() {
+    let mut registry = Registry::default().carry(&row(&[0.0, 1.0, 2.0]), Trust::Newest, "scan").registry;
+    let gifts = [
+        (1, Given { code: Some("dock".into()), ..Given::default() }),
+        (2, Given { name: Some(Some("by the door".into())), ..Given::default() }),
+    ];
+    registry.give(&gifts).expect("nobody has this code");
+    // The middle one is gone, the others are numbered in another way.
+    let shown = [location("A-1", 0.0), location("A-2", 2.02), location("01-003", 7.0)];
+    let renumbered = registry.renumbered(&shown, "A".into());
+    let carried = renumbered.carry(&shown, Trust::Newest, "scan");
+    assert_eq!(codes(&carried), ["dock", "A-2", "01-003"]);
+    assert_eq!(
+        states(&carried.registry),
+        [("dock", Current), ("01-005", Lost), ("A-2", Current), ("01-003", Current)],
+        "a lost place makes way"
+    );
+    assert_eq!(carried.registry.entries[1].name.as_deref(), Some("by the door"));
+    assert_eq!(carried.registry.carry(&shown, Trust::Newest, "scan"), carried);
+}
+
+#[test]
+fn places_that_are_cut_are_new_places_with_new_codes() {
+    let whole = NumberedLocation {
+        footprint: Footprint {
+            outline: [(0.0, 0.0), (3.0, 0.0), (3.0, 1.2), (0.0, 1.2)].map(|(x, y)| Point::new(x, y)).to_vec(),
+            center: Point::new(1.5, 0.6),
+        },
+        code: "01-001".into(),
+    };
+    let registry = Registry::default().carry(&[whole], Trust::Newest, "scan").registry;
+    let cut = row(&[0.0, 1.0, 2.0]);
+    let carried = registry.renumbered(&cut, "each 1".into()).carry(&cut, Trust::Newest, "scan");
+    assert_eq!(codes(&carried), ["01-001", "01-003", "01-005"]);
+    assert!(carried.codes.iter().all(|given| !given.is_stale));
+    assert_eq!(carried.registry.entries[0].state, Lost);
+}
+
+#[test]
+fn codes_are_exchanged_in_one_call_and_taken_ones_are_told() {
+    let mut registry = Registry::default().carry(&row(&[0.0, 1.0, 2.0]), Trust::Newest, "scan").registry;
+    let code = |key, code: &str| (key, Given { code: Some(code.into()), ..Given::default() });
+    registry.give(&[code(1, "01-003"), code(2, "01-001")]).expect("they are exchanged");
+    let before = registry.clone();
+    let conflicts = registry.give(&[code(1, "01-005"), code(2, "X"), code(3, "X")]).expect_err("two are taken");
+    let told: Vec<(usize, CodeOwner)> = conflicts.iter().map(|conflict| (conflict.gift, conflict.taken_by)).collect();
+    assert_eq!(told, [(2, CodeOwner::Gift(1))], "the third place gives its code away");
+    assert_eq!(registry, before);
+    let conflicts = registry.give(&[code(1, "01-005")]).expect_err("it is taken");
+    assert_eq!(conflicts[0].taken_by, CodeOwner::Place(3));
+    // Lost places make way, unless a person gave them their code.
+    let mut later = registry.carry(&row(&[0.0, 9.0]), Trust::Newest, "scan").registry;
+    later.give(&[code(4, "01-005")]).expect("a lost place makes way");
+    let conflicts = later.give(&[code(4, "01-001")]).expect_err("a person gave it to a lost place");
+    assert_eq!(conflicts[0].taken_by, CodeOwner::LostPlace(2));
+}
+
+#[test]
+fn named_areas_are_found_again_by_their_ground() {
+    let square = |x: f64, side: f64| -> Ground {
+        vec![[(0.0, 0.0), (side, 0.0), (side, side), (0.0, side)].map(|(dx, dy)| Point::new(x + dx, dy)).to_vec()]
+    };
+    let named = |kind, name: &str, rings| NamedArea { kind, name: Some(name.into()), groups: Vec::new(), rings };
+    let mut registry = Registry::default();
+    registry.put_area(None, named(AreaKind::Place, "hall", square(0.0, 10.0)));
+    registry.put_area(None, named(AreaKind::Place, "office", square(10.0, 4.0)));
+    registry.put_area(None, named(AreaKind::Aisle, "main aisle", square(0.0, 10.0)));
+    let grounds = [square(10.3, 4.0), square(30.0, 5.0), square(0.4, 9.0)];
+    assert_eq!(registry.areas_of(AreaKind::Place, &grounds), [Some(1), None, Some(0)]);
+    assert_eq!(registry.areas_of(AreaKind::Aisle, &grounds), [None, None, Some(2)]);
+    registry.put_area(Some(0), NamedArea { name: None, ..registry.areas[0].clone() });
+    assert_eq!(registry.areas_of(AreaKind::Place, &grounds), [Some(0), None, None], "the hall is forgotten");
+}
+
 proptest! {
+    #[test]
+    fn a_new_numbering_is_that_of_the_map(first in rows(), second in rows()) {
+        let registry = Registry::default().carry(&first, Trust::Newest, "scan").registry;
+        let proposed: Vec<NumberedLocation> =
+            second.iter().map(|place| NumberedLocation { code: place.code.replace("01", "A"), ..place.clone() }).collect();
+        let carried = registry.renumbered(&proposed, "A".into()).carry(&proposed, Trust::Newest, "scan");
+        let wished: Vec<&str> = proposed.iter().map(|place| place.code.as_str()).collect();
+        prop_assert_eq!(codes(&carried), wished);
+        prop_assert_eq!(carried.registry.carry(&proposed, Trust::Newest, "scan"), carried);
+    }
+
     #[test]
     fn twice_is_once_and_the_order_changes_nothing(first in rows(), second in rows(), turn in 0_usize..12, doubt in any::<bool>()) {
         let trust = if doubt { Trust::Doubtful } else { Trust::Newest };

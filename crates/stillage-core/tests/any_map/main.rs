@@ -6,6 +6,7 @@
 
 mod sites;
 
+use std::collections::BTreeSet;
 use std::io::Write as _;
 use std::sync::mpsc;
 use std::time::Duration;
@@ -14,11 +15,13 @@ use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use rayon::ThreadPool;
 use stillage_core::arrangement::{CellFaces, FaceId};
-use stillage_core::layout::{self, LayoutSpec};
+use stillage_core::layout::{self, CodeTemplate, LayoutSpec, Location};
 use stillage_core::routing::{Preferences, Router, Waypoint};
 use stillage_core::semantics::{self, Assignment, RuleSet, SemanticMap};
 use stillage_core::watch::Observer;
-use stillage_core::{Analysis, AnalysisSpec, OccupancyGrid, SiteCells, Stage, StopFlag, Stopped, Watch, analyze};
+use stillage_core::{
+    Analysis, AnalysisSpec, OccupancyGrid, SiteCells, SiteMap, Stage, StopFlag, Stopped, Watch, analyze,
+};
 
 /// Cases of a run that nobody asked to be longer.
 const CASES: u32 = 64;
@@ -94,6 +97,21 @@ fn check_faces(grid: &OccupancyGrid, analysis: &Analysis) -> Result<(), TestCase
     Ok(())
 }
 
+/// Codes are unique and short under any template, and sort like the locations under the default one.
+fn check_codes(map: &SiteMap<'_>) -> Result<Vec<Location>, TestCaseError> {
+    let spec = LayoutSpec::of(&map.analysis.options);
+    for template in ["{row}{bay}", "{side}{bay:3}/{aisle}", "{bay}-{aisle}-{depth}", "a very long name {aisle}{bay}"] {
+        let code = CodeTemplate::parse(template).expect("it is a template");
+        let locations = layout::layout(map, &LayoutSpec { code, place_width: Some(0.5), ..spec.clone() }).locations;
+        let codes: BTreeSet<&str> = locations.iter().map(|location| location.code.as_str()).collect();
+        prop_assert_eq!(codes.len(), locations.len(), "{} codes twice", template);
+        prop_assert!(codes.iter().all(|code| layout::check_code(code).is_ok()), "{}: {:?}", template, codes);
+    }
+    let locations = layout::layout(map, &spec).locations;
+    prop_assert!(locations.windows(2).all(|pair| pair[0].code < pair[1].code), "{:?}", locations);
+    Ok(locations)
+}
+
 /// Places are made of the faces that name them; locations have codes of their own; a way is as long as it says.
 fn check_meaning(grid: &OccupancyGrid, analysis: &Analysis) -> Result<(), TestCaseError> {
     let semantic = labelled(analysis);
@@ -102,8 +120,7 @@ fn check_meaning(grid: &OccupancyGrid, analysis: &Analysis) -> Result<(), TestCa
     }
     let cells = SiteCells::of(grid, analysis);
     let map = cells.map(grid, analysis, &semantic);
-    let locations = layout::layout(&map, &LayoutSpec::of(&analysis.options)).locations;
-    prop_assert!(locations.windows(2).all(|pair| pair[0].code < pair[1].code), "{:?}", locations);
+    let locations = check_codes(&map)?;
     let radius = LayoutSpec::of(&analysis.options).vehicle_radius;
     for radius in [0.0, radius] {
         let router = Router::new(&map, radius);

@@ -1,0 +1,98 @@
+//! How locations are to be cut and numbered.
+
+use serde::{Deserialize, Serialize};
+use stillage_core::Point;
+use stillage_core::geometry::RigidMotion;
+use stillage_core::layout::{CodeTemplate, LayoutOptions};
+use utoipa::ToSchema;
+
+use crate::features::rounded;
+
+/// How locations are cut and numbered. What is absent follows from the analysis.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
+#[schema(as = LayoutOptions)]
+#[serde(default, deny_unknown_fields, rename_all = "camelCase")]
+pub struct LayoutView {
+    /// How codes are written: text with `{aisle}`, `{bay}`, `{row}`, `{depth}` and `{side}` (`L` or `R`), numbers with their
+    /// least width after a colon. It names the bay, and the aisle or the row. Codes have at most 18 characters.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schema(example = "{aisle:02}-{bay:03}")]
+    code_template: Option<String>,
+    /// Where people and goods come in, x and y, metres of the map frame: aisles are counted from there, and begin at the
+    /// end that is nearer to it. From the bottom or the left of the map when absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    entrance: Option<[f64; 2]>,
+    /// Width of one load, metres: locations that have room for more are cut into places of about this width.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schema(minimum = 0.1, maximum = 20)]
+    place_width_m: Option<f64>,
+    /// Half the width of the vehicles that serve the locations, metres; half the vehicle width of the analysis when absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schema(minimum = 0.05, maximum = 10)]
+    vehicle_radius_m: Option<f64>,
+}
+
+/// A member that cannot be used.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct UnusableLayout {
+    /// JSON pointer into the layout.
+    pub pointer: &'static str,
+    /// What is wrong, and what would do.
+    pub detail: String,
+}
+
+impl LayoutView {
+    /// A layout as people see it, in the frame of a map that `to_site` carries to that of its site.
+    #[must_use]
+    pub fn new(options: &LayoutOptions, to_site: &RigidMotion) -> Self {
+        Self {
+            code_template: Some(options.code_template.as_str().to_owned()),
+            entrance: options.entrance.map(|entrance| seen(entrance, to_site)),
+            place_width_m: options.place_width_m,
+            vehicle_radius_m: options.vehicle_radius_m,
+        }
+    }
+
+    /// The entrance, metres of the map frame.
+    #[must_use]
+    pub const fn entrance(&self) -> Option<[f64; 2]> {
+        self.entrance
+    }
+
+    /// The layout that is wished. An entrance that was read from the one in force stays exactly what it was.
+    ///
+    /// # Errors
+    /// The first member that cannot be used.
+    pub fn read(&self, in_force: &LayoutOptions, to_site: &RigidMotion) -> Result<LayoutOptions, UnusableLayout> {
+        let code_template =
+            self.code_template.as_deref().map_or_else(|| Ok(CodeTemplate::default()), CodeTemplate::parse);
+        let code_template = code_template.map_err(|problem| UnusableLayout {
+            pointer: "/codeTemplate",
+            detail: format!(
+                "{problem}. A template is text with {{aisle}}, {{bay}}, {{row}}, {{depth}} or {{side}} in it, for example \
+                 {{aisle:02}}-{{bay:03}}"
+            ),
+        })?;
+        let entrance = self.entrance.map(|given| {
+            let kept = in_force.entrance.filter(|&kept| seen(kept, to_site) == given);
+            kept.unwrap_or_else(|| to_site.apply(Point::from(given)))
+        });
+        let options = LayoutOptions {
+            code_template,
+            entrance,
+            place_width_m: self.place_width_m,
+            vehicle_radius_m: self.vehicle_radius_m,
+        };
+        let first = options.check().err().and_then(|problems| problems.into_iter().next());
+        match first {
+            None => Ok(options),
+            Some(problem) => Err(UnusableLayout { pointer: problem.pointer, detail: problem.message }),
+        }
+    }
+}
+
+/// An entrance in the map frame, as it is told.
+fn seen(entrance: Point, to_site: &RigidMotion) -> [f64; 2] {
+    let place = to_site.inverse().apply(entrance);
+    [rounded(place.x), rounded(place.y)]
+}

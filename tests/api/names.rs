@@ -1,0 +1,212 @@
+//! Names for people: codes, names and groups, and how codes are written.
+
+use axum::body::Body;
+use axum::http::Method;
+use serde_json::{Value, json};
+
+use crate::client::{Answer, Api, request};
+
+async fn item(api: &Api, map: &str, path: &str) -> Value {
+    api.get(&format!("{map}/collections/{path}")).await.json()["properties"].clone()
+}
+
+/// Names a feature as it is now.
+async fn name(api: &Api, map: &str, path: &str, body: &Value) -> Answer {
+    let path = format!("{map}/collections/{path}");
+    let tag = api.get(&path).await.header("etag").to_owned();
+    api.send_json(Method::PATCH, &path, &[("if-match", &tag)], body).await
+}
+
+/// Changes members of the semantics in force.
+async fn put_semantics(api: &Api, map: &str, members: &Value) -> Answer {
+    let path = format!("{map}/semantics");
+    let read = api.get(&path).await;
+    let mut body = read.json();
+    for (member, value) in members.as_object().expect("members") {
+        body[member] = value.clone();
+    }
+    api.send_json(Method::PUT, &path, &[("if-match", read.header("etag"))], &body).await
+}
+
+async fn codes(api: &Api, map: &str) -> Vec<String> {
+    let items = api.get(&format!("{map}/collections/locations/items?limit=1000")).await.json();
+    let features = items["features"].as_array().expect("features").iter();
+    features.map(|feature| feature["id"].as_str().expect("a code").to_owned()).collect()
+}
+
+#[tokio::test]
+async fn locations_and_places_are_named_and_keep_their_names_through_relabelling() {
+    let api = Api::new().await;
+    let map = api.hall().await;
+    let first = codes(&api, &map).await[0].clone();
+    let named = name(
+        &api,
+        &map,
+        &format!("locations/items/{first}"),
+        &json!({"name": "By the gate", "groups": ["A", "A", "fast"]}),
+    )
+    .await;
+    assert_eq!(named.status, 200, "{}", named.text());
+    assert_eq!(named.json()["properties"]["name"], "By the gate");
+    assert_eq!(named.json()["properties"]["groups"], json!(["A", "fast"]));
+    assert_eq!(named.json()["properties"]["stale"], false);
+    let coded = name(&api, &map, &format!("locations/items/{first}"), &json!({"code": "GATE 1"})).await;
+    assert_eq!((coded.status.as_u16(), &coded.json()["id"]), (200, &json!("GATE 1")));
+    for (collection, id) in [("places", 0), ("aisles", 1), ("rows", 1)] {
+        let path = format!("{collection}/items/{id}");
+        let named = name(&api, &map, &path, &json!({"name": format!("My {collection}"), "groups": ["ground"]})).await;
+        assert_eq!(named.status, 200, "{}", named.text());
+    }
+
+    let label =
+        json!({"overrides": [{"face": item(&api, &map, "locations/items/GATE%201").await["face"], "label": "un"}]});
+    assert_eq!(put_semantics(&api, &map, &label).await.status, 200);
+    api.get(&format!("{map}/collections/locations/items/GATE%201")).await.problem(404, "not-found");
+    assert_eq!(put_semantics(&api, &map, &json!({"overrides": []})).await.status, 200);
+    assert_eq!(item(&api, &map, "locations/items/GATE%201").await["name"], "By the gate");
+    assert_eq!(item(&api, &map, "places/items/0").await["name"], "My places");
+    assert_eq!(item(&api, &map, "rows/items/1").await["groups"], json!(["ground"]));
+
+    let table = api.get(&format!("{map}/collections/locations/items?f=csv")).await.text();
+    assert!(table.contains(",By the gate,A|fast,false"), "{table}");
+    let registry = api.get(&format!("{map}/registry")).await.json();
+    let kinds: Vec<&Value> = registry["areas"].as_array().expect("a list").iter().map(|area| &area["kind"]).collect();
+    assert_eq!(kinds, ["place", "aisle", "row"]);
+
+    // A merge patch takes away with null, and leaves the rest.
+    let bare = name(&api, &map, "aisles/items/1", &json!({"name": null})).await.json()["properties"].clone();
+    assert_eq!((&bare["name"], &bare["groups"]), (&Value::Null, &json!(["ground"])));
+}
+
+#[tokio::test]
+async fn a_name_is_written_on_what_was_read() {
+    let api = Api::new().await;
+    let map = api.hall().await;
+    let path = format!("{map}/collections/places/items/0");
+    let tag = api.get(&path).await.header("etag").to_owned();
+    let patch = async |tag: &[(&str, &str)]| api.send_json(Method::PATCH, &path, tag, &json!({"name": "Hall"})).await;
+    patch(&[]).await.problem(428, "precondition-required");
+    assert_eq!(patch(&[("if-match", &tag)]).await.status, 200);
+    patch(&[("if-match", &tag)]).await.problem(412, "precondition-failed");
+    assert_eq!(patch(&[("if-match", "*"), ("content-type", "application/merge-patch+json")]).await.status, 200);
+}
+
+#[tokio::test]
+async fn names_that_cannot_be_given_are_refused() {
+    let api = Api::new().await;
+    let map = api.hall().await;
+    let codes = codes(&api, &map).await;
+    let first = format!("locations/items/{}", codes[0]);
+    let taken = name(&api, &map, &first, &json!({"code": codes[1]})).await.problem(409, "conflict");
+    assert!(taken["detail"].as_str().is_some_and(|detail| detail.contains(&codes[1])), "{taken}");
+    let cases = [
+        (first.as_str(), json!({"code": "1234567890123456789"}), "/code"),
+        (first.as_str(), json!({"code": "a,b"}), "/code"),
+        (first.as_str(), json!({"name": "two\nlines"}), "/name"),
+        (first.as_str(), json!({"name": "x".repeat(201)}), "/name"),
+        (first.as_str(), json!({"groups": ["a|b"]}), "/groups/0"),
+        (first.as_str(), json!({"label": "co"}), "/label"),
+        ("places/items/0", json!({"code": "H"}), "/code"),
+    ];
+    for (path, body, pointer) in cases {
+        let problem = name(&api, &map, path, &body).await.problem(422, "invalid");
+        assert_eq!(problem["errors"][0]["pointer"], pointer, "{body}: {problem}");
+    }
+    let answer = name(&api, &map, "edges/items/1", &json!({"name": "x"})).await;
+    answer.problem(405, "method-not-allowed");
+    assert_eq!(answer.header("allow"), "GET,HEAD");
+    name(&api, &map, "places/items/9999", &json!({"name": "x"})).await.problem(404, "not-found");
+}
+
+#[tokio::test]
+async fn options_tells_what_may_be_written() {
+    let api = Api::new().await;
+    let map = api.hall().await;
+    for (path, allow, patch) in [
+        ("rows/items/1", "GET,HEAD,PATCH", "application/merge-patch+json, application/json"),
+        ("edges/items/1", "GET,HEAD", ""),
+    ] {
+        let path = format!("{map}/collections/{path}");
+        let answer = api.send(request(Method::OPTIONS, &path, &[], Body::empty())).await;
+        assert_eq!(
+            (answer.status.as_u16(), answer.header("allow"), answer.header("accept-patch")),
+            (204, allow, patch)
+        );
+        assert_eq!(answer.header("access-control-allow-methods"), "GET, HEAD", "pages of other sites read");
+    }
+}
+
+#[tokio::test]
+async fn another_template_is_a_wish_for_new_codes() {
+    let api = Api::new().await;
+    let map = api.hall().await;
+    let before = codes(&api, &map).await;
+    let last = before.last().expect("a code");
+    name(&api, &map, &format!("locations/items/{}", before[0]), &json!({"name": "First"})).await;
+    assert_eq!(name(&api, &map, &format!("locations/items/{last}"), &json!({"code": "mine"})).await.status, 200);
+    let layout = json!({"layout": {"codeTemplate": "R{row}.{bay:02}{side}", "entrance": [12.0, 0.0]}});
+    let put = put_semantics(&api, &map, &layout).await;
+    assert_eq!((put.status.as_u16(), &put.json()["layout"]), (200, &layout["layout"]), "{}", put.text());
+    let coded = codes(&api, &map).await;
+    assert_eq!(coded.len(), before.len());
+    assert!(coded.contains(&"mine".to_owned()), "a given code stays: {coded:?}");
+    assert!(
+        coded.iter().filter(|code| *code != "mine").all(|code| code.starts_with('R') && code.len() == 6),
+        "{coded:?}"
+    );
+    let items = api.get(&format!("{map}/collections/locations/items?limit=1000")).await.json();
+    let named =
+        items["features"].as_array().expect("features").iter().filter(|one| one["properties"]["name"] == "First");
+    assert_eq!(named.count(), 1, "names stay with their places");
+
+    // What was read can be sent back, and another analysis keeps the layout.
+    let same = put_semantics(&api, &map, &json!({})).await;
+    assert_eq!((same.status.as_u16(), codes(&api, &map).await), (200, coded.clone()));
+    api.send_json(Method::POST, &format!("{map}/analyses"), &[], &json!({"seed": 5})).await;
+    api.app.run_until_empty().await.expect("the queue can be worked on");
+    assert_eq!(api.get(&format!("{map}/semantics")).await.json()["layout"], layout["layout"]);
+    assert_eq!(codes(&api, &map).await, coded);
+
+    let back = put_semantics(&api, &map, &json!({"layout": {}})).await;
+    assert_eq!(back.json()["layout"], json!({"codeTemplate": "{aisle:02}-{bay:03}"}));
+    let back = codes(&api, &map).await;
+    assert!(back[..3] == before[..3] && back.contains(&"mine".to_owned()), "{back:?}");
+}
+
+#[tokio::test]
+async fn wide_locations_are_cut_without_a_new_analysis() {
+    let api = Api::new().await;
+    let map = api.hall().await;
+    let whole = codes(&api, &map).await.len();
+    let put = put_semantics(&api, &map, &json!({"layout": {"placeWidthM": 0.4, "vehicleRadiusM": 0.3}})).await;
+    assert_eq!(put.status, 200, "{}", put.text());
+    let cut = codes(&api, &map).await;
+    assert!(cut.len() > whole, "{whole} {cut:?}");
+    let first = item(&api, &map, &format!("locations/items/{}", cut[0])).await;
+    assert_eq!((&first["part"], &first["stale"]), (&json!(0), &json!(false)));
+    assert!(first["parts"].as_u64() > Some(1), "{first}");
+    let matrix = json!({"from": [format!("location:{}", cut[0])]});
+    let matrix = api.send_json(Method::POST, &format!("{map}/distance-matrix"), &[], &matrix).await;
+    assert_eq!(matrix.json()["footprintRadiusM"], 0.3, "routes are for the same vehicle");
+}
+
+#[tokio::test]
+async fn a_layout_that_cannot_be_is_refused_with_an_example() {
+    let api = Api::new().await;
+    let map = api.hall().await;
+    let cases = [
+        (json!({"codeTemplate": "{gang}-{bay}"}), "/layout/codeTemplate", "{aisle:02}-{bay:03}"),
+        (json!({"codeTemplate": "{aisle}"}), "/layout/codeTemplate", "would not be unique"),
+        (json!({"codeTemplate": "warehouse seven {aisle}.{bay}"}), "/layout/codeTemplate", "`warehouse seven"),
+        (json!({"entrance": [500.0, 0.0]}), "/layout/entrance", "outside the map"),
+        (json!({"placeWidthM": 0.0}), "/layout/placeWidthM", "0.1 to 20"),
+        (json!({"vehicleRadiusM": 11.0}), "/layout/vehicleRadiusM", "0.05 to 10"),
+        (json!({"template": "x"}), "/layout/template", "codeTemplate"),
+    ];
+    for (layout, pointer, hint) in cases {
+        let problem = put_semantics(&api, &map, &json!({"layout": layout})).await.problem(422, "invalid");
+        assert_eq!(problem["errors"][0]["pointer"], pointer, "{problem}");
+        assert!(problem["errors"][0]["detail"].as_str().is_some_and(|detail| detail.contains(hint)), "{problem}");
+    }
+    assert_eq!(api.get(&format!("{map}/semantics")).await.json()["version"], 0);
+}
