@@ -7,7 +7,7 @@
 //! | `rule_sets` | the vocabulary of labels |
 //! | `semantics` | the human decision on a map |
 //! | `registries` | uploads aligned to an earlier map, the codes of a site's places |
-//! | `names` | what people call locations, places, aisles and rows |
+//! | `names`, `name_import` | what people call locations, places, aisles and rows |
 //! | `comparisons` | what changed between two maps, or two versions of labels |
 //! | `grid` | the cells of a map, before any analysis |
 //! | `context`, `map_context`, `context_cache` | the analysed map in memory, with its collections |
@@ -32,6 +32,7 @@ mod jobs;
 mod latest;
 mod map_context;
 mod maps;
+mod name_import;
 mod names;
 mod registries;
 mod routers;
@@ -51,5 +52,6 @@ pub use error::{AppError, FieldProblem};
 pub use file_context::FileMap;
 pub use grid::GridSource;
 pub use map_context::MapContext;
+pub use name_import::{NameChange, NameReport};
 pub use names::{Nameable, area_kind};
 pub use service::App;

@@ -12,7 +12,7 @@ use crate::blocking::off_the_runtime;
 use crate::features::{self, Collection, FeatureId, Geometry, MapNames, Naming};
 
 /// Something of a map that can have a name.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Nameable {
     /// A location, by its index in the layout.
     Location(usize),
@@ -52,6 +52,37 @@ impl MapContext {
                 index.map(|index| Nameable::Area(kind, index))
             }
             _ => None,
+        }
+    }
+
+    /// All that has this name.
+    #[must_use]
+    pub fn find_name(&self, name: &str) -> Vec<Nameable> {
+        let named = self.names.all().filter(|(_, naming)| naming.name.as_deref() == Some(name));
+        let what = |(collection, index)| match area_kind(collection) {
+            Some(kind) => Nameable::Area(kind, index),
+            None => Nameable::Location(index),
+        };
+        named.map(|(place, _)| what(place)).collect()
+    }
+
+    /// What people call an area.
+    #[must_use]
+    pub fn area_naming(&self, kind: AreaKind, index: usize) -> Naming {
+        match kind {
+            AreaKind::Place => self.names.place(index),
+            AreaKind::Aisle => self.names.aisle(index),
+            AreaKind::Row => self.names.row(index),
+        }
+    }
+
+    /// The id of an area in its collection.
+    #[must_use]
+    pub fn area_id(&self, kind: AreaKind, index: usize) -> u32 {
+        match kind {
+            AreaKind::Place => index as u32,
+            AreaKind::Aisle => self.layout.aisles[index].number,
+            AreaKind::Row => self.layout.rows[index].number,
         }
     }
 

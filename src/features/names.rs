@@ -1,5 +1,7 @@
 //! What people call the things of a map.
 
+use super::collection::Collection;
+
 /// What people call one thing.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Naming {
@@ -39,9 +41,41 @@ impl MapNames {
         &NONE
     }
 
-    /// The naming at an index of one of the lists.
-    pub(super) fn at(list: &[Naming], index: usize) -> Naming {
-        list.get(index).cloned().unwrap_or_default()
+    /// What people call a location, by its index.
+    #[must_use]
+    pub fn location(&self, index: usize) -> Naming {
+        self.locations.get(index).cloned().unwrap_or_default()
+    }
+
+    /// What people call a place, by its index.
+    #[must_use]
+    pub fn place(&self, index: usize) -> Naming {
+        self.places.get(index).cloned().unwrap_or_default()
+    }
+
+    /// What people call an aisle, by its index.
+    #[must_use]
+    pub fn aisle(&self, index: usize) -> Naming {
+        self.aisles.get(index).cloned().unwrap_or_default()
+    }
+
+    /// What people call a row, by its index.
+    #[must_use]
+    pub fn row(&self, index: usize) -> Naming {
+        self.rows.get(index).cloned().unwrap_or_default()
+    }
+
+    /// Every list, each naming with its collection and index.
+    pub fn all(&self) -> impl Iterator<Item = ((Collection, usize), &Naming)> {
+        let lists = [
+            (Collection::Locations, &self.locations),
+            (Collection::Places, &self.places),
+            (Collection::Aisles, &self.aisles),
+            (Collection::Rows, &self.rows),
+        ];
+        lists.into_iter().flat_map(|(collection, list)| {
+            list.iter().enumerate().map(move |(index, naming)| ((collection, index), naming))
+        })
     }
 
     /// Whether the code of a location waits for a person to confirm it.

@@ -4,11 +4,11 @@ use crate::features::rows::locations::LocationRow;
 use crate::features::{Feature, Row, Value};
 
 /// Reads a cell off a location.
-type ReadCell = fn(&LocationRow) -> Value<'_>;
+pub(crate) type ReadCell = fn(&LocationRow) -> Value<'_>;
 
 /// The columns: the properties of a location that are no lists of ids, its centre and its approach spread out. Their order is
 /// what importers rely on: new columns come last.
-const COLUMNS: [(&str, ReadCell); 20] = [
+pub(crate) const COLUMNS: [(&str, ReadCell); 20] = [
     ("code", |location| location.code.as_str().into()),
     ("label", |location| location.label.id.as_str().into()),
     ("labelName", |location| location.label.name.as_str().into()),

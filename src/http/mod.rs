@@ -70,6 +70,7 @@ fn answered_in_time() -> OpenApiRouter<Arc<App>> {
         .routes(routes!(maps::comparisons::changes))
         .routes(routes!(maps::registry::get))
         .routes(routes!(maps::registry::confirm))
+        .routes(routes!(maps::names::create))
         .routes(routes!(maps::pictures::image))
         .routes(routes!(maps::pictures::categories))
         .routes(routes!(maps::pictures::regions))
@@ -86,6 +87,7 @@ fn answered_in_time() -> OpenApiRouter<Arc<App>> {
             "/v1/maps/{mapId}/collections/{collectionId}/items/{featureId}",
             axum::routing::options(ogc::item_names::options),
         )
+        .routes(routes!(fleet::at::get))
         .routes(routes!(fleet::route::get))
         .routes(routes!(fleet::distance_matrix::create))
         .routes(routes!(fleet::exports::list))

@@ -1,4 +1,4 @@
-//! Bytes -> occupancy grid, and the truth of a site.
+//! Bytes -> occupancy grid, the truth of a site, and names that people bring along.
 //!
 //! A map arrives as an image with `map_server` metadata, or as a `nav_msgs/OccupancyGrid` message in JSON. Cells are
 //! read as `nav2_map_server` reads them (`map_io.cpp`), but for one mistake that many files make ([`verdict`]); the files of the wild that loaders
@@ -10,9 +10,11 @@
 
 mod document;
 mod error;
+mod geojson;
 mod limits;
 mod message;
 mod metadata;
+mod names;
 mod picture;
 mod source;
 mod truth;
@@ -24,6 +26,7 @@ use stillage_core::spec::{GridOptions, GridSemantics};
 pub use error::{IngestError, Refusal};
 pub use limits::Limits;
 pub use metadata::image_entry;
+pub use names::{NameRow, NameTarget, NamedCollection, name_areas, name_table};
 pub use source::{DecodedMap, MapSource};
 pub use truth::ground_truth;
 

@@ -5,27 +5,21 @@
 //! (walls, pillars, rooms) are left out. A place may say its `region` (`A`), whether it was `occupied` (yes) and which
 //! share of its surroundings was `observed` (1). Areas are polygons or multi-polygons.
 //!
-//! O(bytes). Limits: rings must be closed and simple; crossings are not looked for.
+//! O(bytes).
 
 use serde_json::Value;
 use stillage_core::Point;
 use stillage_core::evaluation::{GroundTruth, TrueArea, TruePlace, TrueRegion};
 
 use super::IngestError;
-
-/// Farthest coordinate, metres: beyond it centimetres are lost, and it is no site.
-const FARTHEST: f64 = 1e7;
+use super::geojson::{self, features};
 
 /// Reads the truth of a site.
 ///
 /// # Errors
 /// [`IngestError`] with the JSON pointer of what is wrong.
 pub fn ground_truth(document: &Value) -> Result<GroundTruth, IngestError> {
-    if document["type"] != "FeatureCollection" {
-        return Err(IngestError::invalid("/type", "must be `FeatureCollection`: send the truth as GeoJSON"));
-    }
-    let features = document["features"].as_array();
-    let features = features.ok_or_else(|| IngestError::invalid("/features", "must be a list of features"))?;
+    let features = features(document)?;
     let mut truth = GroundTruth::default();
     for (index, feature) in features.iter().enumerate() {
         read(feature, &format!("/features/{index}"), &mut truth)?;
@@ -104,59 +98,10 @@ fn number(
 }
 
 fn area(feature: &Value, pointer: &str) -> Result<TrueArea, IngestError> {
-    let geometry = &feature["geometry"];
-    let pointer = format!("{pointer}/geometry");
-    let at = format!("{pointer}/coordinates");
-    let coordinates = &geometry["coordinates"];
-    let polygons = match geometry["type"].as_str() {
-        Some("Polygon") => vec![polygon(coordinates, &at)?],
-        Some("MultiPolygon") => {
-            let polygons = list(coordinates, &at, 1, "polygons")?.iter().enumerate();
-            polygons
-                .map(|(index, coordinates)| polygon(coordinates, &format!("{at}/{index}")))
-                .collect::<Result<_, _>>()?
-        }
-        _ => {
-            return Err(IngestError::invalid(format!("{pointer}/type"), "must be `Polygon` or `MultiPolygon`"));
-        }
-    };
-    let area = TrueArea::new(polygons);
+    let area = TrueArea::new(geojson::area(feature, pointer, &Point::from)?);
     // Holes may not eat up their polygon.
-    if area.area() > 0.0 { Ok(area) } else { Err(IngestError::invalid(at, "the area is not above 0 square metres")) }
-}
-
-fn polygon(coordinates: &Value, pointer: &str) -> Result<Vec<Vec<Point>>, IngestError> {
-    let rings = list(coordinates, pointer, 1, "rings")?.iter().enumerate();
-    rings.map(|(index, coordinates)| ring(coordinates, &format!("{pointer}/{index}"))).collect()
-}
-
-/// A closed ring; the last point, which repeats the first, is left out.
-fn ring(coordinates: &Value, pointer: &str) -> Result<Vec<Point>, IngestError> {
-    let positions = list(coordinates, pointer, 4, "positions")?.iter().enumerate();
-    let mut points: Vec<Point> = positions
-        .map(|(index, coordinates)| {
-            let axis =
-                |axis: usize| coordinates.get(axis).and_then(Value::as_f64).filter(|value| value.abs() <= FARTHEST);
-            match (axis(0), axis(1)) {
-                (Some(x), Some(y)) => Ok(Point::new(x, y)),
-                _ => Err(IngestError::invalid(
-                    format!("{pointer}/{index}"),
-                    format!("must be x and y in metres of the map frame, at most {FARTHEST:.0} from its origin"),
-                )),
-            }
-        })
-        .collect::<Result<_, _>>()?;
-    if points.first() != points.last() {
-        return Err(IngestError::invalid(pointer, "the ring is open: its last position must repeat its first"));
-    }
-    points.pop();
-    Ok(points)
-}
-
-fn list<'a>(value: &'a Value, pointer: &str, least: usize, what: &str) -> Result<&'a [Value], IngestError> {
-    let entries = value.as_array().filter(|entries| entries.len() >= least);
-    let wrong = || IngestError::invalid(pointer, format!("must be a list of {least} or more {what}"));
-    entries.map(Vec::as_slice).ok_or_else(wrong)
+    let at = || format!("{pointer}/geometry/coordinates");
+    if area.area() > 0.0 { Ok(area) } else { Err(IngestError::invalid(at(), "the area is not above 0 square metres")) }
 }
 
 #[cfg(test)]
@@ -229,7 +174,7 @@ mod tests {
             })
             .collect();
         expect![[r#"
-            /type: must be `FeatureCollection`: send the truth as GeoJSON
+            /type: must be `FeatureCollection`: send GeoJSON
             /features: must be a list of features
             /features: holds no feature labelled `pallet`, `corridor` or `junction`: there is nothing to compare with
             /features: holds no feature labelled `pallet`, `corridor` or `junction`: there is nothing to compare with
@@ -241,7 +186,8 @@ mod tests {
             /features/0/geometry/type: must be `Polygon` or `MultiPolygon`
             /features/0/geometry/coordinates: must be a list of 1 or more rings
             /features/0/geometry/coordinates/0: the ring is open: its last position must repeat its first
-            /features/0/geometry/coordinates/0/2: must be x and y in metres of the map frame, at most 10000000 from its origin
-            /features/0/geometry/coordinates: the area is not above 0 square metres"#]].assert_eq(&report.join("\n"));
+            /features/0/geometry/coordinates/0/2: must be x and y, at most 10000000 from the origin
+            /features/0/geometry/coordinates: the area is not above 0 square metres"#]]
+        .assert_eq(&report.join("\n"));
     }
 }

@@ -18,6 +18,7 @@ pub mod layout;
 pub mod link;
 pub mod map;
 pub mod name;
+pub mod names;
 pub mod occupancy_grid;
 pub mod options;
 pub mod registry;

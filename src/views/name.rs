@@ -2,6 +2,7 @@
 
 use serde::Deserialize;
 use stillage_core::layout::check_code;
+use stillage_core::registry::{checked_group, checked_groups, checked_name};
 use utoipa::ToSchema;
 
 /// A name for people: 1 to 200 characters, no control characters.
@@ -14,8 +15,7 @@ impl TryFrom<String> for Name {
     type Error = &'static str;
 
     fn try_from(text: String) -> Result<Self, Self::Error> {
-        let fits = !text.trim().is_empty() && text.chars().count() <= 200 && !text.chars().any(char::is_control);
-        if fits { Ok(Self(text)) } else { Err("must have 1 to 200 characters, none of them a control character") }
+        checked_name(&text).map(Self)
     }
 }
 
@@ -43,14 +43,7 @@ impl TryFrom<String> for Group {
     type Error = &'static str;
 
     fn try_from(text: String) -> Result<Self, Self::Error> {
-        let text = text.trim();
-        let is_plain = !text.chars().any(|character| character.is_control() || character == '|');
-        let fits = (1..=50).contains(&text.chars().count()) && is_plain;
-        if fits {
-            Ok(Self(text.to_owned()))
-        } else {
-            Err("must have 1 to 50 characters, no `|` and no control character")
-        }
+        checked_group(&text).map(Self)
     }
 }
 
@@ -63,12 +56,6 @@ impl TryFrom<Vec<Group>> for Groups {
     type Error = &'static str;
 
     fn try_from(groups: Vec<Group>) -> Result<Self, Self::Error> {
-        let mut texts: Vec<String> = Vec::new();
-        for Group(text) in groups {
-            if !texts.contains(&text) {
-                texts.push(text);
-            }
-        }
-        if texts.len() <= 20 { Ok(Self(texts)) } else { Err("must be 20 groups at most") }
+        checked_groups(groups.into_iter().map(|group| group.0)).map(Self)
     }
 }

@@ -152,6 +152,14 @@ async fn valid(site: &Site, operation: &str) -> (Sent, &'static [u16]) {
         "listChanges" => get(format!("{map}/changes?since=0")),
         "getRegistry" => get(format!("{map}/registry")),
         "confirmCodes" => (Sent::new(Method::POST, format!("{map}/registry/confirm")).json(&json!({})), &[200]),
+        "importNames" => {
+            let names = json!({"type": "FeatureCollection", "features": [{"type": "Feature",
+                "properties": {"name": "Hall", "collection": "places"}, "geometry": {"type": "Polygon",
+                    "coordinates": [[[-2, -1], [20, -1], [20, 9], [-2, 9], [-2, -1]]]}}]});
+            let sent = Sent::new(Method::POST, format!("{map}/names?crs=EPSG:3857")).json(&names);
+            (sent.with("content-type", "application/geo+json"), &[200])
+        }
+        "locatePose" => get(format!("{map}/at?point=1,1&crs=EPSG:3857&heading=90")),
         "getImage" => get(format!("{map}/image.png")),
         "getCategoriesImage" => get(format!("{map}/categories.png")),
         "getRegionsImage" => get(format!("{map}/regions.png")),
@@ -239,6 +247,7 @@ fn wrongs(site: &Site, operation: &str, good: &Sent) -> Vec<Sent> {
         "getCollection" => vec![own(&format!("{}/collections/none", site.map))],
         "getFeature" => vec![own(&format!("{}/collections/vertices/items/999999", site.map))],
         "getExport" => vec![own(&format!("{}/exports/none.json", site.map))],
+        "locatePose" => vec![own(&format!("{}/at?point=1000,0&crs=EPSG:3857", site.map))],
         "nameFeature" => {
             let path = format!("{}/collections/locations/items", site.map);
             let code = |id: &str, code: &str| own(&format!("{path}/{id}")).json(&json!({"code": code}));

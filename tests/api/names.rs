@@ -183,8 +183,7 @@ async fn wide_locations_are_cut_without_a_new_analysis() {
     let cut = codes(&api, &map).await;
     assert!(cut.len() > whole, "{whole} {cut:?}");
     let first = item(&api, &map, &format!("locations/items/{}", cut[0])).await;
-    assert_eq!((&first["part"], &first["stale"]), (&json!(0), &json!(false)));
-    assert!(first["parts"].as_u64() > Some(1), "{first}");
+    assert!(first["parts"].as_u64() > Some(1) && first["stale"] == false, "{first}");
     let matrix = json!({"from": [format!("location:{}", cut[0])]});
     let matrix = api.send_json(Method::POST, &format!("{map}/distance-matrix"), &[], &matrix).await;
     assert_eq!(matrix.json()["footprintRadiusM"], 0.3, "routes are for the same vehicle");
@@ -209,4 +208,152 @@ async fn a_layout_that_cannot_be_is_refused_with_an_example() {
         assert!(problem["errors"][0]["detail"].as_str().is_some_and(|detail| detail.contains(hint)), "{problem}");
     }
     assert_eq!(api.get(&format!("{map}/semantics")).await.json()["version"], 0);
+}
+
+/// Sends a table of names.
+async fn import(api: &Api, map: &str, query: &str, table: &str) -> Answer {
+    let path = format!("{map}/names?crs=EPSG:3857{query}");
+    api.send(request(Method::POST, &path, &[("content-type", "text/csv")], Body::from(table.to_owned()))).await
+}
+
+#[tokio::test]
+async fn the_table_of_locations_is_sent_back_with_other_codes() {
+    let api = Api::new().await;
+    let map = api.hall().await;
+    let before = codes(&api, &map).await;
+    let table = api.get(&format!("{map}/collections/locations/items?f=csv")).await.text();
+    // Every code becomes that of the next location: they are exchanged in one go.
+    let mut rows: Vec<Vec<String>> = table.lines().map(|line| line.split(',').map(str::to_owned).collect()).collect();
+    for (row, code) in rows[1..].iter_mut().zip(before.iter().cycle().skip(1)) {
+        row[0].clone_from(code);
+    }
+    rows[1][0] = "GATE".into();
+    let table = rows.iter().map(|row| row.join(",")).collect::<Vec<_>>().join("\r\n");
+    let dry = import(&api, &map, "&dryRun=true", &table).await;
+    assert_eq!(dry.status, 200, "{}", dry.text());
+    let report = dry.json();
+    assert_eq!(
+        (&report["dryRun"], &report["named"], &report["unmatched"]),
+        (&json!(true), &json!(before.len()), &json!(0))
+    );
+    assert_eq!(codes(&api, &map).await, before, "nothing was written");
+    let made = import(&api, &map, "", &table).await.json();
+    assert_eq!(made["changes"], report["changes"]);
+    assert_eq!(
+        made["changes"][0],
+        json!({"row": "/rows/2", "collection": "locations", "before": before[0], "now": "GATE"})
+    );
+    let now = codes(&api, &map).await;
+    assert!(now.contains(&"GATE".to_owned()) && !now.contains(&before[1]), "{now:?}");
+    let again = import(&api, &map, "", &table).await.json();
+    assert_eq!((&again["unchanged"], &again["changes"]), (&json!(before.len()), &json!([])));
+}
+
+#[tokio::test]
+async fn what_is_wrong_in_a_table_is_told_by_its_row_and_nothing_is_named() {
+    let api = Api::new().await;
+    let map = api.hall().await;
+    let before = codes(&api, &map).await;
+    let centre = item(&api, &map, &format!("locations/items/{}", before[0])).await["centre"].clone();
+    let other = item(&api, &map, &format!("locations/items/{}", before[2])).await["centre"].clone();
+    let (at, there) = (format!("{},{}", centre[0], centre[1]), format!("{},{}", other[0], other[1]));
+    let cases = [
+        (format!("x,y,code\n{at},A\n{at},B\n"), "/rows/3", "like row 2"),
+        (format!("x,y,code\n{at},A\n{there},A\n"), "/rows/3", "the code A of row 2"),
+        (format!("x,y,code\n{at},{}\n", before[1]), "/rows/2", "another location has the code"),
+        (format!("x,y,code\n{at},A\n-1,4,B\n"), "/rows/3", "is nearest"),
+        (format!("x,y,code\n{at},1234567890123456789\n"), "/rows/2/code", "18 characters"),
+        ("x,y,code\n1,y,A\n".to_owned(), "/rows/2/y", "no number"),
+        ("x,y,codes\n1,2,A\n".to_owned(), "/rows/1", "no column"),
+    ];
+    for (table, pointer, hint) in cases {
+        let problem = import(&api, &map, "", &table).await.problem(422, "invalid");
+        assert_eq!(problem["errors"][0]["pointer"], pointer, "{problem}");
+        assert!(problem["errors"][0]["detail"].as_str().is_some_and(|detail| detail.contains(hint)), "{problem}");
+    }
+    assert_eq!(codes(&api, &map).await, before);
+}
+
+#[tokio::test]
+async fn labelled_polygons_name_what_they_cover() {
+    let api = Api::new().await;
+    let map = api.hall().await;
+    let first = codes(&api, &map).await[0].clone();
+    let path = format!("{map}/collections/locations/items/{first}?crs=EPSG:3857");
+    let location = api.get(&path).await.json()["geometry"].clone();
+    let place = api.get(&format!("{map}/collections/places/items/0?crs=EPSG:3857")).await.json()["geometry"].clone();
+    let feature = |geometry: &Value, properties: Value| json!({"type": "Feature", "geometry": geometry, "properties": properties});
+    let document = json!({"type": "FeatureCollection", "features": [
+        feature(&location, json!({"code": "P-1", "name": "Polygon", "fill": "red"})),
+        feature(&place, json!({"name": "Whole", "collection": "places"})),
+    ]});
+    let headers = [("content-type", "application/geo+json")];
+    let path = format!("{map}/names?crs=EPSG:3857");
+    let report = api.send_json(Method::POST, &path, &headers, &document).await;
+    assert_eq!(report.status, 200, "{}", report.text());
+    assert_eq!(report.json()["named"], 2);
+    assert_eq!(item(&api, &map, "locations/items/P-1").await["name"], "Polygon");
+    assert_eq!(item(&api, &map, "places/items/0").await["name"], "Whole");
+    let far = json!({"type": "Polygon", "coordinates": [[[500, 500], [501, 500], [501, 501], [500, 501], [500, 500]]]});
+    let document = json!({"type": "FeatureCollection", "features": [feature(&far, json!({"code": "X"}))]});
+    let problem = api.send_json(Method::POST, &path, &headers, &document).await.problem(422, "invalid");
+    assert_eq!(problem["errors"][0]["pointer"], "/features/0");
+}
+
+#[tokio::test]
+async fn a_pose_is_told_where_it_is() {
+    let api = Api::new().await;
+    let map = api.hall().await;
+    assert_eq!(put_semantics(&api, &map, &json!({"layout": {"vehicleRadiusM": 0.2}})).await.status, 200);
+    let first = codes(&api, &map).await[0].clone();
+    name(&api, &map, &format!("locations/items/{first}"), &json!({"name": "Gate"})).await;
+    let location = item(&api, &map, &format!("locations/items/{first}")).await;
+    let at = async |x: &Value, y: &Value, more: &str| {
+        let answer = api.get(&format!("{map}/at?point={x},{y}&crs=EPSG:3857{more}")).await;
+        assert_eq!(answer.status, 200, "{}", answer.text());
+        answer.json()
+    };
+    let inside = at(&location["centre"][0], &location["centre"][1], "").await;
+    assert_eq!((&inside["name"], &inside["location"]["code"]), (&json!("Gate"), &json!(first)));
+    assert_eq!((&inside["location"]["distanceM"], &inside["location"]["side"]), (&json!(0.0), &location["side"]));
+    assert_eq!(inside["face"]["id"], location["face"]);
+
+    let pose = &location["approach"];
+    let heading = location["headingDeg"].as_f64().expect("degrees");
+    // Looking along the front of the location, it lies to the left or the right.
+    let aisle = at(&pose["x"], &pose["y"], &format!("&heading={}", heading - 90.0)).await["aisle"].clone();
+    assert_eq!(aisle["left"], json!(first), "{aisle}");
+    let aisle = at(&pose["x"], &pose["y"], &format!("&heading={}", heading + 90.0)).await["aisle"].clone();
+    assert_eq!(aisle["right"], json!(first), "{aisle}");
+    assert!(["along", "against"].contains(&aisle["direction"].as_str().expect("a word")));
+
+    let outside = api.get(&format!("{map}/at?point=-20,0&crs=EPSG:3857")).await.problem(404, "outside-map");
+    assert!(outside["detail"].as_str().is_some_and(|detail| detail.contains("-1.875,0")), "{outside}");
+    api.get(&format!("{map}/at?point=1&crs=EPSG:3857")).await.problem(400, "bad-parameter");
+    api.get(&format!("{map}/at?point=1,1&heading=400&crs=EPSG:3857")).await.problem(400, "bad-parameter");
+}
+
+#[tokio::test]
+async fn routes_lead_to_names_and_wrong_ones_are_mended() {
+    let api = Api::new().await;
+    let map = api.hall().await;
+    let codes = codes(&api, &map).await;
+    for (code, given) in [(&codes[0], "Gate"), (&codes[3], "Twin"), (&codes[4], "Twin")] {
+        assert_eq!(name(&api, &map, &format!("locations/items/{code}"), &json!({"name": given})).await.status, 200);
+    }
+    let to = async |end: &str| {
+        api.get(&format!("{map}/routes?from=location:{}&to={end}&footprintRadiusM=0.2", codes[6])).await
+    };
+    let by_name = to("name:Gate").await;
+    assert_eq!(by_name.status, 200, "{}", by_name.text());
+    assert_eq!(by_name.json()["geometry"], to(&format!("location:{}", codes[0])).await.json()["geometry"]);
+    let several = to("name:Twin").await.problem(404, "not-found");
+    assert!(
+        several["detail"].as_str().is_some_and(|detail| detail.contains(&format!("location:{}", codes[4]))),
+        "{several}"
+    );
+    let unknown = to("name:Gaet").await.problem(404, "not-found");
+    assert!(unknown["detail"].as_str().is_some_and(|detail| detail.contains("did you mean Gate")), "{unknown}");
+    let unknown = to("location:01-0011").await.problem(404, "not-found");
+    assert!(unknown["detail"].as_str().is_some_and(|detail| detail.contains("did you mean 01-001")), "{unknown}");
 }

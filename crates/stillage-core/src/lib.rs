@@ -113,6 +113,7 @@ pub mod memory;
 pub mod spec;
 pub mod stage_shares;
 pub mod watch;
+pub mod whereabouts;
 
 #[cfg(test)]
 mod test_maps;

@@ -4,7 +4,7 @@ use stillage_core::layout::Aisle;
 
 use super::common::{GROUPS, NAME};
 use crate::features::geometry::{Geometry, GeometryType};
-use crate::features::names::{MapNames, Naming};
+use crate::features::names::Naming;
 use crate::features::property::{Kind, Property};
 use crate::features::table::{Column, Table};
 use crate::features::view::{AnalysedMap, rounded};
@@ -77,7 +77,7 @@ pub const TABLE: Table<AisleRow> = Table {
 pub fn read(view: &AnalysedMap<'_>) -> Vec<(Geometry, AisleRow)> {
     let row = |(index, aisle): (usize, &Aisle)| AisleRow {
         id: aisle.number,
-        naming: MapNames::at(&view.names.aisles, index),
+        naming: view.names.aisle(index),
         length: rounded(aisle.length()),
         width: rounded(aisle.width),
         heading: view.heading_degrees(aisle.heading()),

@@ -6,7 +6,7 @@ use stillage_core::layout::{ApproachPose, Location};
 
 use super::common::{GROUPS, LABEL, LABEL_NAME, NAME};
 use crate::features::geometry::{Geometry, GeometryType};
-use crate::features::names::{MapNames, Naming};
+use crate::features::names::Naming;
 use crate::features::property::{Kind, Property};
 use crate::features::rings::polygons;
 use crate::features::shape;
@@ -217,7 +217,7 @@ pub fn read(view: &AnalysedMap<'_>) -> Vec<(Geometry, LocationRow)> {
     };
     let row = |(index, location): (usize, &Location)| LocationRow {
         code: location.code.clone(),
-        naming: MapNames::at(&view.names.locations, index),
+        naming: view.names.location(index),
         stale: view.names.is_stale(index),
         face: location.face.0,
         part: location.part,

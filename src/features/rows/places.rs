@@ -6,7 +6,7 @@ use stillage_core::semantics::Place;
 
 use super::common::{FUNCTIONALITY, GROUPS, LABEL_NAME, NAME};
 use crate::features::geometry::{Geometry, GeometryType};
-use crate::features::names::{MapNames, Naming};
+use crate::features::names::Naming;
 use crate::features::property::{Kind, Property};
 use crate::features::shape;
 use crate::features::table::{Column, Table};
@@ -58,7 +58,7 @@ pub fn read(view: &AnalysedMap<'_>) -> Vec<(Geometry, PlaceRow)> {
         let geometry = shape::place_shape(view, id);
         let row = PlaceRow {
             id,
-            naming: MapNames::at(&view.names.places, index),
+            naming: view.names.place(index),
             label: labels.of(place.label),
             area: rounded(place.area),
             room: place.room,

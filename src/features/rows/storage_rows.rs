@@ -4,7 +4,7 @@ use stillage_core::layout::Row;
 
 use super::common::{GROUPS, NAME};
 use crate::features::geometry::{Geometry, GeometryType};
-use crate::features::names::{MapNames, Naming};
+use crate::features::names::Naming;
 use crate::features::property::{Kind, Property};
 use crate::features::table::{Column, Table};
 use crate::features::view::{AnalysedMap, rounded};
@@ -74,7 +74,7 @@ pub const TABLE: Table<StorageRow> = Table {
 pub fn read(view: &AnalysedMap<'_>) -> Vec<(Geometry, StorageRow)> {
     let record = |(index, row): (usize, &Row)| StorageRow {
         id: row.number,
-        naming: MapNames::at(&view.names.rows, index),
+        naming: view.names.row(index),
         aisle: row.aisle,
         side: words::side(row.side),
         length: rounded(row.length()),

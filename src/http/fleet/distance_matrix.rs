@@ -25,7 +25,7 @@ const MOST_PAIRS: usize = 40_000;
 #[derive(Debug, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields, rename_all = "camelCase")]
 pub struct MatrixRequest {
-    /// Where ways begin: `x,y`, `face:ID`, `place:ID` or `location:CODE`.
+    /// Where ways begin: `x,y`, `face:ID`, `place:ID`, `location:CODE` or `name:NAME`.
     from: Vec<End>,
     /// Where they end, likewise; `from` when absent.
     to: Option<Vec<End>>,

@@ -1,6 +1,8 @@
 //! What fleet managers ask for: routes, the ways between many ends, a report on the navigation graph, and files for other
 //! programs.
 
+pub mod at;
+mod did_you_mean;
 pub mod distance_matrix;
 pub mod exports;
 pub mod graph_report;

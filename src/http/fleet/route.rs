@@ -33,7 +33,7 @@ const MOST_ALTERNATIVES: usize = 5;
 #[into_params(parameter_in = Query)]
 #[serde(deny_unknown_fields, rename_all = "camelCase")]
 pub struct RouteQuery {
-    /// Where it begins: `x,y` in the coordinates of `crs`, `face:ID`, `place:ID` or `location:CODE`.
+    /// Where it begins: `x,y` in the coordinates of `crs`, `face:ID`, `place:ID`, `location:CODE` or `name:NAME`.
     #[param(example = "face:3")]
     from: End,
     /// Where it ends, likewise. At a location a route ends where the vehicle stands to serve it.

@@ -4,6 +4,7 @@ pub mod analyses;
 pub mod comparisons;
 pub mod evaluations;
 pub mod map;
+pub mod names;
 pub mod pictures;
 pub mod registry;
 pub mod rule_sets;

@@ -45,7 +45,7 @@ impl From<FeaturePatchBody> for Given {
     fn from(body: FeaturePatchBody) -> Self {
         Self {
             code: body.code.map(|code| code.0),
-            name: body.name.map(|name| name.map(|name| name.0.trim().to_owned())),
+            name: body.name.map(|name| name.map(|name| name.0)),
             groups: body.groups.map(|groups| groups.map(|groups| groups.0).unwrap_or_default()),
         }
     }

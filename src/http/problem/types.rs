@@ -35,6 +35,8 @@ problem_types! {
     ReadOnly = "read-only", FORBIDDEN, "The resource is read-only";
     /// Nothing is there.
     NotFound = "not-found", NOT_FOUND, "There is no such resource";
+    /// A point lies outside the map.
+    OutsideMap = "outside-map", NOT_FOUND, "The point lies outside the map";
     /// A route begins or ends outside the map.
     RouteOutside = "route-outside", NOT_FOUND, "No route: an end lies outside the map";
     /// A route begins or ends where robots may not drive.

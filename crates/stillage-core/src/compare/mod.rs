@@ -11,6 +11,7 @@ mod comparison;
 mod footprint;
 mod labels;
 mod matching;
+mod overlap;
 
 #[cfg(test)]
 mod tests;
@@ -19,3 +20,4 @@ pub use comparison::{ComparedPlace, Comparison, PlaceChange, PlaceMatch, compare
 pub use footprint::Footprint;
 pub use labels::{LabelChange, compare_labels};
 pub use matching::{LEAST_SHARE, Pair, pairs};
+pub use overlap::greatest_overlap;

@@ -31,7 +31,7 @@ pub(crate) fn shared_fraction(first: &[impl AsRef<[Point]>], second: &[impl AsRe
 }
 
 /// Area inside both of two polygons, square metres.
-fn common_area(first: &[impl AsRef<[Point]>], second: &[impl AsRef<[Point]>]) -> f64 {
+pub(crate) fn common_area(first: &[impl AsRef<[Point]>], second: &[impl AsRef<[Point]>]) -> f64 {
     let mut clip = Clip::default();
     let mut inside = |window: &[Point]| first.iter().map(|ring| clip.area(ring.as_ref(), window)).sum::<f64>();
     pieces(second).iter().map(|piece| piece.sign * inside(&piece.window)).sum()
