@@ -133,8 +133,8 @@ fn codes_at(places: &[Footprint], locations: &[NumberedLocation], codes: &[Given
 }
 
 /// Codes of places that both scans show: how many were kept, how many were lost or are told to be in doubt, and how many
-/// became those of other places without a word.
-fn kept_told_and_renamed(old: &Sample, new: &Sample) -> [usize; 3] {
+/// became those of other places without a word; last, how many of the kept ones wait for a person to confirm them.
+fn kept_told_and_renamed(old: &Sample, new: &Sample) -> [usize; 4] {
     let (old_grid, new_grid) = (grid(old), grid(new));
     let found = aligned(&new_grid, &old_grid).expect("it is one hall");
     let before = locations(&old_grid, &RigidMotion::identity());
@@ -143,12 +143,13 @@ fn kept_told_and_renamed(old: &Sample, new: &Sample) -> [usize; 3] {
     let second = first.registry.carry(&now, Trust::Newest, "new");
     let place = |(_, _, center, outline): (String, [f64; 4], Point, Vec<Point>)| Footprint { outline, center };
     let places: Vec<Footprint> = places(old).into_iter().map(place).collect();
-    let mut counts = [0; 3];
+    let mut counts = [0; 4];
     let codes = codes_at(&places, &before, &first.codes).into_iter().zip(codes_at(&places, &now, &second.codes));
     for (before, now) in codes.filter_map(|(before, now)| Some((before?, now?))) {
         // A code of its own says that the place is new, and the registry that the old one is lost.
         let is_told = now.is_stale || first.registry.find(&now.code).is_none();
         counts[usize::from(before.code != now.code) * (1 + usize::from(!is_told))] += 1;
+        counts[3] += usize::from(before.code == now.code && now.is_stale);
     }
     counts
 }
@@ -156,19 +157,20 @@ fn kept_told_and_renamed(old: &Sample, new: &Sample) -> [usize; 3] {
 #[test]
 fn codes_stay_with_their_places() {
     let (seeds, kinds) = seeds_and_kinds();
-    let mut total = [0; 3];
+    let mut total = [0; 4];
     for (seed, &kind) in seeds.flat_map(|seed| kinds.iter().map(move |kind| (seed, kind))) {
         let made = |rotation_deg, boxes| {
             let (rotation_deg, boxes) = (Some(rotation_deg), Some(boxes));
             generate(kind, seed, &Options { rotation_deg, boxes, ..Options::default() })
         };
         let counts = kept_told_and_renamed(&made(10.0, 0.8), &made(-37.0, 0.6));
-        println!("{kind} {seed}: {} kept, {} told, {} renamed", counts[0], counts[1], counts[2]);
+        let [kept, told, renamed, stale] = counts;
+        println!("{kind} {seed}: {kept} kept ({stale} stale), {told} told, {renamed} renamed");
         for (total, count) in total.iter_mut().zip(counts) {
             *total += count;
         }
     }
-    let [kept, told, renamed] = total;
-    println!("{kept} kept, {told} told, {renamed} renamed");
+    let [kept, told, renamed, stale] = total;
+    println!("{kept} kept ({stale} stale), {told} told, {renamed} renamed");
     assert!(renamed == 0 && kept >= 99 * told && kept > 0, "{kept} kept, {told} told, {renamed} renamed");
 }
