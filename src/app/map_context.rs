@@ -4,13 +4,12 @@ use std::sync::{Arc, OnceLock};
 
 use stillage_core::graph::NavigationGraph;
 use stillage_core::layout::{Layout, LayoutSpec};
-use stillage_core::registry::{GivenCode, NumberedLocation, Registry};
+use stillage_core::registry::NumberedLocation;
 use stillage_core::routing::{Blocked, Router};
 use stillage_core::semantics::{SemanticMap, Suggestion};
 use stillage_core::{Analysis, OccupancyGrid, SiteCells, SiteMap};
 use uuid::Uuid;
 
-use super::names::names_of;
 use super::routers::RouterCache;
 use crate::features::{self, AnalysedMap, Collection, Feature, MapNames};
 use crate::records::{MapRecord, SemanticsRecord};
@@ -53,15 +52,6 @@ pub struct MapContext {
 pub struct FeatureCache([OnceLock<Vec<Feature>>; Collection::ALL.len()]);
 
 impl MapContext {
-    /// The map with these codes for its locations, in their order, and the names that the registry of its site has.
-    pub(super) fn with_codes(mut self, registry: &Registry, codes: Vec<GivenCode>) -> Self {
-        self.names = names_of(&self, registry, &codes);
-        for (location, given) in self.layout.locations.iter_mut().zip(codes) {
-            location.code = given.code;
-        }
-        self
-    }
-
     /// The map as [`crate::features`] reads it.
     #[must_use]
     pub fn view(&self) -> AnalysedMap<'_> {

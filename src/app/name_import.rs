@@ -8,7 +8,7 @@ use stillage_core::arrangement::FaceId;
 use stillage_core::compare::greatest_overlap;
 use stillage_core::geometry::polygon;
 use stillage_core::layout::Location;
-use stillage_core::registry::{AreaKind, CodeConflict, CodeOwner, Given, Ground, Registry};
+use stillage_core::registry::{AreaKind, AreaRings, CodeConflict, CodeOwner, Given, Registry};
 use stillage_core::whereabouts::nearest_location;
 use uuid::Uuid;
 
@@ -211,7 +211,7 @@ struct NamedGround<'a> {
     context: &'a MapContext,
     of_face: HashMap<FaceId, Vec<usize>>,
     /// Locations, places, aisles and rows, where rows are for them.
-    areas: [Vec<Ground>; 4],
+    areas: [Vec<AreaRings>; 4],
 }
 
 impl<'a> NamedGround<'a> {
@@ -224,9 +224,9 @@ impl<'a> NamedGround<'a> {
             rows.iter().any(|row| matches!(row.target, NameTarget::Area { collection, .. } if collection == wanted))
         };
         let back = context.record.to_site().inverse();
-        let in_map = |grounds: Vec<Ground>| {
+        let in_map = |grounds: Vec<AreaRings>| {
             let moved = |ring: Vec<Point>| ring.into_iter().map(|point| back.apply(point)).collect::<Vec<_>>();
-            grounds.into_iter().map(|ground| ground.into_iter().map(moved).collect()).collect::<Vec<Ground>>()
+            grounds.into_iter().map(|ground| ground.into_iter().map(moved).collect()).collect::<Vec<AreaRings>>()
         };
         let outline = |location: &Location| {
             vec![location.outline.iter().map(|&point| context.analysis.frame.to_map(point)).collect()]

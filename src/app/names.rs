@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use stillage_core::layout::{Layout, check_code};
-use stillage_core::registry::{AreaKind, CodeConflict, CodeOwner, Given, GivenCode, Ground, NamedArea, Registry};
+use stillage_core::registry::{AreaKind, AreaRings, CodeConflict, CodeOwner, Given, GivenCode, NamedArea, Registry};
 use uuid::Uuid;
 
 use super::registries::{ATTEMPTS, kept};
@@ -32,6 +32,15 @@ pub const fn area_kind(collection: Collection) -> Option<AreaKind> {
 }
 
 impl MapContext {
+    /// The map with these codes for its locations, in their order, and the names that the registry of its site has.
+    pub(super) fn with_codes(mut self, registry: &Registry, codes: Vec<GivenCode>) -> Self {
+        self.names = names_of(&self, registry, &codes);
+        for (location, given) in self.layout.locations.iter_mut().zip(codes) {
+            location.code = given.code;
+        }
+        self
+    }
+
     /// What a feature is, if it is there and can have a name.
     #[must_use]
     pub fn nameable(&self, collection: Collection, id: &FeatureId) -> Option<Nameable> {
@@ -179,7 +188,7 @@ pub(super) fn name_area(
 }
 
 /// The areas of a kind in the frame of the site, by their indices.
-pub(super) fn grounds(context: &MapContext, kind: AreaKind) -> Vec<Ground> {
+pub(super) fn grounds(context: &MapContext, kind: AreaKind) -> Vec<AreaRings> {
     let (to_site, from_grid) =
         (context.record.to_site(), context.grid.frame().motion().then(&context.record.to_site()));
     let placed = |ring: &[stillage_core::Point]| ring.iter().map(|&point| kept(from_grid.apply(point))).collect();

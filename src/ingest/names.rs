@@ -10,7 +10,7 @@ use serde_json::Value;
 use stillage_core::Point;
 use stillage_core::geometry::ring_area;
 use stillage_core::layout::check_code;
-use stillage_core::registry::{Ground, checked_groups, checked_name};
+use stillage_core::registry::{AreaRings, checked_groups, checked_name};
 
 use super::IngestError;
 use super::geojson::{Coordinates, area, features};
@@ -43,7 +43,7 @@ pub enum NameTarget {
         /// Of which collection.
         collection: NamedCollection,
         /// Outlines and holes.
-        rings: Ground,
+        rings: AreaRings,
     },
 }
 

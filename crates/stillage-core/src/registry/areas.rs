@@ -7,13 +7,13 @@ use crate::geometry::common_area::shared_fraction;
 use crate::geometry::{Bounds, Point};
 
 /// An area of a map: its outlines and holes in the frame of the site, metres.
-pub type Ground = Vec<Vec<Point>>;
+pub type AreaRings = Vec<Vec<Point>>;
 
 impl Registry {
     /// The named area that each area of a map is, by its index among [`Registry::areas`]: one to one, in the order of the
     /// area in common as a share of the area of both together. O(named areas x areas), and O(corners²) for those that meet.
     #[must_use]
-    pub fn areas_of(&self, kind: AreaKind, grounds: &[Ground]) -> Vec<Option<usize>> {
+    pub fn areas_of(&self, kind: AreaKind, grounds: &[AreaRings]) -> Vec<Option<usize>> {
         let mut pairs: Vec<(f64, usize, usize)> = Vec::new();
         for (index, area) in self.areas.iter().enumerate().filter(|(_, area)| area.kind == kind) {
             let bounds = area.bounds();

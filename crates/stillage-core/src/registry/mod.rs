@@ -30,7 +30,7 @@ mod renumber;
 #[cfg(test)]
 mod tests;
 
-pub use areas::Ground;
+pub use areas::AreaRings;
 pub use carry::{Carried, GivenCode, NumberedLocation, Trust};
 pub use entry::{PlaceState, Registry, RegistryEntry, UnknownCodes};
 pub use given::{CodeConflict, CodeOwner, Given};

@@ -164,7 +164,7 @@ fn codes_are_exchanged_in_one_call_and_taken_ones_are_told() {
 
 #[test]
 fn named_areas_are_found_again_by_their_ground() {
-    let square = |x: f64, side: f64| -> Ground {
+    let square = |x: f64, side: f64| -> AreaRings {
         vec![[(0.0, 0.0), (side, 0.0), (side, side), (0.0, side)].map(|(dx, dy)| Point::new(x + dx, dy)).to_vec()]
     };
     let named = |kind, name: &str, rings| NamedArea { kind, name: Some(name.into()), groups: Vec::new(), rings };
