@@ -17,6 +17,11 @@ lint:
     RUSTDOCFLAGS="-D warnings" cargo doc --workspace --no-deps --document-private-items
     cargo deny check bans licenses sources
 
+# Exports of three maps, read by other people's programs (Python and GDAL).
+exports:
+    cargo build --release
+    tests/exports/run
+
 # Every stage on a part of a site, then the paper's size beside the exact march.
 bench:
     cargo bench

@@ -5,11 +5,12 @@
 //! the map is left out and listed with the reason; an option that does not fit the map is an error. Messages to a vehicle
 //! are for any vehicle. The same version of a map gives the same bytes.
 
+use rayon::prelude::*;
 use serde::Serialize;
 use sha2::{Digest, Sha256};
 
 use super::archive::NamedFile;
-use super::list::{ExportKind, SingleExport, list};
+use super::list::{Export, ExportKind, SingleExport, list};
 use super::locations_csv::{self, Profile};
 use super::options::ExportOptions;
 use super::single::{json, single};
@@ -53,12 +54,16 @@ pub(super) fn sha256(bytes: &[u8]) -> String {
 /// The files of a bundle.
 pub(super) fn files(source: &ExportSource<'_>, options: &ExportOptions) -> Result<Vec<NamedFile>, ExportError> {
     let options = ExportOptions { recipient: Recipient::default(), link: None, ..options.clone() };
+    let singles = list().par_iter().filter_map(|export| match export.kind {
+        ExportKind::Single(kind) => Some((export, parts(export.name, kind, source, &options))),
+        ExportKind::Bundle | ExportKind::DownloadMap => None,
+    });
+    let made: Vec<(&Export, Result<Vec<NamedFile>, ExportError>)> = singles.collect();
     let mut purposes = Vec::new();
     let mut files = Vec::new();
     let mut left_out = Vec::new();
-    for export in list() {
-        let ExportKind::Single(kind) = export.kind else { continue };
-        match parts(export.name, kind, source, &options) {
+    for (export, parts) in made {
+        match parts {
             Ok(parts) => {
                 purposes.extend(parts.iter().map(|_| export.purpose));
                 files.extend(parts);
@@ -67,13 +72,13 @@ pub(super) fn files(source: &ExportSource<'_>, options: &ExportOptions) -> Resul
             Err(reason) => left_out.push(LeftOut { name: export.name, reason: reason.to_string() }),
         }
     }
-    let entry = |(file, &purpose): (&'_ NamedFile, &&'static str)| BundledFile {
+    let entry = |(file, &purpose): (&NamedFile, &&'static str)| BundledFile {
         name: file.name.clone(),
         bytes: file.bytes.len(),
         sha256: sha256(&file.bytes),
         purpose,
     };
-    let entries: Vec<BundledFile> = files.iter().zip(&purposes).map(entry).collect();
+    let entries: Vec<BundledFile> = files.par_iter().zip(&purposes).map(entry).collect();
     files.extend(manifest(source, entries, left_out));
     Ok(files)
 }

@@ -15,6 +15,7 @@ mod analyze;
 mod authors_categories;
 mod drawings;
 mod evaluate;
+mod export;
 mod maps;
 mod wild_metadata;
 
