@@ -15,6 +15,7 @@ use std::path::PathBuf;
 use clock::Cost;
 use jiff::Timestamp;
 use stillage::exports::{ExportOptions, ExportSource, list, write};
+use stillage::features::MapNames;
 use stillage_core::graph::navigation_graph;
 use stillage_core::layout::{LayoutSpec, layout};
 use stillage_core::routing::Router;
@@ -55,6 +56,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         cells: &cells.faces,
         layout: &storage,
         graph: &graph,
+        names: MapNames::none(),
         georeference: None,
     };
     let link = Some("https://maps.example/bundle.zip".to_owned());

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use jiff::Timestamp;
+use stillage_core::layout::LayoutOptions;
 use stillage_core::semantics::{Assignment, RuleSet};
 use stillage_core::{Analysis, OccupancyGrid, SiteCells};
 use uuid::Uuid;
@@ -58,11 +59,12 @@ impl MapContext {
             rule_set: String::new(),
             draft: rule_set.draft().clone(),
             assignment,
+            layout: LayoutOptions::default(),
             version: 0,
             origin: SemanticsOrigin::Suggested,
             created: Timestamp::UNIX_EPOCH,
         };
         let level = GeometricLevel { grid: Arc::new(grid), analysis: Arc::new(analysis), cells: Arc::new(cells) };
-        level.read_under(record, (Uuid::nil(), Timestamp::UNIX_EPOCH), Some(semantics))
+        level.read_under(record, (Uuid::nil(), Timestamp::UNIX_EPOCH), Some(semantics), LayoutOptions::default())
     }
 }
