@@ -75,7 +75,7 @@ impl MapContext {
     /// runtime.
     #[must_use]
     pub fn graph(&self, radius: f64) -> Arc<NavigationGraph> {
-        self.routers.graph(&self.site(), &self.layout, radius)
+        self.routers.graph(&self.site(), &self.layout, &self.layout_spec.lane_rules, radius)
     }
 
     /// The features of a collection, by id. The first call makes them: keep it off the runtime.

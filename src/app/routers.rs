@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use stillage_core::SiteMap;
 use stillage_core::graph::{NavigationGraph, navigation_graph};
+use stillage_core::lane_rule::LaneRule;
 use stillage_core::layout::Layout;
 use stillage_core::routing::{Blocked, Router};
 
@@ -34,10 +35,16 @@ impl RouterCache {
         })
     }
 
-    /// The navigation graph for vehicles of a radius in metres. The first call makes it.
-    pub(super) fn graph(&self, map: &SiteMap<'_>, layout: &Layout, radius: f64) -> Arc<NavigationGraph> {
+    /// The navigation graph for vehicles of a radius in metres, under rules in the grid frame. The first call makes it.
+    pub(super) fn graph(
+        &self,
+        map: &SiteMap<'_>,
+        layout: &Layout,
+        rules: &[LaneRule],
+        radius: f64,
+    ) -> Arc<NavigationGraph> {
         self.graphs.get_or_make(radius.to_bits(), |_| {
-            navigation_graph(map, layout, &self.router(map, radius, Blocked::default()))
+            navigation_graph(map, layout, &self.router(map, radius, Blocked::default())).ruled(rules)
         })
     }
 }

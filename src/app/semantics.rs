@@ -8,7 +8,11 @@
 
 use std::sync::Arc;
 
+use stillage_core::Point;
+use stillage_core::graph::{NODE_REACH_M, navigation_graph};
+use stillage_core::lane_rule::LaneRule;
 use stillage_core::layout::{self, CodeTemplate, LONGEST_CODE, LayoutOptions, LayoutSpec};
+use stillage_core::routing::Router;
 use stillage_core::semantics::{self, SemanticMap};
 use uuid::Uuid;
 
@@ -81,12 +85,47 @@ impl App {
         let (assignment, layout) = off_the_runtime(move || {
             let semantic = semantics::apply(&on.analysis, &checked, &assignment)?;
             check_layout(&on, &semantic, &layout)?;
+            check_lane_rules(&on, &semantic, &layout)?;
             Ok::<_, AppError>((assignment, layout))
         })
         .await?;
         let (map, analysis, replaces) = (context.record.id, context.analysis_id, context.semantics.version);
         Ok(NewSemanticsRow { map, analysis, replaces, rule_set, draft, assignment, layout })
     }
+}
+
+/// Refuses new rules about the navigation graph that no node or lane of it fits.
+fn check_lane_rules(context: &MapContext, semantic: &SemanticMap, wish: &LayoutOptions) -> Result<(), AppError> {
+    let known = &context.semantics.layout.lane_rules;
+    if wish.lane_rules.iter().all(|rule| known.contains(rule)) {
+        return Ok(());
+    }
+    let to_grid = site_to_grid(&context.record, *context.grid.frame());
+    let spec = LayoutSpec::wished(wish, &context.analysis.options, &to_grid);
+    let map = context.cells.map(&context.grid, &context.analysis, semantic);
+    let router = Router::new(&map, spec.vehicle_radius);
+    let graph = navigation_graph(&map, &layout::layout(&map, &spec), &router);
+    let unmatched = graph.clone().ruled(&spec.lane_rules).unmatched_rules;
+    let Some(index) = unmatched.into_iter().find(|&index| !known.contains(&wish.lane_rules[index])) else {
+        return Ok(());
+    };
+    let near = |place: Point| {
+        let node = &graph.nodes[graph.nearest_node(place)?];
+        let at = context.analysis.frame.to_map(node.position);
+        Some(format!("{} at {:.2},{:.2}", node.name, at.x, at.y))
+    };
+    let detail = match spec.lane_rules[index] {
+        _ if graph.nodes.is_empty() => "the map has no navigation graph: label its corridors first".to_owned(),
+        LaneRule::NoNode { at } => {
+            format!("no node lies within {NODE_REACH_M} m; the nearest is {}", near(at).unwrap_or_default())
+        }
+        LaneRule::NoLane { from, to } | LaneRule::OneWay { from, to } => format!(
+            "no lane joins the nodes there; the nearest nodes are {} and {}",
+            near(from).unwrap_or_default(),
+            near(to).unwrap_or_default()
+        ),
+    };
+    Err(AppError::invalid(&format!("/layout/laneRules/{index}"), detail))
 }
 
 /// Refuses a layout whose codes would be too long.

@@ -10,6 +10,7 @@ use stillage_core::routing::Router;
 
 use super::failure::Failure;
 use super::findings::{AnalysisArgs, Findings};
+use super::input;
 use super::output;
 use super::progress::ProgressDisplay;
 use super::server;
@@ -38,7 +39,7 @@ pub(super) struct ExportArgs {
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
     /// An option of the format, as often as there are some: `--set profile=odoo`.
-    #[arg(long = "set", value_name = "NAME=VALUE", value_parser = super::name_and_value)]
+    #[arg(long = "set", value_name = "NAME=VALUE", value_parser = input::name_and_value)]
     set: Vec<(String, String)>,
     #[command(flatten)]
     analysis: AnalysisArgs,

@@ -111,6 +111,12 @@ pub(super) fn read_json<T: DeserializeOwned>(path: &Path) -> Result<T, Failure> 
         .map_err(|error| Failure::Input(format!("{} is not the JSON that is expected: {error}", path.display())))
 }
 
+/// Reads `NAME=VALUE`.
+pub(super) fn name_and_value(text: &str) -> Result<(String, String), &'static str> {
+    let (name, value) = text.split_once('=').ok_or("must be NAME=VALUE")?;
+    Ok((name.to_owned(), value.to_owned()))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

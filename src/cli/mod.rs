@@ -96,12 +96,6 @@ fn unlike_a_flag(argument: OsString) -> OsString {
     }
 }
 
-/// Reads `NAME=VALUE`.
-fn name_and_value(text: &str) -> Result<(String, String), &'static str> {
-    let (name, value) = text.split_once('=').ok_or("must be NAME=VALUE")?;
-    Ok((name.to_owned(), value.to_owned()))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

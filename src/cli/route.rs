@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::failure::Failure;
 use super::findings::AnalysisArgs;
+use super::input;
 use super::output;
 use super::progress::ProgressDisplay;
 use super::server;
@@ -21,7 +22,7 @@ pub(super) struct RouteArgs {
     #[arg(long, value_name = "URL")]
     server: Option<String>,
     /// A parameter of the request, as often as there are some: `--set footprintRadiusM=0.6`.
-    #[arg(long = "set", value_name = "NAME=VALUE", value_parser = super::name_and_value)]
+    #[arg(long = "set", value_name = "NAME=VALUE", value_parser = input::name_and_value)]
     set: Vec<(String, String)>,
     /// The file for the GeoJSON; standard output when absent.
     #[arg(long, value_name = "FILE")]

@@ -8,13 +8,13 @@ use super::failure::Failure;
 use crate::http::links::encode;
 
 /// Longest wait for an answer: a large map that nobody asked about before is read first.
-const TIMEOUT: Duration = Duration::from_secs(120);
+const TIMEOUT: Duration = Duration::from_mins(2);
 /// Largest answer, bytes: a bundle of a large map has some ten million.
 const MOST_BYTES: u64 = 1 << 30;
 
 /// What of a problem detail (RFC 9457) is told to people.
 #[derive(Deserialize)]
-struct Refusal {
+struct ProblemText {
     #[serde(default)]
     title: String,
     #[serde(default)]
@@ -38,9 +38,9 @@ pub(super) fn get(map: &str, path: &str, query: &[(String, String)]) -> Result<V
         return Ok(body);
     }
     let status = response.status();
-    Err(Failure::Input(match serde_json::from_slice::<Refusal>(&body) {
-        Ok(refusal) if !refusal.detail.is_empty() => refusal.detail,
-        Ok(refusal) if !refusal.title.is_empty() => refusal.title,
+    Err(Failure::Input(match serde_json::from_slice::<ProblemText>(&body) {
+        Ok(problem) if !problem.detail.is_empty() => problem.detail,
+        Ok(problem) if !problem.title.is_empty() => problem.title,
         _ => format!("{address} answers {status}: is it the address of a map, http://HOST:PORT/v1/maps/ID?"),
     }))
 }

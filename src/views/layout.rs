@@ -3,10 +3,14 @@
 use serde::{Deserialize, Serialize};
 use stillage_core::Point;
 use stillage_core::geometry::RigidMotion;
+use stillage_core::lane_rule::LaneRule;
 use stillage_core::layout::{CodeTemplate, LayoutOptions};
 use utoipa::ToSchema;
 
 use crate::features::rounded;
+
+/// Rules about the navigation graph at most.
+const MOST_RULES: usize = 1_000;
 
 /// How locations are cut and numbered. What is absent follows from the analysis.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
@@ -30,6 +34,62 @@ pub struct LayoutView {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schema(minimum = 0.05, maximum = 10)]
     vehicle_radius_m: Option<f64>,
+    /// Rules about the navigation graph. A node is named by where it lies, so rules outlive analyses and scans.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[schema(max_items = 1000)]
+    lane_rules: Vec<LaneRuleView>,
+}
+
+/// A rule about a node or a lane of the navigation graph. Places are x and y, metres of the map frame; a node lies within
+/// 1 m of its place.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+#[schema(as = LaneRule)]
+#[serde(tag = "rule", deny_unknown_fields, rename_all = "kebab-case")]
+pub enum LaneRuleView {
+    /// No vehicle drives over a node.
+    NoNode {
+        /// Where it lies.
+        #[schema(example = json!([3.5, 4.0]))]
+        at: [f64; 2],
+    },
+    /// No vehicle drives between two nodes.
+    NoLane {
+        /// Where one of them lies.
+        #[schema(example = json!([3.5, 4.0]))]
+        from: [f64; 2],
+        /// Where the other lies.
+        #[schema(example = json!([5.0, 4.0]))]
+        to: [f64; 2],
+    },
+    /// Vehicles drive from one node to another, but not back.
+    OneWay {
+        /// Where the lane begins.
+        #[schema(example = json!([3.5, 4.0]))]
+        from: [f64; 2],
+        /// Where it ends.
+        #[schema(example = json!([5.0, 4.0]))]
+        to: [f64; 2],
+    },
+}
+
+impl LaneRuleView {
+    fn new(rule: &LaneRule, to_site: &RigidMotion) -> Self {
+        let at = |point: Point| seen(point, to_site);
+        match *rule {
+            LaneRule::NoNode { at: place } => Self::NoNode { at: at(place) },
+            LaneRule::NoLane { from, to } => Self::NoLane { from: at(from), to: at(to) },
+            LaneRule::OneWay { from, to } => Self::OneWay { from: at(from), to: at(to) },
+        }
+    }
+
+    fn read(&self, to_site: &RigidMotion) -> LaneRule {
+        let at = |place: [f64; 2]| to_site.apply(Point::from(place));
+        match *self {
+            Self::NoNode { at: place } => LaneRule::NoNode { at: at(place) },
+            Self::NoLane { from, to } => LaneRule::NoLane { from: at(from), to: at(to) },
+            Self::OneWay { from, to } => LaneRule::OneWay { from: at(from), to: at(to) },
+        }
+    }
 }
 
 /// A member that cannot be used.
@@ -50,6 +110,7 @@ impl LayoutView {
             entrance: options.entrance.map(|entrance| seen(entrance, to_site)),
             place_width_m: options.place_width_m,
             vehicle_radius_m: options.vehicle_radius_m,
+            lane_rules: options.lane_rules.iter().map(|rule| LaneRuleView::new(rule, to_site)).collect(),
         }
     }
 
@@ -57,6 +118,17 @@ impl LayoutView {
     #[must_use]
     pub const fn entrance(&self) -> Option<[f64; 2]> {
         self.entrance
+    }
+
+    /// The rules that are wished. Those that were read from the ones in force stay exactly what they were.
+    fn lane_rules(&self, in_force: &LayoutOptions, to_site: &RigidMotion) -> Result<Vec<LaneRule>, UnusableLayout> {
+        if self.lane_rules.len() > MOST_RULES {
+            let detail = format!("{} rules: give {MOST_RULES} at most", self.lane_rules.len());
+            return Err(UnusableLayout { pointer: "/laneRules", detail });
+        }
+        let kept =
+            |given: &LaneRuleView| in_force.lane_rules.iter().find(|rule| LaneRuleView::new(rule, to_site) == *given);
+        Ok(self.lane_rules.iter().map(|given| kept(given).copied().unwrap_or_else(|| given.read(to_site))).collect())
     }
 
     /// The layout that is wished. An entrance that was read from the one in force stays exactly what it was.
@@ -82,6 +154,7 @@ impl LayoutView {
             entrance,
             place_width_m: self.place_width_m,
             vehicle_radius_m: self.vehicle_radius_m,
+            lane_rules: self.lane_rules(in_force, to_site)?,
         };
         let first = options.check().err().and_then(|problems| problems.into_iter().next());
         match first {
@@ -91,8 +164,8 @@ impl LayoutView {
     }
 }
 
-/// An entrance in the map frame, as it is told.
-fn seen(entrance: Point, to_site: &RigidMotion) -> [f64; 2] {
-    let place = to_site.inverse().apply(entrance);
+/// A place in the map frame, as it is told.
+fn seen(place: Point, to_site: &RigidMotion) -> [f64; 2] {
+    let place = to_site.inverse().apply(place);
     [rounded(place.x), rounded(place.y)]
 }

@@ -210,6 +210,44 @@ async fn a_layout_that_cannot_be_is_refused_with_an_example() {
     assert_eq!(api.get(&format!("{map}/semantics")).await.json()["version"], 0);
 }
 
+/// The lanes of the navigation graph, each as the places of its ends.
+async fn lanes(api: &Api, map: &str) -> Vec<[[f64; 2]; 2]> {
+    let graph = api.get(&format!("{map}/exports/nav2-route.geojson")).await.json();
+    let features = graph["features"].as_array().expect("features");
+    let place = |id: &Value| {
+        let node = features.iter().find(|node| node["geometry"]["type"] == "Point" && node["properties"]["id"] == *id);
+        let at = &node.expect("a node")["geometry"]["coordinates"];
+        [at[0].as_f64().expect("x"), at[1].as_f64().expect("y")]
+    };
+    let lanes = features.iter().filter(|lane| lane["geometry"]["type"] != "Point");
+    lanes.map(|lane| [place(&lane["properties"]["startid"]), place(&lane["properties"]["endid"])]).collect()
+}
+
+#[tokio::test]
+async fn lanes_follow_the_rules_of_people() {
+    let api = Api::new().await;
+    let map = api.hall().await;
+    let before = lanes(&api, &map).await;
+    let lane = before[0];
+    let back = [lane[1], lane[0]];
+    assert!(before.contains(&back));
+    let rules = json!([{"rule": "one-way", "from": lane[0], "to": lane[1]}]);
+    let put = put_semantics(&api, &map, &json!({"layout": {"laneRules": rules}})).await;
+    assert_eq!((put.status.as_u16(), &put.json()["layout"]["laneRules"]), (200, &rules), "{}", put.text());
+    let after = lanes(&api, &map).await;
+    assert!(after.contains(&lane) && !after.contains(&back));
+    // Rules outlive another analysis.
+    api.send_json(Method::POST, &format!("{map}/analyses"), &[], &json!({"seed": 5})).await;
+    api.app.run_until_empty().await.expect("the queue can be worked on");
+    let again = lanes(&api, &map).await;
+    assert!(again.contains(&lane) && !again.contains(&back));
+
+    let nowhere = json!({"layout": {"laneRules": [{"rule": "no-node", "at": [500.0, 0.0]}]}});
+    let problem = put_semantics(&api, &map, &nowhere).await.problem(422, "invalid");
+    assert_eq!(problem["errors"][0]["pointer"], "/layout/laneRules/0", "{problem}");
+    assert!(problem["errors"][0]["detail"].as_str().is_some_and(|detail| detail.contains("the nearest is ")));
+}
+
 /// Sends a table of names.
 async fn import(api: &Api, map: &str, query: &str, table: &str) -> Answer {
     let path = format!("{map}/names?crs=EPSG:3857{query}");

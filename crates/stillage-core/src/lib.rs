@@ -92,6 +92,7 @@ pub mod semantics;
 pub mod clearance;
 pub mod site_map;
 
+pub mod lane_rule;
 pub mod layout;
 
 pub mod routing;

@@ -169,7 +169,7 @@ impl GraphDraft<'_> {
                 };
             }
         }
-        NavigationGraph { nodes: self.nodes, lanes }
+        NavigationGraph { nodes: self.nodes, lanes, unmatched_rules: Vec::new() }
     }
 
     /// The lanes of a joint: one each way, or none where no short way leads.

@@ -4,14 +4,17 @@
 //! | --- | --- |
 //! | [`mod@navigation_graph`] | nodes and directed lanes |
 //! | [`build`] | the graph of a map |
+//! | [`ruled`] | the same under the rules of people |
 //! | [`face_ways`] | the course of vehicles through one face |
 
 mod build;
 mod face_ways;
 mod navigation_graph;
+mod ruled;
 
 #[cfg(test)]
 mod tests;
 
 pub use build::navigation_graph;
 pub use navigation_graph::{GraphNode, Lane, LaneKind, NavigationGraph, NodeKind};
+pub use ruled::NODE_REACH_M;

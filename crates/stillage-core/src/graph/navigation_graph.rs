@@ -84,4 +84,6 @@ pub struct NavigationGraph {
     pub nodes: Vec<GraphNode>,
     /// Lanes, ascending by `from` and `to`.
     pub lanes: Vec<Lane>,
+    /// Indices of the rules of people that no node or lane fits.
+    pub unmatched_rules: Vec<usize>,
 }

@@ -1,6 +1,8 @@
 //! Navigation graphs of drawn warehouses.
 
 use super::*;
+use crate::geometry::{Point, Vector};
+use crate::lane_rule::LaneRule;
 use crate::routing::Router;
 use crate::semantics::RuleSet;
 use crate::semantics::pictures::DrawnMap;
@@ -24,28 +26,33 @@ fn told(graph: &NavigationGraph) -> String {
     graph.nodes.iter().map(node).chain(lanes.map(lane)).collect()
 }
 
+/// An aisle between two rows of two places, and a junction.
+fn aisle() -> DrawnMap {
+    DrawnMap::new(
+        "
+        ########....
+        ########....
+        ............
+        ............
+        ............
+        ########....
+        ########....
+        ",
+        "
+        ppppqqqqjjjj
+        ppppqqqqjjjj
+        ccccccccjjjj
+        ccccccccjjjj
+        ccccccccjjjj
+        qqqqppppjjjj
+        qqqqppppjjjj
+        ",
+    )
+}
+
 #[test]
 fn an_aisle_is_driven_along_its_middle_with_spurs_to_its_places() {
-    let map = DrawnMap::new(
-        "
-        ########....
-        ########....
-        ............
-        ............
-        ............
-        ########....
-        ########....
-        ",
-        "
-        ppppqqqqjjjj
-        ppppqqqqjjjj
-        ccccccccjjjj
-        ccccccccjjjj
-        ccccccccjjjj
-        qqqqppppjjjj
-        qqqqppppjjjj
-        ",
-    );
+    let map = aisle();
     let graph = graph_of(&map, 0.2);
     expect![[r#"
         N0000 Waypoint at 4.2,1.8
@@ -95,6 +102,28 @@ fn every_lane_is_clear_and_has_its_twin() {
         assert_eq!((twin.from, twin.to), (lane.to, lane.from));
         assert_eq!(lane.path[0], graph.nodes[lane.from].position);
     }
+}
+
+#[test]
+fn rules_of_people_take_nodes_and_lanes_away() {
+    let graph = graph_of(&aisle(), 0.2);
+    let lane = &graph.lanes[0];
+    let [from, to] = [lane.from, lane.to].map(|node| graph.nodes[node].position);
+    let joins = |graph: &NavigationGraph, start: Point, end: Point| {
+        graph.lanes.iter().any(|lane| graph.nodes[lane.from].position == start && graph.nodes[lane.to].position == end)
+    };
+    let near = |point: Point| point + Vector::new(0.1, 0.1);
+    let one_way = graph.clone().ruled(&[LaneRule::OneWay { from: near(from), to }]);
+    assert!(joins(&one_way, from, to) && !joins(&one_way, to, from));
+    assert_eq!(one_way.lanes.iter().find(|lane| one_way.nodes[lane.from].position == from).unwrap().twin, None);
+    let closed = graph.clone().ruled(&[LaneRule::NoLane { from: to, to: from }]);
+    assert!(!joins(&closed, from, to) && !joins(&closed, to, from) && closed.nodes.len() == graph.nodes.len());
+    let dropped = graph.clone().ruled(&[LaneRule::NoNode { at: near(from) }]);
+    assert_eq!(dropped.nodes.len(), graph.nodes.len() - 1);
+    assert!(dropped.nodes.iter().all(|node| node.position != from) && !joins(&dropped, from, to));
+    let away = Point::new(50.0, 50.0);
+    let far = graph.clone().ruled(&[LaneRule::NoNode { at: away }, LaneRule::OneWay { from, to: away }]);
+    assert_eq!((far.lanes.len(), far.unmatched_rules), (graph.lanes.len(), vec![0, 1]));
 }
 
 #[test]

@@ -208,7 +208,8 @@ fn figures_of(nodes: &[[f64; 2]], pairs: &[[usize; 2]], options: &ReportOptions)
     let index = |from: usize, to: usize| lanes.iter().position(|lane| (lane.from, lane.to) == (from, to));
     let twins: Vec<Option<usize>> = lanes.iter().map(|lane| index(lane.to, lane.from)).collect();
     lanes.iter_mut().zip(twins).for_each(|(lane, twin)| lane.twin = twin);
-    let graph = NavigationGraph { nodes: nodes.iter().enumerate().map(node).collect(), lanes };
+    let graph =
+        NavigationGraph { nodes: nodes.iter().enumerate().map(node).collect(), lanes, unmatched_rules: Vec::new() };
     let (router, layout) = (Router::new(&site, 0.2), Layout::default());
     graph_report(&site, &layout, &router, &graph, options, &Watch::unwatched()).unwrap().figures
 }

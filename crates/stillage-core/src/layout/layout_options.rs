@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::code_template::CodeTemplate;
 use crate::geometry::Point;
+use crate::lane_rule::LaneRule;
 use crate::spec::OptionProblem;
 
 /// Widths of a load, metres: from a small bin to a long pallet of several loads.
@@ -23,6 +24,8 @@ pub struct LayoutOptions {
     pub place_width_m: Option<f64>,
     /// Half the width of the vehicles that serve the locations, metres.
     pub vehicle_radius_m: Option<f64>,
+    /// Rules about the navigation graph, in the frame of the site.
+    pub lane_rules: Vec<LaneRule>,
 }
 
 impl LayoutOptions {
@@ -52,7 +55,7 @@ impl LayoutOptions {
     /// codes.
     #[must_use]
     pub fn numbering(&self) -> String {
-        let Self { code_template, entrance, place_width_m, vehicle_radius_m: _ } = self;
+        let Self { code_template, entrance, place_width_m, vehicle_radius_m: _, lane_rules: _ } = self;
         if (code_template, entrance, place_width_m) == (&CodeTemplate::default(), &None, &None) {
             return String::new();
         }

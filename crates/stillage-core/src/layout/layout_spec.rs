@@ -3,6 +3,7 @@
 use super::code_template::CodeTemplate;
 use super::layout_options::LayoutOptions;
 use crate::geometry::{Point, RigidMotion};
+use crate::lane_rule::LaneRule;
 use crate::spec::{AnalysisOptions, VehicleWidth};
 
 /// Half the width of a vehicle where nobody says how wide it is, metres: the narrow side of a EUR pallet (0.8 m, EN
@@ -21,6 +22,8 @@ pub struct LayoutSpec {
     pub place_width: Option<f64>,
     /// Half the width of the vehicles that serve the locations, metres.
     pub vehicle_radius: f64,
+    /// Rules about the navigation graph, grid frame.
+    pub lane_rules: Vec<LaneRule>,
 }
 
 impl LayoutSpec {
@@ -31,7 +34,13 @@ impl LayoutSpec {
             VehicleWidth::Fixed(width) => width / 2.0,
             VehicleWidth::Auto => VEHICLE_RADIUS_M,
         };
-        Self { code: CodeTemplate::default(), entrance: None, place_width: None, vehicle_radius }
+        Self {
+            code: CodeTemplate::default(),
+            entrance: None,
+            place_width: None,
+            vehicle_radius,
+            lane_rules: Vec::new(),
+        }
     }
 
     /// What people wish, and what follows from the analysis where they wish nothing. `to_grid` leads from the frame of the
@@ -43,6 +52,7 @@ impl LayoutSpec {
             entrance: wish.entrance.map(|entrance| to_grid.apply(entrance)),
             place_width: wish.place_width_m,
             vehicle_radius: wish.vehicle_radius_m.unwrap_or_else(|| Self::of(options).vehicle_radius),
+            lane_rules: wish.lane_rules.iter().map(|rule| rule.moved(to_grid)).collect(),
         }
     }
 }
