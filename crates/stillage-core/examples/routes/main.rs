@@ -18,7 +18,7 @@ use std::time::Instant;
 
 use cells::CellPaths;
 use clock::Cost;
-use stillage_core::graph::navigation_graph;
+use stillage_core::graph::{NavigationGraph, navigation_graph};
 use stillage_core::layout::{LayoutSpec, Location, layout};
 use stillage_core::routing::{Preferences, Route, Router, Waypoint};
 use stillage_core::semantics::{self, Assignment, RuleSet};
@@ -57,9 +57,39 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let (graph, built) = Cost::of(|| navigation_graph(&map, &storage, &router));
     print_cost("navigation graph", &built);
     println!("{} nodes, {} lanes", graph.nodes.len(), graph.lanes.len());
+    print_reach(&map, &router, &graph);
     pairs(&map, &router, radius);
     matrix(&map, &router, &storage.locations);
     Ok(())
+}
+
+/// How many places the lanes join to one another, and how many routes do.
+fn print_reach(map: &SiteMap<'_>, router: &Router, graph: &NavigationGraph) {
+    let mut part: Vec<usize> = (0..graph.nodes.len()).collect();
+    // Lanes lead both ways: the smallest number of a part spreads over it.
+    while let Some(lane) = graph.lanes.iter().find(|lane| part[lane.from] < part[lane.to]) {
+        let mut open = vec![lane.from];
+        let number = part[lane.from];
+        while let Some(node) = open.pop() {
+            let first = graph.lanes.partition_point(|lane| lane.from < node);
+            for lane in graph.lanes[first..].iter().take_while(|lane| lane.from == node) {
+                if part[lane.to] > number {
+                    part[lane.to] = number;
+                    open.push(lane.to);
+                }
+            }
+        }
+    }
+    let served: Vec<usize> = (0..graph.nodes.len()).filter(|&node| graph.nodes[node].location.is_some()).collect();
+    let mut sizes = std::collections::BTreeMap::new();
+    for &node in &served {
+        *sizes.entry(part[node]).or_insert(0_usize) += 1;
+    }
+    let (&largest, &joined) = sizes.iter().max_by_key(|(_, size)| **size).expect("the map has locations");
+    let ends: Vec<Waypoint<'_>> = served.iter().map(|&node| Waypoint::Point(graph.nodes[node].position)).collect();
+    let from = served.iter().position(|&node| part[node] == largest).expect("a part has a node");
+    let routes = router.matrix(map, &ends[from..=from], &ends)[0].iter().flatten().count();
+    println!("{} places, {joined} on lanes that lead to one another, {routes} by routes", served.len());
 }
 
 fn print_cost(name: &str, cost: &Cost) {

@@ -2,7 +2,8 @@
 //!
 //! Method: a gate lies in the middle of the widest free stretch of the edges that two drivable faces share; within each
 //! face its course joins gates and the places where vehicles stand. A lane is straight where nothing stands in the way,
-//! else it is a route. Cost: O(faces + edges + locations), each a line of sight or a short route. Limits: one lane for each
+//! else it is a route. Where obstacles on the course would leave the graph in parts that a vehicle drives between, further
+//! joints connect them, the shortest first: of the same face, then between the nearest nodes of two parts. Cost: O(faces + edges + locations), each a line of sight or a short route. Limits: one lane for each
 //! direction on the same course, also where two would have room side by side.
 
 use std::collections::BTreeMap;
@@ -12,15 +13,23 @@ use rayon::prelude::*;
 use super::face_ways::Course;
 use super::navigation_graph::{GraphNode, Lane, LaneKind, NavigationGraph, NodeKind};
 use crate::arrangement::{EdgeId, FaceId};
-use crate::geometry::Point;
+use crate::geometry::{DisjointSets, Point};
 use crate::layout::{Layout, approach_before};
 use crate::routing::Router;
 use crate::site_map::SiteMap;
 
 /// Least distance between two nodes on the course of a face, metres: a vehicle does not stop twice within half a metre.
 const LEAST_DISTANCE_M: f64 = 0.5;
-/// A lane is given up that is this many times as long as the straight way: it leads around something.
+/// A spur that is shorter than this is none, metres: the vehicle stands on the course.
+const SHORTEST_SPUR_M: f64 = 0.1;
+/// A lane that is this many times as long as the straight way leads around something: it is made only where nothing else
+/// connects its ends.
 const LONGEST_DETOUR: f64 = 3.0;
+/// How many nodes of a course another joint may leave out, or pass by: obstacles hide a few at most.
+const PASSED_BY: usize = 3;
+
+/// Nodes of other parts that one which the joints of its face leave alone is tried with.
+const NEAREST: usize = 4;
 
 /// A pair of nodes that a lane in each direction joins.
 type Joint = (usize, usize, LaneKind);
@@ -28,7 +37,7 @@ type Joint = (usize, usize, LaneKind);
 /// Builds the navigation graph for the vehicles of a router.
 #[must_use]
 pub fn navigation_graph(map: &SiteMap<'_>, layout: &Layout, router: &Router) -> NavigationGraph {
-    let mut draft = GraphDraft { map, router, nodes: Vec::new(), joints: Vec::new() };
+    let mut draft = GraphDraft { map, router, nodes: Vec::new(), joints: Vec::new(), spares: Vec::new() };
     let mut attached: BTreeMap<FaceId, Vec<(usize, LaneKind)>> = BTreeMap::new();
     for (faces, point) in gates(map, router.radius()) {
         let node = draft.add(point, None);
@@ -99,6 +108,8 @@ struct GraphDraft<'a> {
     router: &'a Router,
     nodes: Vec<GraphNode>,
     joints: Vec<Joint>,
+    /// Joints that are made where the others leave the graph in parts.
+    spares: Vec<Joint>,
 }
 
 impl GraphDraft<'_> {
@@ -121,19 +132,38 @@ impl GraphDraft<'_> {
             let at = |node: usize| course.abscissa(self.nodes[node].position);
             at(one.0).total_cmp(&at(other.0)).then(one.0.cmp(&other.0))
         });
-        // The node on the course before, and how far along it lies.
-        let mut last: Option<(usize, f64)> = None;
-        for (node, kind) in attached {
+        // The nodes on the course, each with how far along it lies, and what is attached beside them.
+        let mut along: Vec<(usize, f64)> = Vec::new();
+        let mut beside: Vec<(usize, usize, LaneKind)> = Vec::new();
+        for &(node, kind) in &attached {
             let at = course.abscissa(self.nodes[node].position);
-            let near = last.filter(|(_, before)| at - before < LEAST_DISTANCE_M);
-            let on_course = near.map_or_else(|| self.node_on_course(&course, face, (node, kind)), |(before, _)| before);
-            if near.is_none() {
-                self.joints.extend(last.map(|(before, _)| (before, on_course, LaneKind::Way)));
-                last = Some((on_course, at));
+            if along.last().is_none_or(|(_, before)| at - before >= LEAST_DISTANCE_M) {
+                let on_course = self.node_on_course(&course, face, (node, kind));
+                along.push((on_course, at));
             }
-            if on_course != node {
-                self.joints.push((on_course, node, kind));
+            if along[along.len() - 1].0 != node {
+                beside.push((along.len() - 1, node, kind));
             }
+        }
+        self.joints.extend(along.windows(2).map(|pair| (pair[0].0, pair[1].0, LaneKind::Way)));
+        self.joints.extend(beside.iter().map(|&(place, node, kind)| (along[place].0, node, kind)));
+        self.add_spares(&along, &beside);
+    }
+
+    /// Joints past some nodes of a course, from attached nodes to those around the nearest, and between attached nodes.
+    fn add_spares(&mut self, along: &[(usize, f64)], beside: &[(usize, usize, LaneKind)]) {
+        for (place, &(node, _)) in along.iter().enumerate() {
+            let further = along.iter().skip(place + 2).take(PASSED_BY);
+            self.spares.extend(further.map(|&(other, _)| (node, other, LaneKind::Way)));
+        }
+        for &(place, node, kind) in beside {
+            let near = place.saturating_sub(PASSED_BY)..(place + PASSED_BY + 1).min(along.len());
+            let others = along[near].iter().filter(|&&(other, _)| other != along[place].0 && other != node);
+            self.spares.extend(others.map(|&(other, _)| (other, node, kind)));
+        }
+        for (index, &(_, node, _)) in beside.iter().enumerate() {
+            let next = beside.iter().skip(index + 1).take(PASSED_BY);
+            self.spares.extend(next.map(|&(_, other, _)| (node, other, LaneKind::Way)));
         }
     }
 
@@ -142,13 +172,13 @@ impl GraphDraft<'_> {
         let own = self.nodes[node].position;
         let found = course.widest(self.map, face, course.abscissa(own), self.router.radius());
         let position = found.unwrap_or(own);
-        let is_itself = kind == LaneKind::Way && (position - own).norm() < LEAST_DISTANCE_M;
+        let least = if kind == LaneKind::Way { LEAST_DISTANCE_M } else { SHORTEST_SPUR_M };
+        let is_itself = (position - own).norm() < least;
         if is_itself { node } else { self.add(position, None) }
     }
 
     fn finish(mut self) -> NavigationGraph {
-        let lanes: Vec<Vec<Lane>> = self.joints.par_iter().map(|&joint| self.lanes(joint)).collect();
-        let mut lanes: Vec<Lane> = lanes.into_iter().flatten().collect();
+        let mut lanes: Vec<Lane> = self.connected().into_iter().flatten().collect();
         lanes.sort_by_key(|lane| (lane.from, lane.to));
         lanes.dedup_by_key(|lane| (lane.from, lane.to));
         let index: BTreeMap<(usize, usize), usize> =
@@ -172,23 +202,100 @@ impl GraphDraft<'_> {
         NavigationGraph { nodes: self.nodes, lanes, unmatched_rules: Vec::new() }
     }
 
-    /// The lanes of a joint: one each way, or none where no short way leads.
-    fn lanes(&self, (from, to, kind): Joint) -> Vec<Lane> {
-        let [start, end] = [from, to].map(|node| self.nodes[node].position);
-        let path = if self.router.sees(start, end) {
-            vec![start, end]
-        } else {
-            let found = self.router.shortest(self.map, start, end);
-            let is_short = |length: f64| length <= LONGEST_DETOUR * (end - start).norm() + LEAST_DISTANCE_M;
-            let Some(route) = found.filter(|route| is_short(route.length)) else { return Vec::new() };
-            route.path
+    /// The lanes of all joints, and of the shortest others that connect parts of the graph.
+    fn connected(&self) -> Vec<[Lane; 2]> {
+        let found: Vec<Option<Vec<Point>>> = self.joints.par_iter().map(|&joint| self.course(joint)).collect();
+        let mut parts = DisjointSets::new(self.nodes.len());
+        let (mut lanes, mut spares) = (Vec::new(), Vec::new());
+        for (&joint, path) in self.joints.iter().zip(found) {
+            let Some(path) = path else { continue };
+            if self.is_short(joint, &path) {
+                parts.join(joint.0, joint.1);
+                lanes.push(self.lanes(joint, path));
+            } else {
+                spares.push((joint, path));
+            }
+        }
+        spares.extend(self.courses_between(&self.spares, &mut parts));
+        self.add_shortest(spares, &mut parts, &mut lanes);
+        let near = self.courses_between(&self.near_other_parts(&mut parts), &mut parts);
+        self.add_shortest(near, &mut parts, &mut lanes);
+        lanes
+    }
+
+    /// The courses of those joints whose ends lie in different parts.
+    fn courses_between(&self, joints: &[Joint], parts: &mut DisjointSets) -> Vec<(Joint, Vec<Point>)> {
+        let apart: Vec<Joint> =
+            joints.iter().filter(|&&(from, to, _)| parts.find(from) != parts.find(to)).copied().collect();
+        apart.par_iter().filter_map(|&joint| Some((joint, self.course(joint)?))).collect()
+    }
+
+    /// Makes lanes of the joints that connect parts, the shortest first.
+    fn add_shortest(&self, mut found: Vec<(Joint, Vec<Point>)>, parts: &mut DisjointSets, lanes: &mut Vec<[Lane; 2]>) {
+        // Of equal lengths the first joint: the sort is stable.
+        found.sort_by(|one, other| length(&one.1).total_cmp(&length(&other.1)));
+        for (joint, path) in found {
+            if parts.join(joint.0, joint.1) {
+                lanes.push(self.lanes(joint, path));
+            }
+        }
+    }
+
+    /// Joints from every node outside the largest part to the nearest nodes of other parts. O(such nodes x nodes).
+    fn near_other_parts(&self, parts: &mut DisjointSets) -> Vec<Joint> {
+        let of_nodes: Vec<usize> = (0..self.nodes.len()).map(|node| parts.find(node)).collect();
+        let mut sizes = vec![0_usize; self.nodes.len()];
+        for &part in &of_nodes {
+            sizes[part] += 1;
+        }
+        let Some(largest) = (0..sizes.len()).rev().max_by_key(|&part| sizes[part]) else { return Vec::new() };
+        let outside: Vec<usize> = (0..of_nodes.len()).filter(|&node| of_nodes[node] != largest).collect();
+        let nearest = |&node: &usize| {
+            let distance = |other: usize| (self.nodes[other].position - self.nodes[node].position).norm_squared();
+            let mut others: Vec<(f64, usize)> = (0..of_nodes.len())
+                .filter(|&other| of_nodes[other] != of_nodes[node])
+                .map(|other| (distance(other), other))
+                .collect();
+            let count = NEAREST.min(others.len());
+            let by_distance =
+                |one: &(f64, usize), other: &(f64, usize)| one.0.total_cmp(&other.0).then(one.1.cmp(&other.1));
+            if count < others.len() {
+                others.select_nth_unstable_by(count, by_distance);
+            }
+            others.truncate(count);
+            others.sort_by(by_distance);
+            others.into_iter().map(|(_, other)| (node, other, LaneKind::Way)).collect::<Vec<_>>()
         };
+        outside.par_iter().flat_map_iter(nearest).collect()
+    }
+
+    /// The course between the ends of a joint; `None` where no way leads.
+    fn course(&self, (from, to, _): Joint) -> Option<Vec<Point>> {
+        let [start, end] = [from, to].map(|node| self.nodes[node].position);
+        if self.router.sees(start, end) {
+            return Some(vec![start, end]);
+        }
+        self.router.shortest(self.map, start, end).map(|route| route.path)
+    }
+
+    fn is_short(&self, (from, to, _): Joint, path: &[Point]) -> bool {
+        let straight = (self.nodes[to].position - self.nodes[from].position).norm();
+        length(path) <= LONGEST_DETOUR * straight + LEAST_DISTANCE_M
+    }
+
+    /// The lanes of a joint: one each way.
+    fn lanes(&self, (from, to, kind): Joint, path: Vec<Point>) -> [Lane; 2] {
         let width = 2.0 * self.router.clearance_along(self.map, &path);
         let lane = |from: usize, to: usize, path: Vec<Point>| {
             let label = self.map.semantic.labels[self.nodes[from].face.index()];
             Lane { from, to, path, kind, label, width, twin: None }
         };
         let back = path.iter().rev().copied().collect();
-        vec![lane(from, to, path), lane(to, from, back)]
+        [lane(from, to, path), lane(to, from, back)]
     }
+}
+
+/// Length of a path, metres.
+fn length(path: &[Point]) -> f64 {
+    path.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum()
 }

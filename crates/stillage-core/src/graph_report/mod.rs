@@ -6,7 +6,7 @@
 //! | [`options`] | what is asked for |
 //! | [`components`] | drivable faces, and nodes of the graph, that belong together |
 //! | [`dead_ends`] | lanes that a vehicle leaves the way it came |
-//! | [`unreachable`] | locations that no lane leads to, and why |
+//! | [`mod@unreachable`] | locations that no lane leads to, and why |
 //! | [`passages`] | stretches narrower than a width |
 //! | [`disagreements`] | borders between drivable faces where labels and obstacles disagree |
 //! | [`figures`], [`coverage`], [`structure`], [`paths`], [`validation`] | nineteen figures of a graph |

@@ -81,7 +81,7 @@ fn a_passage_is_narrow_where_no_wider_way_leads_around() {
     };
     // Beside the column one cell is left on either side.
     assert_eq!(narrow(0.5), [""; 0]);
-    expect![[r#"["0.5 m wide at 2.50,1.50"]"#]].assert_eq(&format!("{:?}", narrow(0.6)));
+    expect![[r#"["0.5 m wide at 3.25,1.25"]"#]].assert_eq(&format!("{:?}", narrow(0.6)));
 }
 
 #[test]

@@ -169,6 +169,10 @@ impl Router {
             .then(|| search.length_to(goal.cell))
             .flatten()
             .map(|cells| (cells * self.grid.resolution) as f32);
+        let component = |&(portal, _): &Reached| self.roads.component(portal);
+        if direct.is_none() && !from.iter().any(|one| to.iter().any(|other| component(one) == component(other))) {
+            return None;
+        }
         let goal_point = self.grid.center(goal.cell);
         let start_tile = tiles.of_cell(start.cell);
         let ends = [from.as_slice(), to.as_slice()];
