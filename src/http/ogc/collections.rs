@@ -142,7 +142,7 @@ fn extent(context: &MapContext, collection: Collection) -> [f64; 4] {
 
 /// List collections
 ///
-/// The ten collections of an analysed map.
+/// The collections of an analysed map.
 #[utoipa::path(get, path = "/v1/maps/{mapId}/collections", tag = "features", operation_id = "listCollections",
     params(MapPath),
     responses((status = 200, description = "The collections", body = CollectionList,
