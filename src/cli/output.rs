@@ -11,7 +11,11 @@ pub(super) const STDOUT: &str = "-";
 /// Writes to a file, or to standard output where none is named.
 pub(super) fn put(out: Option<&Path>, bytes: &[u8]) -> Result<(), Failure> {
     match out.filter(|file| *file != Path::new(STDOUT)) {
-        None => io::stdout().write_all(bytes).map_err(Failure::internal),
+        None => match io::stdout().write_all(bytes) {
+            // Who reads may have seen enough.
+            Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(Failure::internal(error)),
+            _ => Ok(()),
+        },
         Some(file) => write(file, bytes),
     }
 }
