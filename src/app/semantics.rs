@@ -120,7 +120,7 @@ fn check_lane_rules(context: &MapContext, semantic: &SemanticMap, wish: &LayoutO
             format!("no node lies within {NODE_REACH_M} m; the nearest is {}", near(at).unwrap_or_default())
         }
         LaneRule::NoLane { from, to } | LaneRule::OneWay { from, to } => format!(
-            "no lane joins the nodes there; the nearest nodes are {} and {}",
+            "no lane leads past both places; the nearest nodes are {} and {}",
             near(from).unwrap_or_default(),
             near(to).unwrap_or_default()
         ),

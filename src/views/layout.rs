@@ -34,14 +34,14 @@ pub struct LayoutView {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schema(minimum = 0.05, maximum = 10)]
     vehicle_radius_m: Option<f64>,
-    /// Rules about the navigation graph. A node is named by where it lies, so rules outlive analyses and scans.
+    /// Rules about the navigation graph. Nodes and lanes are named by where they lie, so rules outlive analyses and scans.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     #[schema(max_items = 1000)]
     lane_rules: Vec<LaneRuleView>,
 }
 
-/// A rule about a node or a lane of the navigation graph. Places are x and y, metres of the map frame; a node lies within
-/// 1 m of its place.
+/// A rule about a node or a lane of the navigation graph. Places are x and y, metres of the map frame, within
+/// 1 m of the node or the lane.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 #[schema(as = LaneRule)]
 #[serde(tag = "rule", deny_unknown_fields, rename_all = "kebab-case")]
@@ -52,21 +52,21 @@ pub enum LaneRuleView {
         #[schema(example = json!([3.5, 4.0]))]
         at: [f64; 2],
     },
-    /// No vehicle drives between two nodes.
+    /// No vehicle drives over a lane.
     NoLane {
-        /// Where one of them lies.
+        /// A place on it.
         #[schema(example = json!([3.5, 4.0]))]
         from: [f64; 2],
-        /// Where the other lies.
+        /// Another one.
         #[schema(example = json!([5.0, 4.0]))]
         to: [f64; 2],
     },
-    /// Vehicles drive from one node to another, but not back.
+    /// Vehicles drive over a lane in one direction only.
     OneWay {
-        /// Where the lane begins.
+        /// A place on it.
         #[schema(example = json!([3.5, 4.0]))]
         from: [f64; 2],
-        /// Where it ends.
+        /// A place further on.
         #[schema(example = json!([5.0, 4.0]))]
         to: [f64; 2],
     },

@@ -1,7 +1,7 @@
 //! Rules of people about the navigation graph of their site.
 //!
-//! A rule names nodes by where they lie, so that it outlives the graph: after a new analysis or a new scan it holds for the
-//! nodes that are there then. Kept in the frame of the site, applied in that of the grid ([`LaneRule::moved`]).
+//! A rule names nodes and lanes by where they lie, so that it outlives the graph: after a new analysis or a new scan it holds for
+//! those that are there then. Kept in the frame of the site, applied in that of the grid ([`LaneRule::moved`]).
 
 use serde::{Deserialize, Serialize};
 
@@ -16,18 +16,18 @@ pub enum LaneRule {
         /// Where it lies, metres.
         at: Point,
     },
-    /// No vehicle drives between two nodes, in either direction.
+    /// No vehicle drives over a lane, in either direction.
     NoLane {
-        /// Where one of them lies, metres.
+        /// A place on it, metres.
         from: Point,
-        /// Where the other lies, metres.
+        /// Another one, metres.
         to: Point,
     },
-    /// Vehicles drive from one node to the other, but not back.
+    /// Vehicles drive over a lane in one direction only.
     OneWay {
-        /// Where the lane begins, metres.
+        /// A place on it, metres.
         from: Point,
-        /// Where it ends, metres.
+        /// A place further on, metres.
         to: Point,
     },
 }

@@ -1,6 +1,7 @@
 //! The navigation graph under the rules of people.
 //!
-//! Each place of a rule is taken for the nearest node. Cost: O(rules x nodes + lanes).
+//! A rule about a node is taken for the nearest one, a rule about a lane for that which leads past both of its places: its
+//! nodes, or the bends that some exports show as nodes. Cost: O(rules x (nodes + bends)).
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -8,7 +9,7 @@ use super::navigation_graph::{Lane, NavigationGraph};
 use crate::geometry::Point;
 use crate::lane_rule::LaneRule;
 
-/// How far from its place in a rule a node may lie, metres: a new scan moves nodes by some cells, and two nodes on one
+/// How far from its place in a rule a node or a lane may lie, metres: a new scan moves nodes by some cells, and two nodes on one
 /// course are at least half a metre apart.
 pub const NODE_REACH_M: f64 = 1.0;
 
@@ -29,11 +30,11 @@ impl NavigationGraph {
         for (index, rule) in rules.iter().enumerate() {
             let is_matched = match *rule {
                 LaneRule::NoNode { at } => self.node_at(at).map(|node| dropped.insert(node)).is_some(),
-                LaneRule::NoLane { from, to } => self.lane_between([from, to]).is_some_and(|(from, to)| {
+                LaneRule::NoLane { from, to } => self.lane_past([from, to]).is_some_and(|(from, to)| {
                     closed.extend([(from, to), (to, from)]);
                     true
                 }),
-                LaneRule::OneWay { from, to } => self.lane_between([from, to]).is_some_and(|(from, to)| {
+                LaneRule::OneWay { from, to } => self.lane_past([from, to]).is_some_and(|(from, to)| {
                     closed.insert((to, from));
                     true
                 }),
@@ -49,11 +50,15 @@ impl NavigationGraph {
         self.nearest_node(point).filter(|&node| (self.nodes[node].position - point).norm() <= NODE_REACH_M)
     }
 
-    /// The nodes at two places, if a lane joins them.
-    fn lane_between(&self, [from, to]: [Point; 2]) -> Option<(usize, usize)> {
-        let (from, to) = (self.node_at(from)?, self.node_at(to)?);
-        let joins = |lane: &Lane| (lane.from, lane.to) == (from, to) || (lane.from, lane.to) == (to, from);
-        self.lanes.iter().any(joins).then_some((from, to))
+    /// The ends of the lane that leads past two places, the first one first: of several the one that is nearest to both.
+    fn lane_past(&self, [from, to]: [Point; 2]) -> Option<(usize, usize)> {
+        let past = |lane: &Lane| {
+            let [(near_from, first), (near_to, last)] = [from, to].map(|place| nearest_on(&lane.path, place));
+            let is_past = near_from <= NODE_REACH_M && near_to <= NODE_REACH_M && first < last;
+            is_past.then_some((near_from + near_to, (lane.from, lane.to)))
+        };
+        let nearest = self.lanes.iter().filter_map(past).min_by(|one, other| one.0.total_cmp(&other.0));
+        nearest.map(|(_, ends)| ends)
     }
 
     fn without(self, dropped: &BTreeSet<usize>, closed: &BTreeSet<(usize, usize)>) -> Self {
@@ -70,4 +75,21 @@ impl NavigationGraph {
         }
         Self { nodes, lanes, unmatched_rules: self.unmatched_rules }
     }
+}
+
+/// How far a point is from a path, and how far along the path the nearest point of it lies, metres.
+fn nearest_on(path: &[Point], point: Point) -> (f64, f64) {
+    let mut best = (f64::INFINITY, 0.0);
+    let mut along = 0.0;
+    for pair in path.windows(2) {
+        let way = pair[1] - pair[0];
+        let length = way.norm();
+        let share = ((point - pair[0]).dot(&way) / length.powi(2).max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+        let distance = (point - (pair[0] + way * share)).norm();
+        if distance < best.0 {
+            best = (distance, along + share * length);
+        }
+        along += length;
+    }
+    best
 }
