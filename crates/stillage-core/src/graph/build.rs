@@ -3,15 +3,17 @@
 //! Method: a gate lies in the middle of the widest free stretch of the edges that two drivable faces share; within each
 //! face its course joins gates and the places where vehicles stand. A lane is straight where nothing stands in the way,
 //! else it is a route. Where obstacles on the course would leave the graph in parts that a vehicle drives between, further
-//! joints connect them, the shortest first: of the same face, then between the nearest nodes of two parts. Cost: O(faces + edges + locations), each a line of sight or a short route. Limits: one lane for each
-//! direction on the same course, also where two would have room side by side.
+//! joints connect them, the shortest first: of the same face, then between the nearest nodes of two parts. Each joint is a lane in each
+//! direction, side by side where two vehicles have room. Cost: O(faces + edges + locations), each a line of sight or a short
+//! route.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use rayon::prelude::*;
 
 use super::face_ways::Course;
 use super::navigation_graph::{GraphNode, Lane, LaneKind, NavigationGraph, NodeKind};
+use super::side_by_side::side_by_side;
 use crate::arrangement::{EdgeId, FaceId};
 use crate::geometry::{DisjointSets, Point};
 use crate::layout::{Layout, approach_before};
@@ -127,7 +129,7 @@ impl GraphDraft<'_> {
 
     /// Joins the nodes that are attached to a face.
     fn join_within(&mut self, face: FaceId, mut attached: Vec<(usize, LaneKind)>) {
-        let course = Course::of(self.map, face);
+        let course = Course::of(self.map, face, self.router.radius());
         attached.sort_by(|one, other| {
             let at = |node: usize| course.abscissa(self.nodes[node].position);
             at(one.0).total_cmp(&at(other.0)).then(one.0.cmp(&other.0))
@@ -170,36 +172,34 @@ impl GraphDraft<'_> {
     /// The node on the course of a face beside an attached node: that node itself where it is a gate on the course.
     fn node_on_course(&mut self, course: &Course, face: FaceId, (node, kind): (usize, LaneKind)) -> usize {
         let own = self.nodes[node].position;
-        let found = course.widest(self.map, face, course.abscissa(own), self.router.radius());
+        let found = course.at(self.map, face, course.abscissa(own), self.router.radius());
         let position = found.unwrap_or(own);
         let least = if kind == LaneKind::Way { LEAST_DISTANCE_M } else { SHORTEST_SPUR_M };
         let is_itself = (position - own).norm() < least;
         if is_itself { node } else { self.add(position, None) }
     }
 
-    fn finish(mut self) -> NavigationGraph {
-        let mut lanes: Vec<Lane> = self.connected().into_iter().flatten().collect();
-        lanes.sort_by_key(|lane| (lane.from, lane.to));
-        lanes.dedup_by_key(|lane| (lane.from, lane.to));
-        let index: BTreeMap<(usize, usize), usize> =
-            lanes.iter().enumerate().map(|(index, lane)| ((lane.from, lane.to), index)).collect();
-        let mut ways = vec![0_usize; self.nodes.len()];
-        for lane in &mut lanes {
-            lane.twin = index.get(&(lane.to, lane.from)).copied();
-            ways[lane.from] += 1;
+    fn finish(self) -> NavigationGraph {
+        let pairs = self.connected();
+        let (mut nodes, lanes) = side_by_side(self.map, self.router, self.nodes, &pairs);
+        let graph = NavigationGraph::of_lanes(lanes);
+        let mut ways = vec![BTreeSet::new(); nodes.len()];
+        for lane in &graph.lanes {
+            ways[lane.from].insert(lane.to);
+            ways[lane.to].insert(lane.from);
         }
-        let width = self.nodes.len().to_string().len().max(4);
-        for (number, (node, ways)) in self.nodes.iter_mut().zip(ways).enumerate() {
+        let width = nodes.len().to_string().len().max(4);
+        for (number, (node, ways)) in nodes.iter_mut().zip(ways).enumerate() {
             if node.kind != NodeKind::Approach {
                 node.name = format!("N{number:0width$}");
-                node.kind = match ways {
+                node.kind = match ways.len() {
                     0 | 1 => NodeKind::DeadEnd,
                     2 => NodeKind::Waypoint,
                     _ => NodeKind::Junction,
                 };
             }
         }
-        NavigationGraph { nodes: self.nodes, lanes, unmatched_rules: Vec::new() }
+        NavigationGraph { nodes, ..graph }
     }
 
     /// The lanes of all joints, and of the shortest others that connect parts of the graph.

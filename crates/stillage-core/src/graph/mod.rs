@@ -5,12 +5,14 @@
 //! | [`mod@navigation_graph`] | nodes and directed lanes |
 //! | [`build`] | the graph of a map |
 //! | [`ruled`] | the same under the rules of people |
+//! | [`side_by_side`] | two directed lanes where two vehicles have room to pass |
 //! | [`face_ways`] | the course of vehicles through one face |
 
 mod build;
 mod face_ways;
 mod navigation_graph;
 mod ruled;
+mod side_by_side;
 
 #[cfg(test)]
 mod tests;

@@ -50,7 +50,8 @@ pub enum LaneKind {
     Spur,
 }
 
-/// A directed way between two nodes. A way that may be driven both ways is two lanes, each the other's `twin`.
+/// A directed way between two nodes. A course that may be driven both ways is two lanes, each the other's `twin`; where two
+/// vehicles have room to pass, the lanes of both directions lie side by side and have no twin.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Lane {
     /// Index of the node it begins at.
@@ -65,7 +66,7 @@ pub struct Lane {
     pub label: LabelId,
     /// Width of the free ground along it at its narrowest, metres.
     pub width: f64,
-    /// Index of the lane in the opposite direction.
+    /// Index of the lane over the same course in the opposite direction.
     pub twin: Option<usize>,
 }
 
@@ -86,4 +87,21 @@ pub struct NavigationGraph {
     pub lanes: Vec<Lane>,
     /// Indices of the rules of people that no node or lane fits.
     pub unmatched_rules: Vec<usize>,
+}
+
+impl NavigationGraph {
+    /// Lanes in their order, each between two nodes once, with their twins; the nodes are added by who calls.
+    pub(super) fn of_lanes(mut lanes: Vec<Lane>) -> Self {
+        lanes.sort_by_key(|lane| (lane.from, lane.to));
+        lanes.dedup_by_key(|lane| (lane.from, lane.to));
+        let twin = |lane: &Lane| {
+            let index = lanes.binary_search_by_key(&(lane.to, lane.from), |other| (other.from, other.to)).ok()?;
+            lanes[index].path.iter().eq(lane.path.iter().rev()).then_some(index)
+        };
+        let twins: Vec<Option<usize>> = lanes.iter().map(twin).collect();
+        for (lane, twin) in lanes.iter_mut().zip(twins) {
+            lane.twin = twin;
+        }
+        Self { lanes, ..Self::default() }
+    }
 }

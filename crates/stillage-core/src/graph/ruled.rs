@@ -30,14 +30,16 @@ impl NavigationGraph {
         for (index, rule) in rules.iter().enumerate() {
             let is_matched = match *rule {
                 LaneRule::NoNode { at } => self.node_at(at).map(|node| dropped.insert(node)).is_some(),
-                LaneRule::NoLane { from, to } => self.lane_past([from, to]).is_some_and(|(from, to)| {
-                    closed.extend([(from, to), (to, from)]);
-                    true
-                }),
-                LaneRule::OneWay { from, to } => self.lane_past([from, to]).is_some_and(|(from, to)| {
-                    closed.insert((to, from));
-                    true
-                }),
+                LaneRule::NoLane { from, to } => {
+                    let lanes = [self.lane_past([from, to]), self.lane_past([to, from])];
+                    closed.extend(lanes.into_iter().flatten());
+                    lanes.iter().any(Option::is_some)
+                }
+                LaneRule::OneWay { from, to } => {
+                    let (onwards, back) = (self.lane_past([from, to]), self.lane_past([to, from]));
+                    closed.extend(back);
+                    onwards.or(back).is_some()
+                }
             };
             if !is_matched {
                 self.unmatched_rules.push(index);
@@ -67,13 +69,8 @@ impl NavigationGraph {
         let nodes = kept.iter().map(|&node| self.nodes[node].clone()).collect();
         let is_open = |lane: &Lane| !closed.contains(&(lane.from, lane.to));
         let lane = |lane: Lane| Some(Lane { from: *places.get(&lane.from)?, to: *places.get(&lane.to)?, ..lane });
-        let mut lanes: Vec<Lane> = self.lanes.into_iter().filter(is_open).filter_map(lane).collect();
-        let index: BTreeMap<(usize, usize), usize> =
-            lanes.iter().enumerate().map(|(index, lane)| ((lane.from, lane.to), index)).collect();
-        for lane in &mut lanes {
-            lane.twin = index.get(&(lane.to, lane.from)).copied();
-        }
-        Self { nodes, lanes, unmatched_rules: self.unmatched_rules }
+        let lanes = self.lanes.into_iter().filter(is_open).filter_map(lane).collect();
+        Self { nodes, unmatched_rules: self.unmatched_rules, ..Self::of_lanes(lanes) }
     }
 }
 

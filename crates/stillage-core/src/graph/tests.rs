@@ -60,18 +60,54 @@ fn an_aisle_is_driven_along_its_middle_with_spurs_to_its_places() {
         01-002 Approach at 1.0,1.5
         01-003 Approach at 2.8,2.2
         01-004 Approach at 3.0,1.5
-        N0005 DeadEnd at 4.8,1.8
-        N0006 Junction at 1.2,1.8
+        N0005 DeadEnd at 4.9,1.8
+        N0006 Junction at 1.0,1.8
         N0007 Junction at 2.8,1.8
-        N0000 -> N0005 Way 0.5 m, 1.6 m wide
+        N0000 -> N0005 Way 0.7 m, 1.6 m wide
         N0000 -> N0007 Way 1.5 m, 1.5 m wide
-        01-001 -> N0006 Spur 0.5 m, 0.5 m wide
-        01-002 -> N0006 Spur 0.4 m, 1.5 m wide
+        01-001 -> N0006 Spur 0.8 m, 0.5 m wide
+        01-002 -> N0006 Spur 0.2 m, 1.5 m wide
         01-003 -> N0007 Spur 0.5 m, 0.5 m wide
         01-004 -> N0007 Spur 0.4 m, 1.5 m wide
-        N0006 -> N0007 Way 1.5 m, 1.5 m wide
+        N0006 -> N0007 Way 1.8 m, 1.5 m wide
     "#]]
     .assert_eq(&told(&graph));
+}
+
+/// A corridor of 8 m between two rows of places, with a way out at both ends.
+fn wide_corridor() -> DrawnMap {
+    let row = |cells: &str, side: &str| format!("{side}{cells}{side}\n");
+    let free = row(&".".repeat(32), "....");
+    let racks = row(&"#".repeat(32), "....");
+    let occupancy = [racks.repeat(2), free.repeat(16), racks.repeat(2)].concat();
+    let places = row(&format!("{}{}", "p".repeat(16), "q".repeat(16)), "jjjj");
+    let swapped = row(&format!("{}{}", "q".repeat(16), "p".repeat(16)), "jjjj");
+    let corridor = row(&"c".repeat(32), "jjjj");
+    DrawnMap::new(&occupancy, &[places.repeat(2), corridor.repeat(16), swapped.repeat(2)].concat())
+}
+
+#[test]
+fn where_two_vehicles_pass_the_lanes_of_both_directions_lie_side_by_side() {
+    let map = wide_corridor();
+    let graph = graph_of(&map, 0.4);
+    let in_the_middle =
+        |lane: &&Lane| lane.kind == LaneKind::Way && lane.path.iter().all(|point| (4.0..16.0).contains(&point.x));
+    let lanes: Vec<&Lane> = graph.lanes.iter().filter(in_the_middle).collect();
+    let (eastwards, westwards): (Vec<&&Lane>, Vec<&&Lane>) =
+        lanes.iter().partition(|lane| lane.path[lane.path.len() - 1].x > lane.path[0].x);
+    assert!(!eastwards.is_empty() && !westwards.is_empty());
+    // Vehicles keep to the right, and are 0.4 m apart where they pass: twice 0.4 m of radius and the gap between two courses.
+    let height = |lanes: &[&&Lane]| lanes[0].path[0].y;
+    assert!((height(&westwards) - height(&eastwards) - 1.2).abs() < 0.05);
+    for lane in &lanes {
+        assert!(lane.twin.is_none() && lane.width >= 0.8 && (lane.path[0].y - lane.path[1].y).abs() < 0.05, "{lane:?}");
+    }
+    // Each place is served from both directions.
+    let served = graph.nodes.iter().enumerate().filter(|(_, node)| node.location.is_some());
+    for (index, node) in served {
+        let ways_out: Vec<&Lane> = graph.lanes.iter().filter(|lane| lane.from == index).collect();
+        assert_eq!(ways_out.len(), 2, "{}: {ways_out:?}", node.name);
+    }
 }
 
 #[test]

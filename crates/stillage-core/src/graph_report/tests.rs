@@ -60,8 +60,8 @@ fn a_blind_aisle_is_a_dead_end_with_its_locations() {
         format!("{} {:.1} m, {} approaches", told(node.position), dead_end.length, dead_end.approaches.len())
     };
     expect![[r#"
-        6.75,1.75 5.9 m, 6 approaches
-        1.25,1.75 5.9 m, 6 approaches"#]]
+        6.90,1.75 7.1 m, 6 approaches
+        1.00,1.75 7.1 m, 6 approaches"#]]
     .assert_eq(&report.dead_ends.iter().map(end).collect::<Vec<_>>().join("\n"));
     assert_eq!((report.components.len(), report.unreachable.len(), report.face_components.len()), (1, 0, 1));
 }
