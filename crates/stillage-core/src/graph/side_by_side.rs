@@ -46,7 +46,9 @@ pub(super) fn side_by_side(
         if failed.is_empty() {
             break;
         }
-        failed.into_iter().for_each(|pair| widening.is_wide[pair] = false);
+        for pair in failed {
+            widening.is_wide[pair] = false;
+        }
     }
     widening.finish(pairs)
 }
@@ -179,11 +181,11 @@ impl Widening<'_> {
     /// Moves each node that becomes two to the first of its places and adds the second: its index, by node.
     fn divide(&mut self) -> Vec<usize> {
         let mut seconds: Vec<usize> = (0..self.nodes.len()).collect();
-        for node in 0..seconds.len() {
+        for (node, place) in seconds.iter_mut().enumerate() {
             if self.ahead[node].is_some() {
                 let [first, second] = [false, true].map(|is_second| self.moved(node, self.position((node, is_second))));
+                *place = self.nodes.len();
                 self.nodes[node] = first;
-                seconds[node] = self.nodes.len();
                 self.nodes.push(second);
             }
         }
