@@ -1,20 +1,21 @@
 //! The navigation graph of a map.
 //!
-//! Method: a gate lies in the middle of the widest free stretch of the edges that two drivable faces share; within each
-//! face its course joins gates and the places where vehicles stand. A lane is straight where nothing stands in the way,
-//! else it is a route. Where obstacles on the course would leave the graph in parts that a vehicle drives between, further
-//! joints connect them, the shortest first: of the same face, then between the nearest nodes of two parts. Each joint is a lane in each
-//! direction, side by side where two vehicles have room. Cost: O(faces + edges + locations), each a line of sight or a short
-//! route.
+//! Method: gates lie between drivable faces; within each face its course joins gates and the places where vehicles stand. A
+//! lane is straight where nothing stands in the way, else it is a route. Where obstacles on the course would leave the graph
+//! in parts that a vehicle drives between, further joints connect them, the shortest first: of the same face, then between
+//! the nearest nodes of two parts. Each joint is a lane in each direction, side by side where two vehicles have room. Cost:
+//! O(faces + edges + locations), each a line of sight or a short route, and O(cells) of the boxes around open ground.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use rayon::prelude::*;
 
 use super::face_ways::Course;
+use super::gates::gates;
 use super::navigation_graph::{GraphNode, Lane, LaneKind, NavigationGraph, NodeKind};
+use super::open_ground::GroundWays;
 use super::side_by_side::side_by_side;
-use crate::arrangement::{EdgeId, FaceId};
+use crate::arrangement::FaceId;
 use crate::geometry::{DisjointSets, Point};
 use crate::layout::{Layout, approach_before};
 use crate::routing::Router;
@@ -55,53 +56,14 @@ pub fn navigation_graph(map: &SiteMap<'_>, layout: &Layout, router: &Router) -> 
         let node = draft.add(pose.position, Some((index, location.code.clone(), pose.heading)));
         attached.entry(map.face_at(pose.position)).or_default().push((node, LaneKind::Spur));
     }
+    // Open ground has ways around what stands there, also where it leads nowhere.
+    for face in map.analysis.subdivision.faces().filter(|&face| map.is_drivable(face)) {
+        attached.entry(face).or_default();
+    }
     for (face, nodes) in attached {
         draft.join_within(face, nodes);
     }
     draft.finish()
-}
-
-/// The gates between drivable faces: the faces on both sides, and the middle of the widest free stretch between them.
-fn gates(map: &SiteMap<'_>, radius: f64) -> Vec<([FaceId; 2], Point)> {
-    let subdivision = &map.analysis.subdivision;
-    let mut shared: BTreeMap<[FaceId; 2], Vec<EdgeId>> = BTreeMap::new();
-    for edge in subdivision.edges() {
-        let mut sides = subdivision.sides(edge);
-        if map.semantic.is_drivable_link(edge, sides) && !sides.contains(&FaceId::OUTER) {
-            sides.sort_unstable();
-            shared.entry(sides).or_default().push(edge);
-        }
-    }
-    let pairs: Vec<_> = shared.into_iter().collect();
-    let gate = |(sides, edges): &([FaceId; 2], Vec<EdgeId>)| {
-        let best = edges.iter().filter_map(|&edge| widest_stretch(map, edge, radius));
-        best.max_by(|one, other| one.0.total_cmp(&other.0)).map(|(_, point)| (*sides, point))
-    };
-    pairs.par_iter().filter_map(gate).collect()
-}
-
-/// The longest stretch of an edge on which a vehicle fits: its length, and the middle of the cell at its middle.
-fn widest_stretch(map: &SiteMap<'_>, edge: EdgeId, radius: f64) -> Option<(f64, Point)> {
-    let [start, end] = map.analysis.subdivision.segment(edge);
-    let steps = ((end - start).norm() / map.grid.resolution()).ceil().max(1.0) as usize;
-    let at = |step: usize| start + (end - start) * (step as f64 / steps as f64);
-    let fits = |step: usize| map.clearance.at(at(step)) >= radius;
-    let (mut best, mut begun): (Option<(usize, usize)>, Option<usize>) = (None, None);
-    for step in 0..=steps + 1 {
-        match (step <= steps && fits(step), begun) {
-            (true, None) => begun = Some(step),
-            (false, Some(from)) => {
-                if best.is_none_or(|(first, last)| step - from > last - first) {
-                    best = Some((from, step));
-                }
-                begun = None;
-            }
-            _ => {}
-        }
-    }
-    let (first, last) = best?;
-    let (column, row) = map.grid.cell_at(at(usize::midpoint(first, last - 1)))?;
-    Some((map.grid.resolution() * (last - first) as f64, map.grid.center(column, row)))
 }
 
 /// A graph in the making.
@@ -130,6 +92,10 @@ impl GraphDraft<'_> {
     /// Joins the nodes that are attached to a face.
     fn join_within(&mut self, face: FaceId, mut attached: Vec<(usize, LaneKind)>) {
         let course = Course::of(self.map, face, self.router.radius());
+        if matches!(course, Course::OpenGround) {
+            self.join_over(face, &attached);
+            return;
+        }
         attached.sort_by(|one, other| {
             let at = |node: usize| course.abscissa(self.nodes[node].position);
             at(one.0).total_cmp(&at(other.0)).then(one.0.cmp(&other.0))
@@ -150,6 +116,31 @@ impl GraphDraft<'_> {
         self.joints.extend(along.windows(2).map(|pair| (pair[0].0, pair[1].0, LaneKind::Way)));
         self.joints.extend(beside.iter().map(|&(place, node, kind)| (along[place].0, node, kind)));
         self.add_spares(&along, &beside);
+    }
+
+    /// Joins the nodes that are attached to open ground, and the ways around what stands there.
+    fn join_over(&mut self, face: FaceId, attached: &[(usize, LaneKind)]) {
+        let points: Vec<Point> = attached.iter().map(|&(node, _)| self.nodes[node].position).collect();
+        let ground = GroundWays::of(self.map, self.router, face, &points, LEAST_DISTANCE_M);
+        let mut ends = vec![0_usize; points.len()];
+        for &end in ground.ways.iter().flat_map(|way| [way.first(), way.last()]).flatten() {
+            if let Some(count) = ends.get_mut(end) {
+                *count += 1;
+            }
+        }
+        // A way to where a vehicle stands, and no further, is a spur.
+        let is_spur = |end: usize| attached.get(end).is_some_and(|&(_, kind)| kind == LaneKind::Spur && ends[end] == 1);
+        let spurs: Vec<bool> = ground.ways.iter().map(|way| is_spur(way[0]) || is_spur(way[way.len() - 1])).collect();
+        let mut nodes: Vec<Option<usize>> = attached.iter().map(|&(node, _)| Some(node)).collect();
+        nodes.resize(ground.points.len(), None);
+        for (way, is_spur) in ground.ways.iter().zip(spurs) {
+            let kind = if is_spur { LaneKind::Spur } else { LaneKind::Way };
+            let course: Vec<usize> = way
+                .iter()
+                .map(|&index| *nodes[index].get_or_insert_with(|| self.add(ground.points[index], None)))
+                .collect();
+            self.joints.extend(course.windows(2).map(|pair| (pair[0], pair[1], kind)));
+        }
     }
 
     /// Joints past some nodes of a course, from attached nodes to those around the nearest, and between attached nodes.

@@ -1,4 +1,5 @@
-//! How vehicles drive through one face: along its middle where it is long, over one hub where it is not.
+//! How vehicles drive through one face: along its middle where it is long, over one hub where it is
+//! short, around what stands there where it is wide.
 //!
 //! Method: what a face is attached to (gates to the faces beside it, places where vehicles stand) is projected onto its
 //! axis. The middle line of a face is parallel to its axis, through the median of the points with the most room across it.
@@ -11,6 +12,8 @@ use crate::site_map::SiteMap;
 
 /// A face is driven along its axis from this ratio of its sides on; rounder ones are crossed over a hub.
 const LONG: f64 = 1.8;
+/// A face that is wider than twice this in every direction is open ground, metres: lanes on it go around what stands there.
+const WIDE_M: f64 = 4.0;
 /// Distance between two samples across the axis, metres.
 const STEP_M: f64 = 0.1;
 /// Distance between two sections across the axis that tell the middle line, metres.
@@ -25,6 +28,8 @@ pub(super) enum Course {
     Axis(FaceAxis),
     /// Over one point.
     Hub(Point),
+    /// Around what stands there.
+    OpenGround,
 }
 
 /// The axis of a long face.
@@ -52,6 +57,9 @@ impl Course {
     pub fn of(map: &SiteMap<'_>, face: FaceId, radius: f64) -> Self {
         let outline = map.analysis.subdivision.rings(face).first().cloned().unwrap_or_default();
         let bounds = OrientedBox::smallest_around(&outline);
+        if bounds.half_extents[1] > WIDE_M {
+            return Self::OpenGround;
+        }
         if bounds.elongation() < LONG {
             return Self::Hub(map.analysis.graph.position(face));
         }
@@ -65,13 +73,14 @@ impl Course {
     pub fn abscissa(&self, point: Point) -> f64 {
         match self {
             Self::Axis(axis) => axis.along.dot(&(point - axis.origin)),
-            Self::Hub(_) => 0.0,
+            Self::Hub(_) | Self::OpenGround => 0.0,
         }
     }
 
     /// The point of the course at a distance along the axis, on the face; `None` where a vehicle of a radius finds no room.
     pub fn at(&self, map: &SiteMap<'_>, face: FaceId, abscissa: f64, radius: f64) -> Option<Point> {
         match self {
+            Self::OpenGround => None,
             Self::Hub(hub) => {
                 let points = around(*hub);
                 widest(map, face, points.iter().copied(), radius).map(|stretch| points[stretch.first])

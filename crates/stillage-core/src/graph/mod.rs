@@ -6,13 +6,20 @@
 //! | [`build`] | the graph of a map |
 //! | [`ruled`] | the same under the rules of people |
 //! | [`side_by_side`] | two directed lanes where two vehicles have room to pass |
+//! | [`mod@gates`] | where vehicles drive from one face to another |
 //! | [`face_ways`] | the course of vehicles through one face |
+//! | [`open_ground`] | ways over a face that is wide in every direction |
+//! | [`thinning`], [`thin_lines`] | the lines with the most room |
 
 mod build;
 mod face_ways;
+mod gates;
 mod navigation_graph;
+mod open_ground;
 mod ruled;
 mod side_by_side;
+mod thin_lines;
+mod thinning;
 
 #[cfg(test)]
 mod tests;

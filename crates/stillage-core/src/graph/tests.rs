@@ -166,3 +166,20 @@ fn rules_of_people_take_nodes_and_lanes_away() {
 fn a_map_without_drivable_ground_has_an_empty_graph() {
     assert_eq!(graph_of(&DrawnMap::new("##", "pp"), 0.2), NavigationGraph::default());
 }
+
+/// A hall of 20 m by 20 m with a rack of 2 m by 10 m, and nothing beside it that a vehicle drives to.
+#[test]
+fn lanes_on_open_ground_go_around_what_stands_there() {
+    let row = |rack: std::ops::Range<usize>| {
+        (0..40).map(|column| if rack.contains(&column) { '#' } else { '.' }).collect::<String>() + "\n"
+    };
+    let picture = [row(0..0).repeat(10), row(18..22).repeat(20), row(0..0).repeat(10)].concat();
+    let map = DrawnMap::new(&picture, &("j".repeat(40) + "\n").repeat(40));
+    let graph = graph_of(&map, 0.4);
+    let from_the_middle = |point: &Point| (point.x - 10.0).hypot(point.y - 10.0);
+    assert!(graph.nodes.len() >= 4, "{}", told(&graph));
+    assert!(graph.nodes.iter().all(|node| node.clearance > 2.0), "{}", told(&graph));
+    assert!(graph.nodes.iter().all(|node| from_the_middle(&node.position) < 9.0), "{}", told(&graph));
+    let length: f64 = graph.lanes.iter().map(Lane::length).sum();
+    assert!((40.0..120.0).contains(&length), "{length} m of lanes, each way counted");
+}
