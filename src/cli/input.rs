@@ -14,7 +14,7 @@ use crate::options::RequestedOptions;
 /// Reads a map: a metadata file with the image it names, or a message.
 pub(super) fn map(path: &Path) -> Result<MapSource, Failure> {
     let bytes = read(path)?;
-    if is_message(&bytes) {
+    if ingest::is_message(&bytes) {
         return Ok(MapSource::Message(bytes));
     }
     if image::guess_format(&bytes).is_ok() {
@@ -26,31 +26,26 @@ pub(super) fn map(path: &Path) -> Result<MapSource, Failure> {
     let image_path = image_path(path, &entry);
     let image = std::fs::read(&image_path).map_err(|error| {
         let (metadata, image) = (path.display(), image_path.display());
-        Failure::Input(format!(
-            "the image of {metadata}, {image}, cannot be opened ({error}): put it beside the YAML file"
-        ))
+        Failure::Input(match error.kind() {
+            std::io::ErrorKind::NotFound => {
+                format!("the image of {metadata}, {image}, is not there: put it beside the YAML file")
+            }
+            _ => format!("the image of {metadata}, {image}, cannot be opened ({error}): check who may read it"),
+        })
     })?;
     Ok(MapSource::Image { image, metadata: bytes })
 }
 
-/// Whether a file is an `OccupancyGrid` message: a JSON object that has the message's own keys.
-fn is_message(bytes: &[u8]) -> bool {
-    let start = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes).trim_ascii_start();
-    let has = |key: &[u8]| start.windows(key.len()).any(|window| window == key);
-    start.starts_with(b"{") && has(b"\"info\"") && has(b"\"data\"")
-}
-
-/// Where the image lies: beside the metadata unless the entry is absolute; `~/` is the home folder. A path of another
-/// machine is looked for by its file name beside the metadata.
+/// Where the image lies: beside the metadata unless the entry is absolute; `~/` is the home folder. Paths of Windows mean
+/// the same ones with slashes. A path of another machine is looked for by its file name beside the metadata.
 fn image_path(metadata: &Path, entry: &str) -> PathBuf {
     let folder = metadata.parent().unwrap_or(Path::new(""));
     let home = || std::env::home_dir().unwrap_or_default();
     let stated = entry.strip_prefix("~/").map_or_else(|| folder.join(entry), |rest| home().join(rest));
-    let beside = Path::new(entry).file_name().map(|name| folder.join(name));
-    match beside {
-        Some(beside) if !stated.is_file() && beside.is_file() => beside,
-        _ => stated,
-    }
+    let slashed = entry.replace('\\', "/");
+    let beside = slashed.rsplit('/').next().unwrap_or_default();
+    let candidates = [folder.join(&slashed), folder.join(beside)];
+    if stated.is_file() { stated } else { candidates.into_iter().find(|path| path.is_file()).unwrap_or(stated) }
 }
 
 /// The name of a map: that of its file.
@@ -130,12 +125,9 @@ mod tests {
         assert_eq!(found("map.pgm"), folder.path().join("map.pgm"));
         assert_eq!(found("/home/giraff/maps/map.pgm"), folder.path().join("map.pgm"));
         assert_eq!(found("sub/other.pgm"), folder.path().join("sub/other.pgm"));
-    }
-
-    #[test]
-    fn messages_are_told_from_metadata() {
-        assert!(is_message(br#" {"info": {"width": 1}, "data": [0]}"#));
-        assert!(!is_message(br#"{"image": "map.png"}"#));
-        assert!(!is_message(b"image: info\ndata: 1\n"));
+        assert_eq!(found("D:\\maps\\map.pgm"), folder.path().join("map.pgm"));
+        std::fs::create_dir(folder.path().join("maps")).unwrap();
+        std::fs::write(folder.path().join("maps/hall.pgm"), b"P5 1 1 255 a").unwrap();
+        assert_eq!(found("maps\\hall.pgm"), folder.path().join("maps/hall.pgm"));
     }
 }

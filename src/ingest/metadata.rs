@@ -105,8 +105,18 @@ pub(super) fn origin_coordinate(value: f64, pointer: &str) -> Result<f64, Ingest
 }
 
 fn origin(fields: &Fields<'_>, warnings: &mut Vec<Diagnostic>) -> Result<(Point, f64), IngestError> {
-    let Node::List(elements) = fields.get("origin")? else {
-        return Err(fields.wrong("origin", "`origin` must be a list: [x, y, yaw] in metres and radians".to_owned()));
+    let tuple;
+    let elements = match fields.get("origin")? {
+        Node::List(elements) => elements,
+        Node::Text(text) if text.starts_with('(') && text.ends_with(')') => {
+            let message = "`origin` is the text of a Python tuple: it was read as a list; write [x, y, yaw]";
+            warnings.push(Diagnostic::new("tuple-origin", message));
+            tuple = tuple_elements(text);
+            &tuple
+        }
+        _ => {
+            return Err(fields.wrong("origin", "`origin` must be a list: [x, y, yaw] in metres and radians".to_owned()));
+        }
     };
     let [x, y, yaw] = elements.as_slice() else {
         let count = elements.len();
@@ -130,6 +140,12 @@ fn origin(fields: &Fields<'_>, warnings: &mut Vec<Diagnostic>) -> Result<(Point,
         error
     })?;
     Ok((position, yaw))
+}
+
+/// The elements of `(x, y, yaw)`.
+fn tuple_elements(text: &str) -> Vec<Node> {
+    let elements = text.trim_matches(['(', ')']).split(',').map(str::trim).filter(|element| !element.is_empty());
+    elements.map(|element| element.parse().map_or_else(|_| Node::Text(element.to_owned()), Node::Number)).collect()
 }
 
 fn thresholds(fields: &Fields<'_>, warnings: &mut Vec<Diagnostic>) -> Result<Thresholds, IngestError> {

@@ -20,11 +20,13 @@ mod source;
 mod truth;
 mod verdict;
 
-use stillage_core::OccupancyGrid;
+use stillage_core::analysis::Diagnostic;
 use stillage_core::spec::{GridOptions, GridSemantics};
+use stillage_core::{Occupancy, OccupancyGrid};
 
 pub use error::{IngestError, Refusal};
 pub use limits::Limits;
+pub use message::is_message;
 pub use metadata::image_entry;
 pub use names::{NameRow, NameTarget, NamedCollection, name_areas, name_table};
 pub use source::{DecodedMap, MapSource};
@@ -59,7 +61,13 @@ fn decode_image(
     let mut warnings = Vec::new();
     let metadata = metadata::parse(metadata, &mut warnings)?;
     let thresholds = metadata.thresholds.overridden(options)?;
-    let picture = picture::decode(image, limits)?;
+    let mut picture = picture::decode(image, limits)?;
+    if options.semantics == GridSemantics::Intended && picture.is_nowhere_opaque() {
+        let message = "no pixel of the image is fully opaque, so opacity was not taken for unknown and the grey levels \
+                       were read; to keep the letter of nav2, set options.grid.semantics: \"nav2\"";
+        warnings.push(Diagnostic::new("opacity-ignored", message));
+        picture.transparent.clear();
+    }
     let mut reading = verdict::Reading { mode: metadata.mode, negate: metadata.negate, thresholds };
     if let Some(loss) = verdict::unknown_lost(&picture, reading) {
         let may_mend = options.semantics == GridSemantics::Intended && options.free_threshold.is_none();
@@ -72,6 +80,11 @@ fn decode_image(
         }
     }
     let cells = verdict::cells(&picture, reading);
+    if !picture.transparent.is_empty() && !cells.contains(&Occupancy::Free) {
+        let message = "no opaque pixel is free: transparent pixels were read as unknown, as nav2 reads them; if they are \
+                       the floor, save the image without transparency";
+        warnings.push(Diagnostic::new("transparent-floor", message));
+    }
     let grid = OccupancyGrid::new(picture.width, picture.height, metadata.frame, cells);
     Ok(DecodedMap { grid, warnings })
 }

@@ -30,6 +30,13 @@ pub(super) struct Picture {
     pub(super) transparent: Vec<bool>,
 }
 
+impl Picture {
+    /// Whether no pixel at all is opaque: then the fourth channel was not meant as opacity.
+    pub(super) fn is_nowhere_opaque(&self) -> bool {
+        !self.transparent.is_empty() && !self.transparent.contains(&false)
+    }
+}
+
 /// Decodes a picture.
 pub(super) fn decode(bytes: &[u8], limits: &Limits) -> Result<Picture, IngestError> {
     let format = sniff(bytes)?;
@@ -58,7 +65,9 @@ fn sniff(bytes: &[u8]) -> Result<ImageFormat, IngestError> {
     match image::guess_format(bytes) {
         Ok(format @ (Png | Pnm | Bmp | Tiff | Jpeg | WebP)) => Ok(format),
         _ if bytes.is_empty() => Err(IngestError::invalid(POINTER, "the image is empty")),
-        Ok(other) => Err(IngestError::unsupported(POINTER, format!("{other:?} images are not read: save it as PNG"))),
+        Ok(other) => {
+            Err(IngestError::unsupported(POINTER, format!("{} images are not read: save it as PNG", name(other))))
+        }
         Err(_) => Err(IngestError::unsupported(
             POINTER,
             "this is no image of a known format: PNG, PGM (and its kin), BMP, TIFF, JPEG and WebP are read",
@@ -77,17 +86,31 @@ fn reader<'a>(bytes: &'a [u8], format: ImageFormat, limits: &Limits, allowance: 
     reader
 }
 
+/// The refusal of a picture, without the decoder's own words.
 fn refuse(format: ImageFormat, error: &ImageError) -> IngestError {
-    let format = format.extensions_str().first().copied().unwrap_or_default().to_uppercase();
+    let format = name(format);
     match error {
         ImageError::Limits(_) => {
-            IngestError::too_large(POINTER, format!("the {format} image is larger than the limits allow ({error})"))
+            IngestError::too_large(POINTER, format!("the {format} image says that it is larger than the limits allow"))
         }
         ImageError::Unsupported(_) => {
-            let message = format!("this kind of {format} image is not read ({error}): save it as 8-bit grey PNG");
+            let message = format!(
+                "this kind of {format} image (its colours or compression) is not read: save it as 8-bit grey PNG"
+            );
             IngestError::unsupported(POINTER, message)
         }
-        _ => IngestError::invalid(POINTER, format!("the {format} image is broken ({error}): save or upload it again")),
+        ImageError::IoError(error) if error.kind() == std::io::ErrorKind::UnexpectedEof => {
+            IngestError::invalid(POINTER, format!("the {format} image is cut off: save or upload it again"))
+        }
+        _ => IngestError::invalid(POINTER, format!("the {format} image is broken: save or upload it again")),
+    }
+}
+
+/// What people call a format. The kin of PGM go by its name.
+fn name(format: ImageFormat) -> String {
+    match format {
+        ImageFormat::Pnm => "PGM".to_owned(),
+        other => other.extensions_str().first().copied().unwrap_or_default().to_uppercase(),
     }
 }
 

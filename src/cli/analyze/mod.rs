@@ -12,7 +12,7 @@ use super::progress::ProgressDisplay;
 /// Arguments of `stillage analyze`.
 #[derive(Debug, clap::Args)]
 pub(super) struct AnalyzeArgs {
-    /// The map: a `map_server` YAML file with its image beside it, or a `nav_msgs/OccupancyGrid` message as JSON.
+    /// The map: a `map_server` YAML file with its image beside it, or a `nav_msgs/OccupancyGrid` message as JSON or as `topic echo` prints it.
     #[arg(value_name = "MAP")]
     map: PathBuf,
     /// Folder for the results; `<map name>.stillage` in the current folder when absent.

@@ -6,10 +6,10 @@ use std::io::Cursor;
 use expect_test::{Expect, expect};
 use image::{DynamicImage, GrayAlphaImage, GrayImage, ImageBuffer, ImageFormat, Luma, LumaA, RgbImage, RgbaImage};
 use proptest::prelude::*;
-use stillage_core::Occupancy;
 
 use super::*;
 
+mod messages;
 mod words;
 
 const USUAL: &str = "image: map.png\nresolution: 0.05\norigin: [-1.0, 2.0, 0.5]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n";
@@ -174,6 +174,24 @@ fn what_is_not_opaque_is_unknown_except_in_raw_mode() {
 }
 
 #[test]
+fn opacity_that_no_pixel_has_is_no_opacity() {
+    // 32-bit pictures whose fourth byte was never set, and exports with the layer at 99 %.
+    for alpha in [0, 254] {
+        let image = GrayAlphaImage::from_fn(3, 2, |x, y| LumaA([GREYS[(x + 3 * y) as usize], alpha]));
+        let map = read(encode(&image.into(), ImageFormat::Png), USUAL).unwrap();
+        assert_eq!((picture(&map.grid).as_str(), map.warnings[0].code.as_str()), (PICTURE, "opacity-ignored"));
+    }
+    let transparent_floor =
+        GrayAlphaImage::from_fn(3, 2, |x, y| [LumaA([0, 255]), LumaA([254, 0])][usize::from(x + y > 0)]);
+    check(
+        [("transparent floor", read(encode(&transparent_floor.into(), ImageFormat::Png), USUAL))],
+        &expect![[r#"
+        transparent floor: read, transparent-floor: no opaque pixel is free: transparent pixels were read as unknown, as nav2 reads them; if they are the floor, save the image without transparency
+    "#]],
+    );
+}
+
+#[test]
 fn colours_become_grey_by_luma() {
     // Pure green is brighter (150) than pure red (76) than pure blue (29).
     let colours = RgbImage::from_raw(3, 1, vec![255, 0, 0, 0, 255, 0, 0, 0, 255]).unwrap();
@@ -286,22 +304,22 @@ fn headers_that_lie_are_refused_before_anything_is_allocated() {
             ("TIFF, within limits", read(lying_tiff(9_000, 9_000), USUAL)),
         ],
         &expect![[r#"
-            PNG, 2^31 squared: TooLarge /image: the PNG image is larger than the limits allow (Image size exceeds limit)
+            PNG, 2^31 squared: TooLarge /image: the PNG image says that it is larger than the limits allow
             PNG, too many cells: TooLarge /image: the map has 400000000 cells, the most is 100000000: crop it, or use a coarser resolution
-            PNG, within limits: Invalid /image: the PNG image is broken (unexpected end of file): save or upload it again
-            PNG, 0 wide: Invalid /image: the PNG image is broken (Format error decoding Png: Invalid image dimensions): save or upload it again
-            PGM, 2^32 squared: TooLarge /image: the PBM image is larger than the limits allow (Image size exceeds limit)
-            PGM, beyond 2^32: Invalid /image: the PBM image is broken (Format error decoding Pnm: Overflow when parsing integer in number in preamble): save or upload it again
+            PNG, within limits: Invalid /image: the PNG image is cut off: save or upload it again
+            PNG, 0 wide: Invalid /image: the PNG image is broken: save or upload it again
+            PGM, 2^32 squared: TooLarge /image: the PGM image says that it is larger than the limits allow
+            PGM, beyond 2^32: Invalid /image: the PGM image is broken: save or upload it again
             PGM, too high: TooLarge /image: the map is 40000 cells high, the most is 32768: crop it, or use a coarser resolution
-            PGM, within limits: Invalid /image: the PBM image is broken (failed to fill whole buffer): save or upload it again
+            PGM, within limits: Invalid /image: the PGM image is cut off: save or upload it again
             PGM, 0 x 0: Invalid /image: the map is 0 cells wide: a map needs at least one cell
-            PGM ASCII, within limits: Invalid /image: the PBM image is broken (Format error decoding Pnm: Not enough data was provided to the Decoder to decode the image): save or upload it again
-            BMP, 2^31 squared: Invalid /image: the BMP image is broken (Format error decoding Bmp: Image too large (one of (2147483647, 2147483647) > soft limit of 65535)): save or upload it again
+            PGM ASCII, within limits: Invalid /image: the PGM image is broken: save or upload it again
+            BMP, 2^31 squared: Invalid /image: the BMP image is broken: save or upload it again
             BMP, too many cells: TooLarge /image: the map has 900000000 cells, the most is 100000000: crop it, or use a coarser resolution
-            BMP, within limits: Invalid /image: the BMP image is broken (failed to fill whole buffer): save or upload it again
-            TIFF, 2^32 squared: TooLarge /image: the TIFF image is larger than the limits allow (Image size exceeds limit)
+            BMP, within limits: Invalid /image: the BMP image is cut off: save or upload it again
+            TIFF, 2^32 squared: TooLarge /image: the TIFF image says that it is larger than the limits allow
             TIFF, too many cells: TooLarge /image: the map has 900000000 cells, the most is 100000000: crop it, or use a coarser resolution
-            TIFF, within limits: Invalid /image: the TIFF image is broken (failed to fill whole buffer): save or upload it again
+            TIFF, within limits: Invalid /image: the TIFF image is cut off: save or upload it again
         "#]],
     );
 }
@@ -326,14 +344,14 @@ fn what_is_no_whole_image_is_refused() {
         &expect![[r#"
             empty: Invalid /image: the image is empty
             text: UnsupportedFormat /image: this is no image of a known format: PNG, PGM (and its kin), BMP, TIFF, JPEG and WebP are read
-            GIF: UnsupportedFormat /image: Gif images are not read: save it as PNG
+            GIF: UnsupportedFormat /image: GIF images are not read: save it as PNG
             SVG: UnsupportedFormat /image: this is no image of a known format: PNG, PGM (and its kin), BMP, TIFF, JPEG and WebP are read
-            PNG signature only: Invalid /image: the PNG image is broken (unexpected end of file): save or upload it again
-            PNG cut in the data: Invalid /image: the PNG image is broken (unexpected end of file): save or upload it again
-            PGM cut in the header: Invalid /image: the PBM image is broken (unexpected end of file): save or upload it again
-            PGM cut in the data: Invalid /image: the PBM image is broken (failed to fill whole buffer): save or upload it again
-            PGM, maximum 0: Invalid /image: the PBM image is broken (Format error decoding Pnm: Image MAXVAL is zero): save or upload it again
-            PGM ASCII, a word: Invalid /image: the PBM image is broken (Format error decoding Pnm: Non-ASCII-digit character when parsing number in sample): save or upload it again
+            PNG signature only: Invalid /image: the PNG image is cut off: save or upload it again
+            PNG cut in the data: Invalid /image: the PNG image is cut off: save or upload it again
+            PGM cut in the header: Invalid /image: the PGM image is cut off: save or upload it again
+            PGM cut in the data: Invalid /image: the PGM image is cut off: save or upload it again
+            PGM, maximum 0: Invalid /image: the PGM image is broken: save or upload it again
+            PGM ASCII, a word: Invalid /image: the PGM image is broken: save or upload it again
         "#]],
     );
 }

@@ -1,8 +1,27 @@
-//! Metadata and messages.
+//! Metadata.
 
 use super::*;
 
-// ---- metadata ----
+/// 0.05 as PyYAML 6 writes `numpy.float64(0.05)` of numpy 1.
+const NUMPY_SCALAR: &str = "!!python/object/apply:numpy.core.multiarray.scalar
+- !!python/object/apply:numpy.dtype
+  args: [f8]
+- !!binary |
+  mpmZmZmZqT8=";
+
+/// (-10, -7.5, 0) as PyYAML 6 writes a list of two scalars of numpy 2 and a number.
+const NUMPY_ORIGIN: &str = "
+- !!python/object/apply:numpy._core.multiarray.scalar
+  - &id001 !!python/object/apply:numpy.dtype
+    args: [f8, false, true]
+    state: !!python/tuple [3, <, null, null, null, -1, -1, 0]
+  - !!binary |
+    AAAAAAAAJMA=
+- !!python/object/apply:numpy._core.multiarray.scalar
+  - *id001
+  - !!binary |
+    AAAAAAAAHsA=
+- 0.0";
 
 #[test]
 fn odd_files_of_the_wild_are_read() {
@@ -36,6 +55,17 @@ fn odd_files_of_the_wild_are_read() {
             ("URL", read(grey_png(), &with_image("http://example.com/map.pgm"))),
             ("resolution in quotes", read(grey_png(), &USUAL.replace("0.05", "\"0.05\""))),
             ("unknown key", read(grey_png(), &format!("{USUAL}map_type: occupancy\n"))),
+            ("path of Windows", read(grey_png(), &with_image(r"maps\hall.png"))),
+            ("path of Windows in double quotes", read(grey_png(), &with_image(r#""C:\maps\new hall\hall.png""#))),
+            ("escaped path in double quotes", read(grey_png(), &with_image(r#""maps\\S\u00fcd.png""#))),
+            (
+                "origin as Python prints a tuple",
+                read(grey_png(), &USUAL.replace("[-1.0, 2.0, 0.5]", "(-1.0, 2.0, 0.5)")),
+            ),
+            ("anchor and merge key", read(grey_png(), &format!("usual: &a {{mode: scale}}\n<<: *a\n{USUAL}"))),
+            ("merge key and an override", read(grey_png(), &format!("usual: &a {{negate: 1}}\n<<: *a\n{USUAL}"))),
+            ("numpy scalar", read(grey_png(), &USUAL.replace("0.05", NUMPY_SCALAR))),
+            ("numpy scalar, aliased type", read(grey_png(), &USUAL.replace("[-1.0, 2.0, 0.5]", NUMPY_ORIGIN))),
         ],
         &expect![[r#"
             plain: read
@@ -53,6 +83,15 @@ fn odd_files_of_the_wild_are_read() {
             URL: read, image-path: `image` names a file elsewhere ("http://example.com/map.pgm"): the image of this upload was used instead
             resolution in quotes: read, quoted-number: resolution is a text, "0.05": it was read as the number 0.05; remove the quotes
             unknown key: read, unknown-key: the metadata key `map_type` is not known and was ignored
+            path of Windows: read
+            path of Windows in double quotes: read
+            escaped path in double quotes: read
+            origin as Python prints a tuple: read, tuple-origin: `origin` is the text of a Python tuple: it was read as a list; write [x, y, yaw]
+            anchor and merge key: read, unknown-key: the metadata key `usual` is not known and was ignored
+            merge key and an override: read, unknown-key: the metadata key `usual` is not known and was ignored
+            numpy scalar: read, numpy-number: resolution was written as a numpy scalar: it was read as 0.05; write float(value) instead
+            numpy scalar, aliased type: read, numpy-number: the origin's x was written as a numpy scalar: it was read as -10; write float(value) instead
+            numpy scalar, aliased type: read, numpy-number: the origin's y was written as a numpy scalar: it was read as -7.5; write float(value) instead
         "#]],
     );
 }
@@ -95,6 +134,9 @@ fn metadata_that_means_no_map_is_refused_with_a_remedy() {
             ("no negate", read(grey_png(), &without("negate"))),
             ("mode", read(grey_png(), &format!("{USUAL}mode: costmap\n"))),
             ("alias", read(grey_png(), "image: &a x\nresolution: *a\n")),
+            ("alias of nothing", read(grey_png(), "image: *a\n")),
+            ("a long text", resolution(&"0.05 ".repeat(1_000))),
+            ("another numpy object", resolution("!!python/object/apply:numpy.core.multiarray.scalar [x, y]")),
             ("broken YAML", read(grey_png(), "image: [a\n")),
             ("broken JSON", read(grey_png(), r#"{"image": "a", "resolution": 1e999}"#)),
         ],
@@ -102,7 +144,7 @@ fn metadata_that_means_no_map_is_refused_with_a_remedy() {
             empty: Invalid /metadata: the metadata is empty: it needs the keys of a map_server YAML file
             a list: Invalid /metadata: expected keys with values, found a list
             several maps: Invalid /metadata/maps: this file lists several maps: upload each of them on its own, with its own metadata
-            two documents: Invalid /metadata: the YAML cannot be read: budget breached: Documents { documents: 2 } at line 7, column 1
+            two documents: Invalid /metadata: the YAML cannot be read: it holds more than one document (line 7, column 1): keep one, without a second `---`
             no image: Invalid /metadata/image: `image` is missing
             empty image: Invalid /metadata/image: `image` must name the image file of the map
             image is a list: Invalid /metadata/image: `image` must name the image file of the map
@@ -126,12 +168,22 @@ fn metadata_that_means_no_map_is_refused_with_a_remedy() {
             negate 2: Invalid /metadata/negate: `negate` must be 0, 1, true or false
             no negate: Invalid /metadata/negate: `negate` is missing
             mode: Invalid /metadata/mode: `mode` must be trinary, scale or raw
-            alias: Invalid /metadata: the YAML cannot be read: budget breached: Anchors { anchors: 1 } at line 1, column 11
-            broken YAML: Invalid /metadata: the YAML cannot be read: unclosed bracket '[' at line 1, column 8
+            alias: Invalid /metadata/resolution: resolution must be a finite number, found "x"
+            alias of nothing: Invalid /metadata: the YAML cannot be read: `*` names no anchor (`&`) before it (line 1, column 8): write the value out
+            a long text: Invalid /metadata/resolution: resolution must be a finite number, found "0.05 0.05 0.05 0.05 0.05 0.05 0.05 0.05 ..."
+            another numpy object: Invalid /metadata/resolution: resolution must be a finite number, found a list
+            broken YAML: Invalid /metadata: the YAML cannot be read: it is no YAML that can be read (line 1, column 8): check the indentation, brackets and quotes there, and nest less deep than 16
             broken JSON: Invalid /metadata/resolution: resolution must be a finite number, found inf
         "#]],
     );
 }
+
+/// Each line repeats the one before nine times.
+const LAUGHS: &str = "a: &a [x, x, x, x, x, x, x, x, x]
+b: &b [*a, *a, *a, *a, *a, *a, *a, *a, *a]
+c: &c [*b, *b, *b, *b, *b, *b, *b, *b, *b]
+image: [*c, *c, *c]
+";
 
 #[test]
 fn documents_made_to_exhaust_are_refused() {
@@ -145,96 +197,20 @@ fn documents_made_to_exhaust_are_refused() {
             ("very deep JSON", read(grey_png(), &deep_json)),
             ("many keys", read(grey_png(), &keys)),
             ("long", read(grey_png(), &format!("{USUAL}# {}", "x".repeat(100_000)))),
+            ("laughs", read(grey_png(), LAUGHS)),
             ("not UTF-8", {
                 let source = MapSource::Image { image: grey_png(), metadata: b"image: \xff".to_vec() };
                 decode(&source, &GridOptions::default(), &Limits::default())
             }),
         ],
         &expect![[r#"
-            deep: Invalid /metadata: the YAML cannot be read: recursion limit exceeded at line 1, column 24
-            very deep: Invalid /metadata: the YAML cannot be read: recursion limit exceeded at line 1, column 24
-            very deep JSON: Invalid /metadata: the JSON cannot be read: recursion limit exceeded at line 1 column 137
-            many keys: Invalid /metadata: the YAML cannot be read: budget breached: Nodes { nodes: 1001 } at line 500, column 7
+            deep: Invalid /metadata: the YAML cannot be read: it is no YAML that can be read (line 1, column 24): check the indentation, brackets and quotes there, and nest less deep than 16
+            very deep: Invalid /metadata: the YAML cannot be read: it is no YAML that can be read (line 1, column 24): check the indentation, brackets and quotes there, and nest less deep than 16
+            very deep JSON: Invalid /metadata: this is neither JSON nor YAML from line 1, column 137 on
+            many keys: Invalid /metadata: the YAML cannot be read: it has more than 1000 values (line 500, column 7): a map_server file has seven
             long: Invalid /metadata: the document has 100110 bytes, the most is 65536
+            laughs: Invalid /metadata: the YAML cannot be read: it is no YAML that can be read (line 3, column 40): check the indentation, brackets and quotes there, and nest less deep than 16
             not UTF-8: Invalid /metadata: the document is not UTF-8 text (byte 7): save it as UTF-8
-        "#]],
-    );
-}
-
-// ---- messages ----
-
-#[test]
-fn a_message_is_row_major_from_the_lower_left_corner() {
-    let map = read_message(MESSAGE).unwrap();
-    assert_eq!(picture(&map.grid), "#??\n..#\n");
-    let frame = map.grid.frame();
-    assert_eq!((frame.resolution, frame.origin.x, frame.origin.y), (0.1, -1.5, 2.0));
-    assert!((frame.yaw - std::f64::consts::FRAC_PI_2).abs() < 1e-12);
-    assert_eq!(map.warnings, []);
-}
-
-#[test]
-fn messages_that_contradict_themselves_are_refused() {
-    let with = |from: &str, to: &str| {
-        assert!(MESSAGE.contains(from));
-        read_message(&MESSAGE.replace(from, to))
-    };
-    check(
-        [
-            ("no JSON", read_message("nonsense")),
-            ("a list", read_message("[]")),
-            ("empty", read_message("{}")),
-            (
-                "no data",
-                read_message(&MESSAGE[..MESSAGE.len() - 1].replace(",\n    \"data\": [0, 25, 65, 100, -1, 50]", "}")),
-            ),
-            ("too few cells", with(", 50]", "]")),
-            ("a cell of 101", with("50]", "101]")),
-            ("a cell of 1.5", with("50]", "1.5]")),
-            ("a cell of null", with("50]", "null]")),
-            ("width 0", with("\"width\": 3", "\"width\": 0")),
-            ("width -3", with("\"width\": 3", "\"width\": -3")),
-            ("width 2.5", with("\"width\": 3", "\"width\": 2.5")),
-            ("width 4294967296", with("\"width\": 3", "\"width\": 4294967296")),
-            ("width 1e300", with("\"width\": 3", "\"width\": 1e300")),
-            (
-                "20000 x 20000",
-                read_message(&MESSAGE.replace("\"width\": 3, \"height\": 2", "\"width\": 20000, \"height\": 20000")),
-            ),
-            ("no height", with("\"height\": 2,", "")),
-            ("resolution 0", with("0.1", "0")),
-            (
-                "no orientation",
-                with(
-                    ",\n            \"orientation\": {\"x\": 0, \"y\": 0, \"z\": 0.7071067811865476, \"w\": 0.7071067811865476}",
-                    "",
-                ),
-            ),
-            ("zero quaternion", with("\"z\": 0.7071067811865476, \"w\": 0.7071067811865476", "\"z\": 0, \"w\": 0")),
-            ("tilted", with("\"orientation\": {\"x\": 0", "\"orientation\": {\"x\": 0.5")),
-            ("a position without y", with("\"y\": 2, ", "")),
-        ],
-        &expect![[r#"
-            no JSON: Invalid : this is no OccupancyGrid message: expected a JSON object with `info` and `data`
-            a list: Invalid : this is no OccupancyGrid message: expected a JSON object with `info` and `data`
-            empty: Invalid /info: `info` is missing
-            no data: Invalid /data: `data` is missing
-            too few cells: Invalid /data: `data` has 5 cells, but width x height is 3 x 2 = 6
-            a cell of 101: Invalid /data: the OccupancyGrid JSON cannot be read: data[5] is not a whole number from -1 to 100 at line 10 column 37
-            a cell of 1.5: Invalid /data: the OccupancyGrid JSON cannot be read: data[5] is not a whole number from -1 to 100 at line 10 column 37
-            a cell of null: Invalid /data: the OccupancyGrid JSON cannot be read: invalid type: null, expected a JSON number at line 10 column 37
-            width 0: Invalid /info/width: the map is 0 cells wide: a map needs at least one cell
-            width -3: Invalid /info/width: `width` is -3, it must be a whole number of cells
-            width 2.5: Invalid /info/width: `width` is 2.5, it must be a whole number of cells
-            width 4294967296: TooLarge /info/width: the map is 4294967296 cells wide, the most is 32768: crop it, or use a coarser resolution
-            width 1e300: TooLarge /info/width: the map is 18446744073709551615 cells wide, the most is 32768: crop it, or use a coarser resolution
-            20000 x 20000: TooLarge /info/width: the map has 400000000 cells, the most is 100000000: crop it, or use a coarser resolution
-            no height: Invalid /info/height: `height` is missing
-            resolution 0: Invalid /info/resolution: the resolution is 0 m per cell, it must lie between 0.0001 and 100: give the side of a cell in metres
-            no orientation: read
-            zero quaternion: Invalid /info/origin/orientation: the orientation is no rotation (its length is 0): write x 0, y 0, z 0, w 1 for none
-            tilted: Invalid /info/origin/orientation: the orientation tilts the map out of the plane: only a turn about z is a map
-            a position without y: Invalid /info/origin/position/y: `y` is missing
         "#]],
     );
 }
