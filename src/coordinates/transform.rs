@@ -104,6 +104,16 @@ impl Transform {
         }
     }
 
+    /// The same in as many digits as a place needs: a millimetre, or 1e-8 degrees, which is that at the equator.
+    #[must_use]
+    pub fn readable(&self, point: Point) -> [f64; 2] {
+        let digits = match self.crs {
+            Crs::Crs84 => 1e8,
+            Crs::WebMercator => 1e3,
+        };
+        self.forward(point).map(|value| (value * digits).round() / digits)
+    }
+
     /// The way back.
     #[must_use]
     pub fn inverse(&self, position: [f64; 2]) -> Point {

@@ -40,6 +40,10 @@ async fn no_route_says_why() {
     let map = drivable_hall(&api).await;
     let routes = format!("{map}/routes?crs=EPSG:3857&footprintRadiusM=0.2");
     api.get(&format!("{routes}&from=-1,3.5&to=500,500")).await.problem(404, "route-outside");
+    let metres = api.get(&format!("{map}/routes?from=-1,3.5&to=12,0")).await.problem(404, "route-outside");
+    assert_eq!(metres["detail"], "-1,3.5 is outside the map; did you mean crs=EPSG:3857?");
+    let metres = api.get(&format!("{map}/at?point=-1,3.5")).await.problem(404, "outside-map");
+    assert!(metres["detail"].as_str().expect("a text").ends_with("; did you mean crs=EPSG:3857?"), "{metres}");
     let blocked = api.get(&format!("{routes}&from=-1.9,3.5&to=12,0")).await.problem(404, "route-blocked");
     assert!(blocked["detail"].as_str().expect("a text").ends_with("would do"), "{blocked}");
     let wide = api

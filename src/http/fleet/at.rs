@@ -10,6 +10,7 @@ use stillage_core::whereabouts::{AislePosition, NearestLocation, Whereabouts, wh
 use stillage_core::{Occupancy, Point};
 use utoipa::{IntoParams, ToSchema};
 
+use super::other_crs::did_you_mean_crs;
 use super::vehicle::Numbers;
 use crate::app::{App, Caller, MapContext};
 use crate::coordinates::Transform;
@@ -164,24 +165,24 @@ fn locate(context: &MapContext, transform: &Transform, at: [f64; 2], heading: Op
     let point = frame.to_grid(position);
     let heading = heading.map(|degrees| degrees.to_radians() - frame.angle_to_map(0.0));
     let found = whereabouts(&context.site(), &context.layout, point, heading);
-    let found = found.ok_or_else(|| outside(context, transform, point))?;
+    let found = found.ok_or_else(|| outside(context, transform, at))?;
     Ok(AtView::new(context, &found, position))
 }
 
 /// The point lies outside the map; the nearest one inside is named.
-fn outside(context: &MapContext, transform: &Transform, point: Point) -> Problem {
+fn outside(context: &MapContext, transform: &Transform, at: [f64; 2]) -> Problem {
+    let point = context.analysis.frame.to_grid(transform.inverse(at));
     let grid = &context.grid;
     let within = |place: f64, cells: usize| {
         let half = grid.resolution() / 2.0;
         place.clamp(half, (cells as f64 * grid.resolution() - half).max(half))
     };
     let nearest = Point::new(within(point.x, grid.width()), within(point.y, grid.height()));
-    let [x, y] = transform.forward(context.analysis.frame.to_map(nearest)).map(|value| (value * 1e9).round() / 1e9);
+    let [x, y] = transform.readable(context.analysis.frame.to_map(nearest));
     let away = (nearest - point).norm();
-    Problem::new(
-        ProblemType::OutsideMap,
-        format!("the point lies {away:.2} m outside the map: the nearest in it is {x},{y}"),
-    )
+    let hint = did_you_mean_crs(context, transform, at).map(|hint| format!("; {hint}")).unwrap_or_default();
+    let detail = format!("the point lies {away:.2} m outside the map: the nearest in it is {x},{y}{hint}");
+    Problem::new(ProblemType::OutsideMap, detail)
 }
 
 impl AtView {

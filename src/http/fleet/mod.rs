@@ -7,6 +7,7 @@ pub mod distance_matrix;
 pub mod exports;
 pub mod graph_report;
 mod no_route;
+mod other_crs;
 pub mod route;
 mod vehicle;
 mod waypoint;

@@ -10,7 +10,7 @@ use crate::http::problem::{Problem, ProblemType};
 /// The problem detail; points are told in the coordinates of the request. `radius` is that of the vehicle, metres.
 pub fn problem(reason: &NoRoute, context: &MapContext, transform: &Transform, radius: f64) -> Problem {
     let place = |point: Point| {
-        let [x, y] = transform.forward(context.analysis.frame.to_map(point)).map(|value| (value * 1e9).round() / 1e9);
+        let [x, y] = transform.readable(context.analysis.frame.to_map(point));
         format!("{x},{y}")
     };
     let instead = |nearest: &Option<Point>| match nearest {

@@ -10,9 +10,10 @@ use utoipa::openapi::schema::{ObjectBuilder, Schema, Type};
 use utoipa::{PartialSchema, ToSchema};
 
 use super::did_you_mean::did_you_mean;
+use super::other_crs::did_you_mean_crs;
 use crate::app::{MapContext, Nameable};
 use crate::coordinates::Transform;
-use crate::http::problem::Problem;
+use crate::http::problem::{Problem, ProblemType};
 
 /// What an end looks like.
 const PATTERN: &str =
@@ -68,7 +69,12 @@ impl End {
     /// The waypoint in the map.
     pub fn waypoint<'a>(&self, context: &'a MapContext, transform: &Transform) -> Result<Waypoint<'a>, Problem> {
         match self {
-            Self::Position(position) => Ok(Waypoint::Point(grid_point(context, transform, *position))),
+            Self::Position([x, y]) => match did_you_mean_crs(context, transform, [*x, *y]) {
+                None => Ok(Waypoint::Point(grid_point(context, transform, [*x, *y]))),
+                Some(hint) => {
+                    Err(Problem::new(ProblemType::RouteOutside, format!("{x},{y} is outside the map; {hint}")))
+                }
+            },
             Self::Face(face) if (1..context.analysis.subdivision.face_count()).contains(&(*face as usize)) => {
                 Ok(Waypoint::Face(FaceId(*face)))
             }

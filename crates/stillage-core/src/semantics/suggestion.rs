@@ -28,7 +28,7 @@ pub struct Suggestion {
     pub category: u8,
     /// Proposed label.
     pub label: LabelId,
-    /// Confidence, 0 to 1.
+    /// Confidence, 0 to 1; 0 where no label fits.
     pub confidence: f64,
     /// The reason, in words.
     pub reason: String,
@@ -73,7 +73,8 @@ fn propose(category: u8, evidence: CategoryEvidence, view: View, rule_set: &Rule
     let (label, confidence, reason) = if best.1 < LEAST_LIKELIHOOD {
         let nearest =
             if best.1 > 0.0 { format!(" (the nearest: {}, {:.2})", name(best.0), best.1) } else { String::new() };
-        (nothing.0, 1.0 - best.1, format!("{description}: no label fits{nearest}."))
+        // Nothing is proposed, so there is nothing to be sure of.
+        (nothing.0, 0.0, format!("{description}: no label fits{nearest}."))
     } else {
         // A second label that is as likely halves the confidence.
         let confidence = best.1 - second.1 / 2.0;
@@ -227,8 +228,8 @@ mod tests {
             &expect![[r#"
                 0 co 1.00 100 % free, 0 % occupied, 0 % unknown; 10.0 times as long as wide, 10.0 m2 in the median, 100 % of the border lined by structure: reads as corridor (1.00).
                 3 of 0.92 100 % free, 0 % occupied, 0 % unknown; 1.1 times as long as wide, 7.5 m2 in the median, 100 % of the border lined by structure: reads as office (0.92).
-                4 un 1.00 9 % free, 91 % occupied, 0 % unknown; 2.5 times as long as wide, 16.0 m2 in the median, 100 % of the border lined by structure: no label fits.
-                5 un 1.00 0 % free, 100 % occupied, 0 % unknown; 20.0 times as long as wide, 5.0 m2 in the median, 100 % of the border lined by structure: no label fits.
+                4 un 0.00 9 % free, 91 % occupied, 0 % unknown; 2.5 times as long as wide, 16.0 m2 in the median, 100 % of the border lined by structure: no label fits.
+                5 un 0.00 0 % free, 100 % occupied, 0 % unknown; 20.0 times as long as wide, 5.0 m2 in the median, 100 % of the border lined by structure: no label fits.
             "#]],
         );
     }
