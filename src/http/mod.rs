@@ -116,7 +116,7 @@ fn document<S: Clone + Send + Sync + 'static>(routes: OpenApiRouter<S>) -> (Rout
 /// The routes of the service, with all that lies around them.
 ///
 /// From the outside in: id, log line and metrics of the request; headers for browsers; entity tags by coding, around
-/// the compression; bodies of problems; panics; checks of host and origin; patience; unknown parameters; `Accept`.
+/// the compression; bodies of problems; panics; checks of host and origin; pace and coding of bodies; unknown parameters; `Accept`.
 pub fn router(app: Arc<App>) -> Router {
     let upload_bytes = app.config().limits.max_bytes + maps::upload::FORM_OVERHEAD_BYTES;
     let (router, document) = document(routes(upload_bytes));
@@ -132,6 +132,7 @@ pub fn router(app: Arc<App>) -> Router {
         .layer(from_fn(guard::one_host))
         .layer(from_fn(guard::other_origins))
         .layer(from_fn(guard::at_pace))
+        .layer(from_fn(extract::coding::decoded))
         .layer(from_fn_with_state(known, guard::known_parameters))
         .layer(from_fn(extract::negotiation::negotiate))
         .layer(DefaultBodyLimit::max(BODY_BYTES))

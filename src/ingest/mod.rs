@@ -1,6 +1,7 @@
 //! Bytes -> occupancy grid, the truth of a site, and names that people bring along.
 //!
-//! A map arrives as an image with `map_server` metadata, or as a `nav_msgs/OccupancyGrid` message in JSON. Cells are
+//! A map arrives as an image with `map_server` metadata, or as a `nav_msgs/OccupancyGrid` message in JSON or
+//! YAML. Cells are
 //! read as `nav2_map_server` reads them (`map_io.cpp`), but for one mistake that many files make ([`verdict`]); the files of the wild that loaders
 //! stumble over are read with a warning where their meaning is plain, and refused with a remedy where it is not.
 //!

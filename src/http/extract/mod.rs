@@ -2,8 +2,10 @@
 
 pub mod bbox;
 mod caller;
+pub mod coding;
 pub mod conditional;
 pub mod crs;
+pub mod form;
 pub mod negotiation;
 
 use std::error::Error;
@@ -155,7 +157,10 @@ pub fn broken_body(error: &(dyn Error + 'static)) -> Problem {
     let mut causes = std::iter::successors(Some(error), |&cause| cause.source());
     match causes.find_map(|cause| cause.downcast_ref::<crate::http::guard::TooSlow>()) {
         Some(slow) => Problem::new(ProblemType::Timeout, slow.to_string()),
-        None => Problem::new(ProblemType::BadRequest, format!("the body cannot be read: {error}")),
+        None => Problem::new(
+            ProblemType::BadRequest,
+            "the body cannot be read to its end: it breaks off, or it is not what its headers say",
+        ),
     }
 }
 

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use axum::Json;
 use axum::extract::{Request, State};
-use axum::http::{HeaderValue, StatusCode, header};
+use axum::http::{HeaderMap, HeaderValue, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use serde::Deserialize;
 use utoipa::{IntoParams, ToSchema};
@@ -67,7 +67,9 @@ pub struct UploadQuery {
 /// Upload a map
 ///
 /// Stores the map and puts its analysis in the queue. As a form: `image` and `metadata` are the two files of
-/// `map_server`. As JSON: a `nav_msgs/OccupancyGrid` message as rosbridge sends it. Limits: 128 MiB by default for the
+/// `map_server`. As JSON: a `nav_msgs/OccupancyGrid` message as rosbridge sends it, alone or in its envelope. As YAML: the
+/// message as `ros2 topic echo --full-length --once` prints it. Bodies may be in gzip or zstd (`Content-Encoding`), parts of
+/// forms in gzip or base64. Limits, which hold for what is sent and for what comes out of it: 128 MiB by default for the
 /// image or the message, 64 KiB for `metadata` and `options`.
 ///
 /// With `previous`, the map is aligned to an earlier one of the same site before it is stored: whatever its shift, turn and
@@ -78,7 +80,9 @@ pub struct UploadQuery {
             description = "A key of the client's choice: the same key with the same content answers the same job")),
     request_body(content(
         (upload::MapUploadView = "multipart/form-data"),
-        (OccupancyGridMessage = "application/json")), description = "The map"),
+        (OccupancyGridMessage = "application/json"),
+        (String = "application/yaml", example = "info:\n  resolution: 0.05\n  width: 2\n  height: 1\n  origin:\n    position: {x: 0.0, y: 0.0, z: 0.0}\ndata: [0, 100]\n")),
+        description = "The map"),
     responses(
         (status = 202, description = "Stored; the job will analyse it", body = JobView,
             headers(("Location" = String, description = "The job"),
@@ -91,6 +95,7 @@ pub async fn create(
     Query(query): Query<UploadQuery>,
     request: Request,
 ) -> Result<Response, Problem> {
+    let prefers_async = prefers_async(request.headers());
     let mut map = upload::read(request, &app, query.name, &app.config().limits).await?;
     map.previous = query.previous.map(|id| id.0).or(map.previous);
     let (job, is_new) = app.create_map(&caller, map).await?;
@@ -98,7 +103,16 @@ pub async fn create(
     if !is_new {
         response.headers_mut().insert("idempotent-replayed", HeaderValue::from_static("true"));
     }
+    if prefers_async {
+        response.headers_mut().insert("preference-applied", HeaderValue::from_static("respond-async"));
+    }
     Ok(response)
+}
+
+/// Whether the client asks to be answered before the work is done (RFC 7240, 4.1), as it is anyway.
+fn prefers_async(headers: &HeaderMap) -> bool {
+    let preferences = headers.get_all("prefer").iter().filter_map(|value| value.to_str().ok());
+    preferences.flat_map(|value| value.split(',')).any(|one| one.trim().eq_ignore_ascii_case("respond-async"))
 }
 
 /// List maps

@@ -1,16 +1,18 @@
 //! The two shapes of an upload: a form with the files of `map_server`, or an OccupancyGrid message.
 
 use axum::extract::multipart::{Field, MultipartError};
-use axum::extract::{FromRequest, Multipart, Request};
+use axum::extract::{Multipart, Request};
 use axum::http::{HeaderMap, StatusCode};
 use stillage_core::AnalysisOptions;
 use utoipa::ToSchema;
 
 use crate::app::NewMap;
+use crate::blocking::off_the_runtime;
 use crate::coordinates::Survey;
+use crate::http::extract::form::{self, Disposition};
 use crate::http::extract::{self, broken_body, is_json, parse_json};
 use crate::http::problem::{Problem, ProblemType};
-use crate::ingest::{Limits, MapSource};
+use crate::ingest::{self, Limits, MapSource};
 use crate::options::RequestedOptions;
 use crate::views::georeference::{GeoreferenceView, UnusableMember};
 use crate::views::id::Id;
@@ -21,6 +23,8 @@ use crate::views::options::AnalysisOptionsView;
 const TEXT_PART_BYTES: usize = 64 << 10;
 /// Bytes that the part `name`, `georeference` or `previous` may have.
 const SMALL_PART_BYTES: usize = 4 << 10;
+/// Media types of YAML: RFC 9512, and those from before it.
+const YAML: [&str; 4] = ["application/yaml", "application/x-yaml", "text/yaml", "text/x-yaml"];
 /// What a form adds to its image at most: the other parts and the boundaries.
 pub const FORM_OVERHEAD_BYTES: usize = 256 << 10;
 
@@ -68,15 +72,15 @@ pub async fn read<S: Send + Sync>(
     limits: &Limits,
 ) -> Result<NewMap, Problem> {
     let idempotency_key = idempotency_key(request.headers())?;
-    let mut map = if is_json(request.headers()) {
+    let content_type = extract::content_type(request.headers());
+    let mut map = if is_json(request.headers()) || YAML.contains(&content_type.as_str()) {
         let bytes = extract::body(request, state).await?;
         new_map(MapSource::Message(bytes.into()))
-    } else if extract::content_type(request.headers()) == "multipart/form-data" {
-        let form = Multipart::from_request(request, state).await;
-        let form = form.map_err(|rejection| Problem::new(ProblemType::BadRequest, rejection.to_string()))?;
-        read_form(form, limits).await?
+    } else if content_type == "multipart/form-data" {
+        read_form(form::open(request, state).await?, limits).await?
     } else {
-        let detail = "send multipart/form-data (image and metadata) or application/json (an OccupancyGrid message)";
+        let detail = "send multipart/form-data (image and metadata), or application/json or application/yaml (an OccupancyGrid \
+                      message)";
         return Err(Problem::new(ProblemType::UnsupportedMediaType, detail));
     };
     map.idempotency_key = idempotency_key;
@@ -108,9 +112,10 @@ async fn read_form(mut parts: Multipart, limits: &Limits) -> Result<NewMap, Prob
     let mut form = Form::default();
     while let Some(mut part) = parts.next_field().await.map_err(|error| broken_form(&error))? {
         let part = &mut part;
-        match part.name().unwrap_or_default().to_owned().as_str() {
+        let disposition = Disposition::of(part.headers());
+        match disposition.name.unwrap_or_default().as_str() {
             "image" => {
-                form.file_name = part.file_name().map(str::to_owned);
+                form.file_name = disposition.file_name;
                 once(&mut form.image, "image", read_part(part, "image", limits.max_bytes).await?)?;
             }
             "metadata" => once(&mut form.metadata, "metadata", read_part(part, "metadata", TEXT_PART_BYTES).await?)?,
@@ -146,13 +151,19 @@ async fn read_form(mut parts: Multipart, limits: &Limits) -> Result<NewMap, Prob
 impl Form {
     fn into_map(self) -> Result<NewMap, Problem> {
         let missing = |name: &str| Problem::invalid(format!("/{name}"), "the form needs this part");
-        let image = self.image.ok_or_else(|| missing("image"))?;
         let metadata = self.metadata.ok_or_else(|| missing("metadata"))?;
+        if ingest::is_message(&metadata) {
+            let detail = "is an OccupancyGrid message, which needs no image: send it as the body of the request, with \
+                          Content-Type application/json or application/yaml";
+            return Err(Problem::invalid("/metadata", detail));
+        }
         let file_stem = || {
             let file_name = self.file_name.as_deref()?.rsplit(['/', '\\']).next()?;
+            let file_name = file_name.strip_suffix(".gz").unwrap_or(file_name);
             let stem = file_name.rsplit_once('.').map_or(file_name, |(stem, _)| stem);
             Name::try_from(stem.to_owned()).ok()
         };
+        let image = self.image.ok_or_else(|| missing("image"))?;
         let mut map = new_map(MapSource::Image { image, metadata });
         if let Some(Name(name)) = self.name.or_else(file_stem) {
             map.name = name;
@@ -175,7 +186,7 @@ fn once<T>(slot: &mut Option<T>, name: &str, value: T) -> Result<(), Problem> {
     }
 }
 
-/// Reads a part up to a limit, without holding more than that.
+/// Reads a part up to a limit, without holding more than that, and takes it out of its coding.
 async fn read_part(part: &mut Field<'_>, name: &str, limit: usize) -> Result<Vec<u8>, Problem> {
     let mut bytes = Vec::new();
     while let Some(chunk) = part.chunk().await.map_err(|error| broken_form(&error))? {
@@ -185,7 +196,8 @@ async fn read_part(part: &mut Field<'_>, name: &str, limit: usize) -> Result<Vec
         }
         bytes.extend_from_slice(&chunk);
     }
-    Ok(bytes)
+    let (headers, name) = (part.headers().clone(), name.to_owned());
+    off_the_runtime(move || form::plain_content(&name, &headers, bytes, limit)).await
 }
 
 fn broken_form(error: &MultipartError) -> Problem {

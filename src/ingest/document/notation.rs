@@ -56,11 +56,10 @@ fn has_strange_escape(text: &str) -> bool {
     text.split('\\').skip(1).any(|rest| {
         let digits = match rest.chars().next() {
             // Two in a row stand for one.
-            None => return false,
+            None | Some('/') => return false,
             Some('x') => 2,
             Some('u') => 4,
             Some('U') => 8,
-            Some('/') => return false,
             Some(_) => return true,
         };
         let hexadecimal = rest.chars().skip(1).take(digits).filter(char::is_ascii_hexdigit).count();
