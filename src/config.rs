@@ -30,6 +30,8 @@ pub struct Config {
     pub max_job_bytes: u64,
     /// Analysed maps kept in memory.
     pub cached_maps: usize,
+    /// Whether what a proxy says about the client's address is believed.
+    pub trust_proxy: bool,
     /// How long running jobs may go on after a request to stop, before they are put back.
     pub shutdown_grace: Duration,
 }
@@ -51,6 +53,7 @@ impl Config {
             min_free_bytes: 256 << 20,
             max_job_bytes: 8 << 30,
             cached_maps: 8,
+            trust_proxy: false,
             shutdown_grace: Duration::from_secs(25),
         }
     }

@@ -60,6 +60,10 @@ pub(super) struct ServeArgs {
     /// Connections at the same time; further ones wait.
     #[arg(long, env = "STILLAGE_MAX_CONNECTIONS", default_value_t = 1_024, value_name = "N")]
     pub(super) max_connections: usize,
+    /// Believe `Forwarded` and `X-Forwarded-*`: links then have the address by which clients reach the proxy in front. Only
+    /// behind a proxy that sets or removes these headers.
+    #[arg(long, env = "STILLAGE_TRUST_PROXY")]
+    pub(super) trust_proxy: bool,
     /// How long running jobs may go on after a request to stop, seconds; then they are put back.
     #[arg(long, env = "STILLAGE_SHUTDOWN_GRACE_S", default_value_t = 25, value_name = "S")]
     pub(super) shutdown_grace_s: u64,
@@ -134,6 +138,7 @@ impl ServeArgs {
             min_free_bytes: self.min_free_mib.saturating_mul(1 << 20),
             max_job_bytes: self.max_job_mib.saturating_mul(1 << 20),
             cached_maps: self.cached_maps,
+            trust_proxy: self.trust_proxy,
             shutdown_grace: Duration::from_secs(self.shutdown_grace_s),
             ..defaults
         }

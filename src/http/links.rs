@@ -4,10 +4,10 @@ use std::convert::Infallible;
 use std::fmt::Write as _;
 
 use axum::extract::FromRequestParts;
+use axum::http::HeaderValue;
 use axum::http::request::Parts;
-use axum::http::uri::Authority;
-use axum::http::{HeaderValue, header as headers};
 
+use super::public_address::PublicAddress;
 use crate::views::link::Link;
 
 /// JSON.
@@ -30,8 +30,7 @@ pub fn header(link: &Link) -> HeaderValue {
     HeaderValue::try_from(text).expect("addresses are percent-encoded")
 }
 
-/// Scheme and authority of the service as the client sees it: the `Host` header, and the scheme that a proxy in front
-/// reports in `X-Forwarded-Proto`.
+/// The root of the service as the client sees it.
 #[derive(Debug, Clone)]
 pub struct Base(String);
 
@@ -47,13 +46,7 @@ impl<S: Sync> FromRequestParts<S> for Base {
     type Rejection = Infallible;
 
     async fn from_request_parts(parts: &mut Parts, _: &S) -> Result<Self, Infallible> {
-        let text = |name| parts.headers.get(name).and_then(|value: &HeaderValue| value.to_str().ok());
-        let authority = text(headers::HOST).or_else(|| parts.uri.authority().map(Authority::as_str));
-        let scheme = match text(headers::HeaderName::from_static("x-forwarded-proto")) {
-            Some("https") => "https",
-            _ => "http",
-        };
-        Ok(Self(authority.map(|authority| format!("{scheme}://{authority}")).unwrap_or_default()))
+        Ok(Self(parts.extensions.get().map(PublicAddress::root).unwrap_or_default()))
     }
 }
 

@@ -16,6 +16,7 @@ mod maps;
 mod ogc;
 mod paging;
 pub(crate) mod problem;
+mod public_address;
 
 use std::sync::Arc;
 
@@ -116,7 +117,7 @@ fn document<S: Clone + Send + Sync + 'static>(routes: OpenApiRouter<S>) -> (Rout
 /// The routes of the service, with all that lies around them.
 ///
 /// From the outside in: id, log line and metrics of the request; headers for browsers; entity tags by coding, around
-/// the compression; bodies of problems; panics; checks of host and origin; pace and coding of bodies; unknown parameters; `Accept`.
+/// the compression; bodies of problems; panics; checks of host and origin, around the address that proxies tell; pace and coding of bodies; unknown parameters; `Accept`.
 pub fn router(app: Arc<App>) -> Router {
     let upload_bytes = app.config().limits.max_bytes + maps::upload::FORM_OVERHEAD_BYTES;
     let (router, document) = document(routes(upload_bytes));
@@ -130,6 +131,7 @@ pub fn router(app: Arc<App>) -> Router {
         .layer(from_fn(problem::render))
         .layer(CatchPanicLayer::custom(problem::of_panic))
         .layer(from_fn(guard::one_host))
+        .layer(from_fn_with_state(app.config().trust_proxy, public_address::resolve))
         .layer(from_fn(guard::other_origins))
         .layer(from_fn(guard::at_pace))
         .layer(from_fn(extract::coding::decoded))

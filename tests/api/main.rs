@@ -8,6 +8,7 @@
 )]
 
 mod client;
+mod clients;
 mod document;
 mod evaluations;
 mod exports;

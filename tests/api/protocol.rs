@@ -22,13 +22,6 @@ async fn the_landing_page_leads_to_everything() {
 }
 
 #[tokio::test]
-async fn links_follow_the_scheme_of_the_proxy() {
-    let api = Api::new().await;
-    let page = api.get_with("/", &[("x-forwarded-proto", "https")]).await.json();
-    assert_eq!(page["links"][0]["href"], "https://stillage.test/");
-}
-
-#[tokio::test]
 async fn what_is_not_there_is_a_problem() {
     let api = Api::new().await;
     let problem = api.get("/nowhere").await.problem(404, "not-found");
