@@ -81,7 +81,8 @@ pub(super) fn assignment(path: &Path) -> Result<Assignment, Failure> {
 
 /// A refusal of the ingest, about a file.
 pub(super) fn refused(path: &Path, error: &IngestError) -> Failure {
-    Failure::Input(format!("{} cannot be read as a map, at `{}`: {error}", path.display(), error.pointer))
+    let place = if error.pointer.is_empty() { String::new() } else { format!(", at `{}`", error.pointer) };
+    Failure::Input(format!("{} cannot be read as a map{place}: {error}", path.display()))
 }
 
 /// An assignment that names what a map does not have.

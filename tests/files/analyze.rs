@@ -106,7 +106,7 @@ fn faults_of_the_input_end_with_2_and_a_sentence() {
     expect![[r#"
         nowhere.yaml -> 2: error: nowhere.yaml cannot be opened (No such file or directory (os error 2)): check the path
         flat.yaml -> 2: error: flat.yaml cannot be read as a map, at `/metadata/resolution`: the resolution is 0 m per cell, it must lie between 0.0001 and 100: give the side of a cell in metres
-        lost.yaml -> 2: error: the image of lost.yaml, nowhere.pgm, cannot be opened (No such file or directory (os error 2)): put it beside the YAML file
+        lost.yaml -> 2: error: the image of lost.yaml, nowhere.pgm, is not there: put it beside the YAML file
         room.pgm -> 2: error: room.pgm is an image: name the YAML file beside it, which says its resolution
         room.yaml --rule-set garden -> 2: error: there is no rule set garden: name `site`, `warehouse`, `office`, or a JSON file
         room.yaml --options options.json -> 2: error: options.json: /categorization/k: 0 is outside 2 to 32

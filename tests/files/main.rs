@@ -13,6 +13,7 @@
 
 mod analyze;
 mod authors_categories;
+mod cases;
 mod drawings;
 mod evaluate;
 mod export;

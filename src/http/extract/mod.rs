@@ -192,9 +192,22 @@ fn path_and_message(rejection: &(dyn Error + 'static)) -> (Option<String>, Strin
         std::iter::successors(rejection.source(), |&cause| cause.source().filter(|_| cause.is::<axum::Error>()));
     let text = innermost.last().map_or_else(|| rejection.to_string(), ToString::to_string);
     match text.split_once(": ") {
-        Some((path, message)) if is_path(path) => (Some(path.to_owned()), message.to_owned()),
-        _ => (None, text),
+        Some((path, message)) if is_path(path) => (Some(path.to_owned()), shortened(message)),
+        _ => (None, shortened(&text)),
     }
+}
+
+/// A message without the middle of what it repeats of the input.
+fn shortened(message: &str) -> String {
+    /// Longest message that is told whole, and what is kept of a longer one at either end, characters.
+    const WHOLE: usize = 300;
+    const KEPT: usize = 120;
+    let count = message.chars().count();
+    if count <= WHOLE {
+        return message.to_owned();
+    }
+    let (start, end) = (message.chars().take(KEPT), message.chars().skip(count - KEPT));
+    start.chain(" ... ".chars()).chain(end).collect()
 }
 
 /// Whether the head of a message is a path (`labels[0].id`) and not the first words of a sentence.
@@ -250,6 +263,8 @@ mod tests {
             "422 Unprocessable Entity /options/color: unknown field `color`, expected `labels` at line 1 column 8"
         ]
         .assert_eq(&refusal(r#"{"color":1}"#));
+        let long = refusal(&format!(r#"{{"labels":"{}"}}"#, "x".repeat(10_000)));
+        assert!(long.len() < 400 && long.contains("xxx ... xxx"), "{long}");
         expect_test::expect!["422 Unprocessable Entity /options: missing field `labels` at line 1 column 2"]
             .assert_eq(&refusal("{}"));
         expect_test::expect!["422 Unprocessable Entity /options: must be an object"].assert_eq(&refusal(" [[]]"));
