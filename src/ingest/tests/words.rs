@@ -2,14 +2,14 @@
 
 use super::*;
 
-/// 0.05 as PyYAML 6 writes `numpy.float64(0.05)` of numpy 1.
+/// 0.05 as `PyYAML` 6 writes `numpy.float64(0.05)` of numpy 1.
 const NUMPY_SCALAR: &str = "!!python/object/apply:numpy.core.multiarray.scalar
 - !!python/object/apply:numpy.dtype
   args: [f8]
 - !!binary |
   mpmZmZmZqT8=";
 
-/// (-10, -7.5, 0) as PyYAML 6 writes a list of two scalars of numpy 2 and a number.
+/// (-10, -7.5, 0) as `PyYAML` 6 writes a list of two scalars of numpy 2 and a number.
 const NUMPY_ORIGIN: &str = "
 - !!python/object/apply:numpy._core.multiarray.scalar
   - &id001 !!python/object/apply:numpy.dtype

@@ -39,12 +39,11 @@ fn parameters(value: &str) -> Vec<(String, String)> {
     while let Some((name, after)) = rest.split_once('=') {
         let name = name.trim_matches([';', ' ', '\t']).to_ascii_lowercase();
         let value;
-        (value, rest) = match after.trim_start().strip_prefix('"') {
-            Some(quoted) => quoted_string(quoted),
-            None => {
-                let (token, rest) = after.split_at(after.find(';').unwrap_or(after.len()));
-                (token.trim().to_owned(), rest)
-            }
+        (value, rest) = if let Some(quoted) = after.trim_start().strip_prefix('"') {
+            quoted_string(quoted)
+        } else {
+            let (token, rest) = after.split_at(after.find(';').unwrap_or(after.len()));
+            (token.trim().to_owned(), rest)
         };
         parameters.push((name, value));
     }
@@ -113,15 +112,12 @@ fn unescape(text: &str, mark: char) -> Vec<u8> {
     let mut pieces = text.split(mark);
     let mut bytes = pieces.next().unwrap_or_default().as_bytes().to_vec();
     for piece in pieces {
-        match piece.get(..2).and_then(|digits| u8::from_str_radix(digits, 16).ok()) {
-            Some(byte) => {
-                bytes.push(byte);
-                bytes.extend_from_slice(&piece.as_bytes()[2..]);
-            }
-            None => {
-                bytes.push(mark as u8);
-                bytes.extend_from_slice(piece.as_bytes());
-            }
+        if let Some(byte) = piece.get(..2).and_then(|digits| u8::from_str_radix(digits, 16).ok()) {
+            bytes.push(byte);
+            bytes.extend_from_slice(&piece.as_bytes()[2..]);
+        } else {
+            bytes.push(mark as u8);
+            bytes.extend_from_slice(piece.as_bytes());
         }
     }
     bytes
