@@ -18,6 +18,8 @@ pub mod render;
 pub mod records;
 
 mod blocking;
+pub mod cql2;
+mod did_you_mean;
 mod fail_point;
 
 pub mod store;

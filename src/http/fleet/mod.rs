@@ -2,7 +2,6 @@
 //! programs.
 
 pub mod at;
-mod did_you_mean;
 pub mod distance_matrix;
 pub mod exports;
 pub mod graph_report;

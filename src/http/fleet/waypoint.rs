@@ -9,10 +9,10 @@ use utoipa::openapi::RefOr;
 use utoipa::openapi::schema::{ObjectBuilder, Schema, Type};
 use utoipa::{PartialSchema, ToSchema};
 
-use super::did_you_mean::did_you_mean;
 use super::other_crs::did_you_mean_crs;
 use crate::app::{MapContext, Nameable};
 use crate::coordinates::Transform;
+use crate::did_you_mean::did_you_mean;
 use crate::http::problem::{Problem, ProblemType};
 
 /// What an end looks like.

@@ -1,0 +1,59 @@
+//! What is wrong with a filter, and where.
+
+use std::fmt;
+
+/// A filter that cannot be used.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct FilterError {
+    place: Place,
+    detail: String,
+}
+
+/// Where in the filter.
+#[derive(Debug, Clone, PartialEq, Eq)]
+enum Place {
+    /// The detail says it.
+    Named,
+    /// A character of the text, counted from 1.
+    Column(usize),
+    /// A JSON pointer.
+    Pointer(String),
+}
+
+/// Most characters of a filter that an error repeats.
+const EXCERPT: usize = 24;
+
+impl FilterError {
+    /// The detail names the culprit itself.
+    pub(super) fn new(detail: impl Into<String>) -> Self {
+        Self { place: Place::Named, detail: detail.into() }
+    }
+
+    /// At a byte of the text.
+    pub(super) fn in_text(text: &str, byte: usize, detail: impl Into<String>) -> Self {
+        Self { place: Place::Column(text[..byte].chars().count() + 1), detail: detail.into() }
+    }
+
+    /// At a JSON pointer; the empty one is the whole filter.
+    pub(super) fn at(pointer: &str, detail: impl Into<String>) -> Self {
+        Self { place: Place::Pointer(pointer.to_owned()), detail: detail.into() }
+    }
+}
+
+impl fmt::Display for FilterError {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match &self.place {
+            Place::Column(column) => write!(formatter, "column {column}: {}", self.detail),
+            Place::Pointer(pointer) if !pointer.is_empty() => write!(formatter, "{pointer}: {}", self.detail),
+            Place::Pointer(_) | Place::Named => formatter.write_str(&self.detail),
+        }
+    }
+}
+
+/// The beginning of a text, short enough to be repeated in an error.
+pub(super) fn excerpt(text: &str) -> String {
+    match text.char_indices().nth(EXCERPT) {
+        Some((end, _)) => format!("{}...", &text[..end]),
+        None => text.to_owned(),
+    }
+}

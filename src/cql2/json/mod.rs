@@ -1,0 +1,6 @@
+//! `cql2-json`: expressions (`reader`) and the GeoJSON in them (`geojson`).
+
+mod geojson;
+mod reader;
+
+pub use reader::read;
