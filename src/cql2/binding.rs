@@ -54,13 +54,15 @@ impl<'a> Binder<'a> {
             }
             Operator::Like => {
                 let text = self.typed(&arguments[0], &[ValueType::Text], "a text for LIKE")?;
-                let Operand::Text(pattern) = self.typed(&arguments[1], &[ValueType::Text], "a pattern for LIKE")? else {
+                let Operand::Text(pattern) = self.typed(&arguments[1], &[ValueType::Text], "a pattern for LIKE")?
+                else {
                     return Err(FilterError::new("the pattern of LIKE must be a text in single quotes"));
                 };
                 Condition::Like(text, LikePattern::new(&pattern))
             }
             Operator::Between => {
-                let mut number = |index: usize| self.typed(&arguments[index], &[ValueType::Number], "a number for BETWEEN");
+                let mut number =
+                    |index: usize| self.typed(&arguments[index], &[ValueType::Number], "a number for BETWEEN");
                 Condition::Between([number(0)?, number(1)?, number(2)?])
             }
             Operator::In => {
@@ -72,9 +74,10 @@ impl<'a> Binder<'a> {
                 Condition::In(value, list.collect::<Result<_, _>>()?)
             }
             Operator::Spatial(relation) => {
-                self.spatial = self.spatial.checked_sub(1).ok_or_else(|| {
-                    FilterError::new(format!("there are more than {MAX_SPATIAL} spatial functions"))
-                })?;
+                self.spatial = self
+                    .spatial
+                    .checked_sub(1)
+                    .ok_or_else(|| FilterError::new(format!("there are more than {MAX_SPATIAL} spatial functions")))?;
                 Condition::Spatial(*relation, self.pair(*operator, arguments, &[ValueType::Geometry], "a geometry")?)
             }
             Operator::Temporal(relation) => {
@@ -124,7 +127,12 @@ impl<'a> Binder<'a> {
     }
 
     /// A value that is compared with another one and must be of its type.
-    fn alike(&mut self, first: &Expression, first_type: ValueType, expression: &Expression) -> Result<Operand, FilterError> {
+    fn alike(
+        &mut self,
+        first: &Expression,
+        first_type: ValueType,
+        expression: &Expression,
+    ) -> Result<Operand, FilterError> {
         let (operand, value_type) = self.operand(expression)?;
         if value_type == first_type {
             return Ok(operand);
@@ -141,7 +149,7 @@ impl<'a> Binder<'a> {
             Expression::Text(text) => (Operand::Text(text.clone()), ValueType::Text),
             Expression::Instant(instant) => (Operand::Instant(*instant), ValueType::Instant),
             Expression::Interval(ends) => (self.interval(ends)?, ValueType::Interval),
-            Expression::Geometry(geometry) => (self.shape(geometry.clone())?, ValueType::Geometry),
+            Expression::Geometry(geometry) => (self.shape(geometry)?, ValueType::Geometry),
             Expression::Bbox(bbox) => (self.bbox(*bbox)?, ValueType::Geometry),
             Expression::Property(name) => self.property(name)?,
             Expression::Array(values) => {
@@ -157,10 +165,10 @@ impl<'a> Binder<'a> {
                 (calculated, ValueType::Number)
             }
             Expression::Call { operator: Operator::CaseI, arguments } => self.folded(Folding::Case, &arguments[0])?,
-            Expression::Call { operator: Operator::AccentI, arguments } => self.folded(Folding::Accents, &arguments[0])?,
-            Expression::Call { .. } => {
-                (Operand::Condition(Box::new(self.condition(expression)?)), ValueType::Boolean)
+            Expression::Call { operator: Operator::AccentI, arguments } => {
+                self.folded(Folding::Accents, &arguments[0])?
             }
+            Expression::Call { .. } => (Operand::Condition(Box::new(self.condition(expression)?)), ValueType::Boolean),
         })
     }
 
@@ -177,8 +185,9 @@ impl<'a> Binder<'a> {
         let found = self.queryables.iter().position(|queryable| queryable.name == name);
         let index = found.ok_or_else(|| {
             let near = did_you_mean(&excerpt(name), self.queryables.iter().map(|queryable| queryable.name));
-            let near = near.map(|near| format!(": did you mean {near}?")).unwrap_or_default();
-            FilterError::new(format!("there is no property {}{near}", excerpt(name)))
+            let near = near.map(|near| format!("; did you mean {near}?")).unwrap_or_default();
+            let name = excerpt(name);
+            FilterError::new(format!("there is no property {name}, and a text stands in single quotes{near}"))
         })?;
         Ok((Operand::Property(index), self.queryables[index].value_type))
     }
@@ -195,7 +204,7 @@ impl<'a> Binder<'a> {
             IntervalEnd::Property(name) => match self.property(name)? {
                 (operand, ValueType::Instant) => Ok(Some(operand)),
                 (_, other) => Err(FilterError::new(format!(
-                    "expected a date or time for INTERVAL, found {}, {}",
+                    "expected a date or time for INTERVAL, found {} ({})",
                     excerpt(name),
                     other.name()
                 ))),
@@ -207,13 +216,13 @@ impl<'a> Binder<'a> {
     fn bbox(&mut self, bbox: [f64; 4]) -> Result<Operand, FilterError> {
         let [west, _, east, _] = bbox;
         match (west <= east, self.coordinates.are_degrees) {
-            (true, _) => self.shape(box_shape(bbox)),
-            (false, true) => self.shape(box_across_antimeridian(bbox)),
+            (true, _) => self.shape(&box_shape(bbox)),
+            (false, true) => self.shape(&box_across_antimeridian(bbox)),
             (false, false) => Err(FilterError::new("the box is inverted: west lies right of east")),
         }
     }
 
-    fn shape(&mut self, geometry: geo::Geometry) -> Result<Operand, FilterError> {
+    fn shape(&mut self, geometry: &geo::Geometry) -> Result<Operand, FilterError> {
         self.positions = self.positions.checked_sub(geometry.coords_count()).ok_or_else(|| {
             FilterError::new(format!("the geometries have more than {MAX_POSITIONS} positions: simplify them"))
         })?;
@@ -226,7 +235,7 @@ impl<'a> Binder<'a> {
 /// A value as an error names it.
 fn described(expression: &Expression, value_type: ValueType) -> String {
     match expression {
-        Expression::Property(name) => format!("{}, {}", excerpt(name), value_type.name()),
+        Expression::Property(name) => format!("{} ({})", excerpt(name), value_type.name()),
         Expression::Text(text) => format!("the text '{}'", excerpt(text)),
         Expression::Number(number) => format!("the number {number}"),
         Expression::Instant(Instant::Date(date)) => format!("the day {date}"),

@@ -56,7 +56,9 @@ impl IntervalEnd {
             return Ok(Self::Open);
         }
         let instant = Instant::date(text).or_else(|_| Instant::timestamp(text));
-        instant.map(Self::Instant).map_err(|_| "is not a day such as 2026-01-31, a time such as 2026-01-31T12:30:00Z or ..")
+        instant
+            .map(Self::Instant)
+            .map_err(|_| "is not a day such as 2026-01-31, a time such as 2026-01-31T12:30:00Z or ..")
     }
 }
 

@@ -81,7 +81,9 @@ fn area(rings: Vec<Vec<Coord>>) -> Result<Polygon, &'static str> {
 /// When it is none.
 pub(super) fn bbox(numbers: &[f64]) -> Result<[f64; 4], &'static str> {
     match *numbers {
-        [west, south, east, north] | [west, south, _, east, north, _] if south <= north => Ok([west, south, east, north]),
+        [west, south, east, north] | [west, south, _, east, north, _] if south <= north => {
+            Ok([west, south, east, north])
+        }
         [_, _, _, _] | [_, _, _, _, _, _] => Err("is inverted: south lies above north"),
         _ => Err("needs four or six numbers: west, south, [low,] east, north[, high]"),
     }

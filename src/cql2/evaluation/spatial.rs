@@ -2,7 +2,10 @@
 
 use std::borrow::Cow;
 
-use geo::{BoundingRect as _, Coord, CoordsIter as _, Geometry, Intersects as _, MultiPolygon, Rect, Relate as _, Validation as _};
+use geo::{
+    BoundingRect as _, Coord, CoordsIter as _, Geometry, Intersects as _, MultiPolygon, Rect, Relate as _,
+    Validation as _,
+};
 use geo::{LineString, Point};
 
 use crate::cql2::operator::SpatialRelation;

@@ -6,7 +6,7 @@ use super::geojson;
 use crate::cql2::error::{FilterError, excerpt};
 use crate::cql2::expression::Expression;
 use crate::cql2::instant::{Instant, IntervalEnd};
-use crate::cql2::limits::{MAX_BYTES, MAX_DEPTH};
+use crate::cql2::limits::{MAX_DEPTH, check_length};
 use crate::cql2::operator::Operator;
 use crate::cql2::shape;
 
@@ -15,14 +15,13 @@ use crate::cql2::shape;
 /// # Errors
 /// The JSON pointer and what was expected there; when the filter is longer or deeper than the limits.
 pub fn read(text: &str) -> Result<Expression, FilterError> {
-    if text.len() > MAX_BYTES {
-        return Err(FilterError::new(format!("is longer than {MAX_BYTES} bytes")));
-    }
+    check_length(text)?;
     let value: Value = serde_json::from_str(text).map_err(|error| {
-        // serde_json stops at 128 levels, and knows nothing else to say of them.
-        let detail = match error.is_syntax() && error.to_string().starts_with("recursion limit") {
-            true => format!("there are more than {MAX_DEPTH} levels within one another"),
-            false => format!("is not JSON from line {}, column {} on", error.line(), error.column()),
+        // serde_json stops at 128 levels, and tells it by its message alone.
+        let detail = if error.to_string().starts_with("recursion limit") {
+            format!("there are more than {MAX_DEPTH} levels within one another")
+        } else {
+            format!("is not JSON from line {}, column {} on", error.line(), error.column())
         };
         FilterError::new(detail)
     })?;

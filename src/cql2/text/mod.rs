@@ -1,7 +1,9 @@
-//! `cql2-text`: words (`token`), the place among them (`cursor`), shapes (`wkt`), and the grammar (`parser`).
+//! `cql2-text`: words (`token`), the place among them (`cursor`), shapes (`wkt`), times (`time`), and the grammar
+//! (`parser`).
 
 mod cursor;
 mod parser;
+mod time;
 mod token;
 mod wkt;
 

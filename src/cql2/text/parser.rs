@@ -6,11 +6,11 @@
 
 use super::cursor::Cursor;
 use super::token::Word;
-use super::wkt;
-use crate::cql2::error::{FilterError, excerpt};
+use super::{time, wkt};
+use crate::cql2::error::FilterError;
 use crate::cql2::expression::Expression;
-use crate::cql2::instant::{Instant, IntervalEnd};
-use crate::cql2::limits::{MAX_BYTES, MAX_DEPTH};
+use crate::cql2::instant::Instant;
+use crate::cql2::limits::{MAX_DEPTH, check_length};
 use crate::cql2::operator::{Arithmetic, Comparison, Operator};
 
 /// Reads a filter in `cql2-text`. O(length).
@@ -18,9 +18,7 @@ use crate::cql2::operator::{Arithmetic, Comparison, Operator};
 /// # Errors
 /// The column and what was expected there; when the filter is longer or deeper than the limits.
 pub fn read(text: &str) -> Result<Expression, FilterError> {
-    if text.len() > MAX_BYTES {
-        return Err(FilterError::new(format!("is longer than {MAX_BYTES} bytes")));
-    }
+    check_length(text)?;
     let mut parser = Parser { cursor: Cursor::new(text)?, nesting: 0 };
     let tree = parser.any()?;
     if *parser.cursor.peek() == Word::End {
@@ -53,7 +51,12 @@ impl Parser<'_> {
         self.joined("AND", Operator::And, Self::negation)
     }
 
-    fn joined(&mut self, keyword: &str, operator: Operator, each: fn(&mut Self) -> Result<Tree, FilterError>) -> Result<Tree, FilterError> {
+    fn joined(
+        &mut self,
+        keyword: &str,
+        operator: Operator,
+        each: fn(&mut Self) -> Result<Tree, FilterError>,
+    ) -> Result<Tree, FilterError> {
         let first = each(self)?;
         if !self.cursor.peek().is_keyword(keyword) {
             return Ok(first);
@@ -184,6 +187,7 @@ impl Parser<'_> {
             Word::Quoted(name) => Expression::Property(name),
             Word::Text(text) => Expression::Text(text),
             Word::Number(number) => Expression::Number(number),
+            word if word.is_keyword("NULL") => return Err(self.cursor.wrong("NULL is asked for with IS NULL")),
             _ => return Err(self.cursor.expected("a property, a value or a condition")),
         };
         self.cursor.next();
@@ -233,28 +237,24 @@ impl Parser<'_> {
     fn function(&mut self, name: &str) -> Result<Tree, FilterError> {
         let start = self.cursor.start();
         match name.to_ascii_uppercase().as_str() {
-            "DATE" => return self.instant(Instant::date),
-            "TIMESTAMP" => return self.instant(Instant::timestamp),
-            "INTERVAL" => return self.interval(),
+            "DATE" => return time::instant(&mut self.cursor, Instant::date).map(Tree::leaf),
+            "TIMESTAMP" => return time::instant(&mut self.cursor, Instant::timestamp).map(Tree::leaf),
+            "INTERVAL" => return time::interval(&mut self.cursor).map(Tree::leaf),
             _ if is_reserved(name) => return Err(self.cursor.expected("a property, a value or a condition")),
             _ => {}
         }
         self.cursor.next();
-        match Operator::named(name).filter(|operator| operator.is_function()) {
-            Some(operator) => {
-                let arguments = if let Operator::Array(_) = operator { self.arrays()? } else { self.entries()? };
-                if !operator.arguments().contains(&arguments.len()) {
-                    let count = operator.arguments().start().to_owned();
-                    let detail = format!("{name} takes {count} {}", if count == 1 { "argument" } else { "arguments" });
-                    return Err(self.cursor.wrong_at(start, detail));
-                }
-                self.call(operator, arguments)
-            }
-            None => {
-                let arguments = self.entries()?;
-                self.tree(arguments, |arguments| Expression::Function { name: name.to_owned(), arguments })
-            }
+        let Some(operator) = Operator::named(name).filter(|operator| operator.is_function()) else {
+            let arguments = self.entries()?;
+            return self.tree(arguments, |arguments| Expression::Function { name: name.to_owned(), arguments });
+        };
+        let arguments = if let Operator::Array(_) = operator { self.arrays()? } else { self.entries()? };
+        if !operator.arguments().contains(&arguments.len()) {
+            let count = *operator.arguments().start();
+            let detail = format!("{name} takes {count} {}", if count == 1 { "argument" } else { "arguments" });
+            return Err(self.cursor.wrong_at(start, detail));
         }
+        self.call(operator, arguments)
     }
 
     /// The arguments of an array function, where even one value between parentheses is an array.
@@ -271,44 +271,6 @@ impl Parser<'_> {
                 return Err(self.cursor.expected("a comma or )"));
             }
         }
-    }
-
-    /// `DATE('2026-01-31')`
-    fn instant(&mut self, read: fn(&str) -> Result<Instant, &'static str>) -> Result<Tree, FilterError> {
-        self.cursor.next();
-        self.cursor.expect_sign("(")?;
-        let instant = self.literal(read)?;
-        self.cursor.expect_sign(")")?;
-        Ok(Tree::leaf(Expression::Instant(instant)))
-    }
-
-    /// `INTERVAL('2026-01-31', '..')`
-    fn interval(&mut self) -> Result<Tree, FilterError> {
-        self.cursor.next();
-        self.cursor.expect_sign("(")?;
-        let start = self.interval_end()?;
-        self.cursor.expect_sign(",")?;
-        let end = self.interval_end()?;
-        self.cursor.expect_sign(")")?;
-        Ok(Tree::leaf(Expression::Interval([start, end])))
-    }
-
-    fn interval_end(&mut self) -> Result<IntervalEnd, FilterError> {
-        match self.cursor.peek().clone() {
-            Word::Name(name) | Word::Quoted(name) => {
-                self.cursor.next();
-                Ok(IntervalEnd::Property(name))
-            }
-            _ => self.literal(IntervalEnd::read),
-        }
-    }
-
-    /// A text that is read as something.
-    fn literal<T>(&mut self, read: impl Fn(&str) -> Result<T, &'static str>) -> Result<T, FilterError> {
-        let Word::Text(text) = self.cursor.peek() else { return Err(self.cursor.expected("a text in single quotes")) };
-        let value = read(text).map_err(|detail| self.cursor.wrong(format!("'{}' {detail}", excerpt(text))))?;
-        self.cursor.next();
-        Ok(value)
     }
 
     /// Reads something one level deeper.

@@ -74,8 +74,7 @@ const NAME_STARTS: [(char, char); 16] = [
 ];
 
 /// Which characters it goes on with besides.
-const NAME_PARTS: [(char, char); 4] =
-    [('.', '.'), ('0', '9'), ('\u{300}', '\u{36F}'), ('\u{203F}', '\u{2040}')];
+const NAME_PARTS: [(char, char); 4] = [('.', '.'), ('0', '9'), ('\u{300}', '\u{36F}'), ('\u{203F}', '\u{2040}')];
 
 fn is_in(ranges: &[(char, char)], character: char) -> bool {
     ranges.iter().any(|&(first, last)| (first..=last).contains(&character))
@@ -159,7 +158,9 @@ fn number(rest: &str) -> Result<(Word, usize), String> {
         }
     }
     let number = rest[..length].parse().ok().filter(|number: &f64| has_digits && number.is_finite());
-    number.map(|number| (Word::Number(number), length)).ok_or_else(|| format!("{} is no number", excerpt(&rest[..length])))
+    number
+        .map(|number| (Word::Number(number), length))
+        .ok_or_else(|| format!("{} is no number", excerpt(&rest[..length])))
 }
 
 #[cfg(test)]

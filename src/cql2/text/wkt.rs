@@ -18,7 +18,8 @@ pub fn read(cursor: &mut Cursor<'_>) -> Result<Option<Expression>, FilterError> 
         return bbox(cursor).map(Some);
     }
     let Some(shape_type) = shape_type(cursor) else { return Ok(None) };
-    let geometry = if shape_type == ShapeType::GeometryCollection { collection(cursor) } else { tagged(cursor, shape_type) };
+    let geometry =
+        if shape_type == ShapeType::GeometryCollection { collection(cursor) } else { tagged(cursor, shape_type) };
     geometry.map(|geometry| Some(Expression::Geometry(geometry)))
 }
 
