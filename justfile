@@ -30,7 +30,7 @@ bench:
 # Re-bless golden data: expected texts, golden files and the OpenAPI document.
 bless:
     UPDATE_EXPECT=1 cargo test --workspace
-    cargo run -- openapi --write openapi/openapi.json
+    cargo run -- openapi --write openapi
 
 # What continuous integration runs.
 ci:

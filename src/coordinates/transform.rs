@@ -2,17 +2,8 @@
 
 use stillage_core::Point;
 
+use super::crs::Crs;
 use super::georeference::Georeference;
-
-/// Coordinates of an answer.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Crs {
-    /// Longitude, latitude.
-    #[default]
-    Crs84,
-    /// EPSG:3857; for a map without georeference these are the metres of the map frame.
-    WebMercator,
-}
 
 /// Radius of the sphere of EPSG:3857, which is the equatorial radius of WGS 84, metres.
 const RADIUS: f64 = 6_378_137.0;
@@ -101,6 +92,8 @@ impl Transform {
             (Crs::Crs84, None) => from_mercator([point.x, point.y]),
             (Crs::Crs84, Some(anchor)) => anchor.to_degrees(point),
             (Crs::WebMercator, Some(anchor)) => to_mercator(anchor.to_degrees(point)),
+            (Crs::Utm(zone), None) => zone.forward(from_mercator([point.x, point.y])),
+            (Crs::Utm(zone), Some(anchor)) => zone.forward(anchor.to_degrees(point)),
         }
     }
 
@@ -122,14 +115,20 @@ impl Transform {
             (Crs::Crs84, None) => Point::from(to_mercator(position)),
             (Crs::Crs84, Some(anchor)) => anchor.to_metres(position),
             (Crs::WebMercator, Some(anchor)) => anchor.to_metres(from_mercator(position)),
+            (Crs::Utm(zone), None) => Point::from(to_mercator(zone.inverse(position))),
+            (Crs::Utm(zone), Some(anchor)) => anchor.to_metres(zone.inverse(position)),
         }
     }
 
-    /// Map-frame metres -> metres eastwards and northwards of the map frame's origin. A box of coordinates is a rectangle
-    /// along the axes there, whatever the system.
+    /// Map-frame metres -> metres of a frame in which a box of coordinates is a rectangle along the axes: for degrees and
+    /// Web Mercator that is eastwards and northwards of the map frame's origin, for UTM its own easting and northing.
     #[must_use]
-    pub fn eastwards_northwards(&self, point: Point) -> Point {
-        self.anchor.map_or(point, |anchor| anchor.eastwards_northwards(point))
+    pub fn upright(&self, point: Point) -> Point {
+        match (self.crs, self.anchor) {
+            (Crs::Utm(_), _) => Point::from(self.forward(point)),
+            (_, Some(anchor)) => anchor.eastwards_northwards(point),
+            (_, None) => point,
+        }
     }
 }
 
@@ -171,12 +170,25 @@ mod tests {
         assert!(lon > 12.8572 && (lat - 56.6745).abs() < 1e-12, "east is up");
     }
 
+    #[test]
+    fn a_georeferenced_map_is_metres_of_its_zone() {
+        let crs = Crs::of_map(Some(HALMSTAD)).pop().expect("has systems");
+        assert_eq!(crs.epsg(), Some(32_633));
+        let transform = Transform::new(crs, Some(HALMSTAD));
+        let [origin, beside] = [Point::origin(), Point::new(30.0, 40.0)].map(|point| transform.forward(point));
+        assert!((origin[0] - 368_707.235_5).abs() < 1e-4 && (origin[1] - 6_283_205.508_5).abs() < 1e-4, "{origin:?}");
+        // Two degrees from its middle meridian a zone is some 0.02 % too small.
+        let distance = (beside[0] - origin[0]).hypot(beside[1] - origin[1]);
+        assert!((distance / 50.0 - 0.9998).abs() < 2e-4, "{distance}");
+        assert_eq!(Crs::of_map(None), [Crs::Crs84, Crs::WebMercator]);
+    }
+
     proptest! {
         #[test]
         fn there_and_back(x in -5_000.0..5_000.0, y in -5_000.0..5_000.0, heading in -360.0..360.0) {
             let point = Point::new(x, y);
-            for crs in [Crs::Crs84, Crs::WebMercator] {
-                for georeference in [None, Some(Georeference { heading, ..HALMSTAD })] {
+            for georeference in [None, Some(Georeference { heading, ..HALMSTAD })] {
+                for crs in Crs::of_map(georeference) {
                     let transform = Transform::new(crs, georeference);
                     prop_assert!((transform.inverse(transform.forward(point)) - point).norm() < 1e-6);
                 }

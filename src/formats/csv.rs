@@ -1,7 +1,9 @@
-//! The storage locations as a table for spreadsheets and inventory systems.
+//! Features as tables for spreadsheets and inventory systems.
 
+use super::wkt;
+use crate::coordinates::Transform;
 use crate::features::rows::locations::LocationRow;
-use crate::features::{Feature, Row, Value};
+use crate::features::{Collection, CollectionSchema, Feature, Row, Value};
 
 /// Reads a cell off a location.
 pub(crate) type ReadCell = fn(&LocationRow) -> Value<'_>;
@@ -41,15 +43,38 @@ pub fn locations<'a>(features: impl IntoIterator<Item = &'a Feature>) -> Vec<u8>
     table(&COLUMNS.map(|(name, _)| name), rows)
 }
 
+/// Features of a collection as CSV, a row each: their properties in the order of the schema, lists and poses as JSON, then
+/// the shape as well-known text in the coordinates of the transform.
+#[must_use]
+pub fn collection<'a>(
+    collection: Collection,
+    features: impl IntoIterator<Item = &'a Feature>,
+    transform: &Transform,
+) -> Vec<u8> {
+    let properties = &CollectionSchema::of(collection).properties;
+    let names: Vec<&str> = properties.iter().map(|property| property.name).chain(["geometry"]).collect();
+    records(
+        &names,
+        features.into_iter().map(|feature| {
+            let values = feature.properties().map(|(_, value)| cell(value));
+            values.chain([wkt::geometry(&feature.geometry, transform)]).collect::<Vec<_>>()
+        }),
+    )
+}
+
 /// A table as CSV (RFC 4180); each row has a value for each name.
 ///
 /// Text that a spreadsheet would run as a formula is preceded by an apostrophe.
 pub(crate) fn table<'a, R: AsRef<[Value<'a>]>>(names: &[&str], rows: impl IntoIterator<Item = R>) -> Vec<u8> {
+    records(names, rows.into_iter().map(|row| row.as_ref().iter().map(|&value| cell(value)).collect::<Vec<_>>()))
+}
+
+fn records(names: &[&str], rows: impl IntoIterator<Item = Vec<String>>) -> Vec<u8> {
     const FITS: &str = "rows of equal length always fit into memory";
     let mut writer = csv::WriterBuilder::new().terminator(csv::Terminator::CRLF).from_writer(Vec::new());
     writer.write_record(names).expect(FITS);
     for row in rows {
-        writer.write_record(row.as_ref().iter().map(|&value| cell(value))).expect(FITS);
+        writer.write_record(row).expect(FITS);
     }
     writer.into_inner().expect("a buffer in memory takes every byte")
 }

@@ -51,6 +51,15 @@ pub fn feature_collection<'a>(
     transform: &Transform,
     members: Members<'_>,
 ) -> Vec<u8> {
+    write_collection(features, members, |feature, out| write_feature(feature, transform, &[], out))
+}
+
+/// A `FeatureCollection` whose features are written in a way of their own.
+pub(super) fn write_collection<'a>(
+    features: impl IntoIterator<Item = &'a Feature>,
+    members: Members<'_>,
+    write: impl Fn(&'a Feature, &mut Vec<u8>),
+) -> Vec<u8> {
     let mut out = b"{\"type\":\"FeatureCollection\"".to_vec();
     for (name, value) in members {
         out.push(b',');
@@ -60,7 +69,7 @@ pub fn feature_collection<'a>(
     // A feature a line: readable, and small differences stay small.
     json::list(features, &mut out, |feature, out| {
         out.push(b'\n');
-        write_feature(feature, transform, &[], out);
+        write(feature, out);
     });
     out.extend_from_slice(b"}\n");
     out
@@ -93,7 +102,7 @@ impl Serialize for Properties<'_> {
     }
 }
 
-fn write_feature(feature: &Feature, transform: &Transform, members: Members<'_>, out: &mut Vec<u8>) {
+pub(super) fn write_feature(feature: &Feature, transform: &Transform, members: Members<'_>, out: &mut Vec<u8>) {
     let properties = Properties(feature);
     let document =
         GeoJsonFeature { id: Some(&feature.id), geometry: &feature.geometry, properties: &properties, members };
@@ -117,7 +126,7 @@ fn write_document(document: &GeoJsonFeature<'_>, transform: &Transform, out: &mu
     out.push(b'}');
 }
 
-fn write_geometry(geometry: &Geometry, transform: &Transform, out: &mut Vec<u8>) {
+pub(super) fn write_geometry(geometry: &Geometry, transform: &Transform, out: &mut Vec<u8>) {
     out.extend_from_slice(b"{\"type\":\"");
     out.extend_from_slice(geometry.geometry_type().name().as_bytes());
     out.extend_from_slice(b"\",\"coordinates\":");
@@ -143,9 +152,9 @@ fn write_position(point: Point, transform: &Transform, out: &mut Vec<u8>) {
 }
 
 /// Decimals worth writing: nine of a degree and four of a metre are a tenth of a millimetre.
-const fn decimals(crs: Crs) -> u32 {
+pub(super) const fn decimals(crs: Crs) -> u32 {
     match crs {
         Crs::Crs84 => 9,
-        Crs::WebMercator => 4,
+        Crs::WebMercator | Crs::Utm(_) => 4,
     }
 }

@@ -4,7 +4,9 @@ pub mod csv;
 pub mod flatgeobuf;
 pub mod geojson;
 mod json;
+pub mod json_fg;
 #[cfg(test)]
 mod tests;
+mod wkt;
 
 pub use json::Json;

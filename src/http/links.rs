@@ -16,12 +16,22 @@ pub const JSON: &str = "application/json";
 pub const GEO_JSON: &str = "application/geo+json";
 /// Comma-separated values (RFC 4180).
 pub const CSV: &str = "text/csv";
+/// OGC Features and Geometries JSON, version 1.0.
+pub const JSON_FG: &str = "application/fg+json";
+/// The binary format of features.
+pub const FLAT_GEOBUF: &str = "application/flatgeobuf";
+/// A page for people.
+pub const HTML: &str = "text/html";
+/// A JSON Schema.
+pub const JSON_SCHEMA: &str = "application/schema+json";
 /// Portable Network Graphics.
 pub const PNG: &str = "image/png";
 /// A drawing.
 pub const SVG: &str = "image/svg+xml";
 /// An OpenAPI 3.1 document.
-pub const OPENAPI: &str = "application/vnd.oai.openapi+json;version=3.1";
+pub const OPENAPI_3_1: &str = "application/vnd.oai.openapi+json;version=3.1";
+/// An OpenAPI 3.0 document, the version that GIS read.
+pub const OPENAPI_3_0: &str = "application/vnd.oai.openapi+json;version=3.0";
 
 /// A link as the value of a `Link` header (RFC 8288).
 #[must_use]

@@ -14,6 +14,7 @@ mod guard;
 pub(crate) mod links;
 mod maps;
 mod ogc;
+mod page;
 mod paging;
 pub(crate) mod problem;
 mod public_address;
@@ -24,14 +25,15 @@ use axum::Router;
 use axum::extract::DefaultBodyLimit;
 use axum::http::{HeaderName, HeaderValue, header};
 use axum::middleware::{from_fn, from_fn_with_state};
-use axum::routing::get;
 use axum::{Extension, extract::Request, middleware::Next, response::Response};
-use tower::ServiceBuilder;
+use tower::{ServiceBuilder, util::MapRequest};
 use tower_http::catch_panic::CatchPanicLayer;
 use tower_http::compression::CompressionLayer;
 use tower_http::limit::RequestBodyLimitLayer;
 use utoipa_axum::router::{OpenApiRouter, UtoipaMethodRouterExt};
 use utoipa_axum::routes;
+
+pub use docs::Texts as OpenApiTexts;
 
 use crate::app::App;
 
@@ -58,6 +60,7 @@ fn answered_in_time() -> OpenApiRouter<Arc<App>> {
     OpenApiRouter::new()
         .routes(routes!(docs::landing))
         .routes(routes!(docs::openapi))
+        .routes(routes!(docs::openapi_3_0))
         .routes(routes!(docs::problem_types::describe))
         .routes(routes!(admin::health::live))
         .routes(routes!(admin::health::ready))
@@ -80,6 +83,8 @@ fn answered_in_time() -> OpenApiRouter<Arc<App>> {
         .routes(routes!(maps::semantics::categories))
         .routes(routes!(maps::semantics::get, maps::semantics::assign))
         .routes(routes!(maps::semantics::versions))
+        .routes(routes!(docs::map_api))
+        .routes(routes!(ogc::conformance::get))
         .routes(routes!(ogc::collections::list))
         .routes(routes!(ogc::collections::get))
         .routes(routes!(ogc::items::list))
@@ -102,10 +107,10 @@ fn answered_in_time() -> OpenApiRouter<Arc<App>> {
         .routes(routes!(maps::rule_sets::get, maps::rule_sets::replace, maps::rule_sets::delete))
 }
 
-/// The OpenAPI 3.1 document of the service, as it is served and as it lies in `openapi/openapi.json`.
+/// The OpenAPI documents of the service, as they are served and as they lie in `openapi/`.
 #[must_use]
-pub fn openapi_json() -> String {
-    docs::openapi::write(&document(routes(BODY_BYTES)).1)
+pub fn openapi_texts() -> OpenApiTexts {
+    OpenApiTexts::of(&docs::openapi::value(&document(routes(BODY_BYTES)).1))
 }
 
 fn document<S: Clone + Send + Sync + 'static>(routes: OpenApiRouter<S>) -> (Router<S>, utoipa::openapi::OpenApi) {
@@ -117,7 +122,8 @@ fn document<S: Clone + Send + Sync + 'static>(routes: OpenApiRouter<S>) -> (Rout
 /// The routes of the service, with all that lies around them.
 ///
 /// From the outside in: id, log line and metrics of the request; headers for browsers; entity tags by coding, around
-/// the compression; bodies of problems; panics; checks of host and origin, around the address that proxies tell; pace and coding of bodies; unknown parameters; `Accept`.
+/// the compression; bodies of problems; panics; checks of host and origin, around the address that proxies tell; pace and
+/// coding of bodies; formats; unknown parameters; `Accept`.
 pub fn router(app: Arc<App>) -> Router {
     let upload_bytes = app.config().limits.max_bytes + maps::upload::FORM_OVERHEAD_BYTES;
     let (router, document) = document(routes(upload_bytes));
@@ -135,17 +141,15 @@ pub fn router(app: Arc<App>) -> Router {
         .layer(from_fn(guard::other_origins))
         .layer(from_fn(guard::at_pace))
         .layer(from_fn(extract::coding::decoded))
+        .layer(from_fn(extract::format::format_parameter))
         .layer(from_fn_with_state(known, guard::known_parameters))
         .layer(from_fn(extract::negotiation::negotiate))
         .layer(DefaultBodyLimit::max(BODY_BYTES))
         .layer(Extension(metrics))
-        .layer(Extension(docs::Document::new(docs::openapi::write(&document))));
-    router
-        // Clients that take a map for the root of an API ask for it with a slash.
-        .route("/v1/maps/{mapId}/", get(maps::map::get).layer(from_fn(guard::in_time)))
-        .merge(docs::reference_page())
-        .layer(layers)
-        .with_state(app)
+        .layer(Extension(docs::Documents::of(&docs::openapi::value(&document))));
+    let router = router.merge(docs::reference_page()).layer(layers).with_state(app);
+    // Addresses are mended before they are looked up in the list of routes.
+    Router::new().fallback_service(MapRequest::new(router, guard::without_last_slash as fn(Request) -> Request))
 }
 
 /// Middleware: nothing is sniffed, framed or loaded from elsewhere.
@@ -167,8 +171,11 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_document_in_the_repository_is_that_of_the_code() {
-        // `UPDATE_EXPECT=1 cargo test`, or `stillage openapi --write`, writes it anew.
-        expect_test::expect_file!["../../openapi/openapi.json"].assert_eq(&openapi_json());
+    fn the_documents_in_the_repository_are_those_of_the_code() {
+        // `UPDATE_EXPECT=1 cargo test`, or `stillage openapi --write`, writes them anew.
+        let texts = openapi_texts();
+        expect_test::expect_file!["../../openapi/openapi.json"].assert_eq(&texts.version_3_1);
+        expect_test::expect_file!["../../openapi/openapi-3.0.json"].assert_eq(&texts.version_3_0);
+        expect_test::expect_file!["../../openapi/map-3.0.json"].assert_eq(&texts.of_map);
     }
 }

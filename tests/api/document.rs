@@ -125,6 +125,8 @@ async fn valid(site: &Site, operation: &str) -> (Sent, &'static [u16]) {
         "getReadiness" => get("/health/ready".into()),
         "getMetrics" => get("/metrics".into()),
         "getOpenApi" => get("/openapi.json".into()),
+        "getOpenApi30" => get("/openapi-3.0.json".into()),
+        "getMapApi" => get(format!("{map}/api")),
         "getProblemType" => get("/problems/busy".into()),
         "listJobs" => get("/v1/jobs".into()),
         "getJob" => get(format!("/v1/jobs/{}", site.over)),
@@ -174,6 +176,7 @@ async fn valid(site: &Site, operation: &str) -> (Sent, &'static [u16]) {
             (Sent::new(Method::PUT, format!("{map}/semantics")).json(&assignment).with("if-match", "*"), &[200])
         }
         "listSemanticsVersions" => get(format!("{map}/semantics/versions")),
+        "getConformance" => get(format!("{map}/conformance")),
         "listCollections" => get(format!("{map}/collections")),
         "getCollection" => get(format!("{map}/collections/doors")),
         "getFeatures" => get(format!("{map}/collections/faces/items")),

@@ -7,7 +7,7 @@ use crate::client::{Api, HALL, METADATA, pgm, upload};
 
 const CRS84: &str = "http://www.opengis.net/def/crs/OGC/1.3/CRS84";
 const EPSG_3857: &str = "http://www.opengis.net/def/crs/EPSG/0/3857";
-const COLLECTIONS: [&str; 12] = [
+pub const COLLECTIONS: [&str; 12] = [
     "faces",
     "edges",
     "vertices",
@@ -147,7 +147,6 @@ async fn bad_values_are_refused_by_name() {
     let map = api.hall().await;
     for (query, parameter) in [
         ("limit=0", "limit"),
-        ("limit=10001", "limit"),
         ("limit=-1", "limit"),
         ("bbox=1,2,3", "bbox"),
         ("bbox=1,2,3,x", "bbox"),
@@ -161,8 +160,10 @@ async fn bad_values_are_refused_by_name() {
         ("sortby=colour", "sortby"),
         ("sortby=edges", "sortby"),
         ("sortby=areaM2&after=999999", "after"),
-        ("f=html", "f"),
-        ("f=csv", "f"),
+        ("crs=EPSG:32633", "crs"),
+        ("datetime=yesterday", "datetime"),
+        ("f=xml", "f"),
+        ("f=json&f=csv", "f"),
         ("offset=3", "offset"),
         ("filter=label='co'", "filter"),
     ] {
@@ -224,9 +225,21 @@ async fn media_types_of_items() {
     for accept in ["*/*", "application/geo+json", "application/json", "application/geo+json, application/json"] {
         assert_eq!(api.get_with(&faces, &[("accept", accept)]).await.header("content-type"), "application/geo+json");
     }
-    for accept in ["text/html", "application/fg+json", "text/csv"] {
-        api.get_with(&faces, &[("accept", accept)]).await.problem(406, "not-acceptable");
+    for (name, accept, media_type) in [
+        ("json", "application/json", "application/geo+json"),
+        ("geojson", "application/geo+json", "application/geo+json"),
+        ("jsonfg", "application/fg+json", "application/fg+json"),
+        ("html", "text/html", "text/html; charset=utf-8"),
+        ("csv", "text/csv", "text/csv; charset=utf-8"),
+        ("fgb", "application/flatgeobuf", "application/flatgeobuf"),
+    ] {
+        let accepted = api.get_with(&faces, &[("accept", accept)]).await;
+        let named = api.get(&format!("{faces}?f={name}")).await;
+        assert_eq!((accepted.header("content-type"), named.header("content-type")), (media_type, media_type));
+        assert_eq!((accepted.body, accepted.headers["etag"].clone()), (named.body, named.headers["etag"].clone()));
     }
+    api.get_with(&faces, &[("accept", "image/png")]).await.problem(406, "not-acceptable");
+    api.get(&format!("{map}/collections?f=csv")).await.problem(400, "bad-parameter");
 }
 
 #[tokio::test]

@@ -69,7 +69,9 @@ async fn media_types_are_negotiated() {
     for accept in ["*/*", "application/json", "application/geo+json", "text/html,application/xml;q=0.9,*/*;q=0.8"] {
         assert_eq!(api.get_with("/", &[("accept", accept)]).await.status, 200, "{accept}");
     }
-    let answer = api.get_with("/", &[("accept", "text/html")]).await;
+    let page = api.get_with("/", &[("accept", "text/html")]).await;
+    assert_eq!((page.status.as_u16(), page.header("content-type")), (200, "text/html; charset=utf-8"));
+    let answer = api.get_with("/", &[("accept", "image/png")]).await;
     answer.problem(406, "not-acceptable");
     assert_eq!(answer.header("vary").split(", ").next(), Some("accept"));
 }
@@ -123,6 +125,16 @@ async fn pages_of_other_sites_read_and_do_not_write() {
     assert_eq!(answer.header("access-control-allow-methods"), "GET, HEAD");
     let foreign = [("origin", "https://example.org"), ("content-type", "multipart/form-data; boundary=x")];
     api.send(request(Method::POST, "/v1/maps", &foreign, Body::from("--x--"))).await.problem(403, "cross-origin-write");
+}
+
+#[tokio::test]
+async fn a_slash_at_the_end_changes_nothing() {
+    let api = Api::new().await;
+    let map = api.hall().await;
+    for path in ["/v1/maps", &map, &format!("{map}/collections"), &format!("{map}/collections/faces/items")] {
+        let answer = api.get(&format!("{path}/?f=json")).await;
+        assert_eq!((answer.status.as_u16(), answer.body), (200, api.get(path).await.body), "{path}");
+    }
 }
 
 #[tokio::test]

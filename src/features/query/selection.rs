@@ -9,9 +9,8 @@ use crate::features::geometry::Geometry;
 
 /// A box in the coordinates of a client, ready to be compared with features.
 ///
-/// Meridians and parallels are straight lines in every coordinate system of a map, so the box is a rectangle in metres
-/// eastwards and northwards of the map frame's origin. Features are turned into that frame when they are compared,
-/// which costs four multiplications for each point.
+/// The box is a rectangle in the frame of [`Transform::upright`]. Features are brought into that frame when they are
+/// compared, which costs four multiplications for each point, and a projection where the box is one of UTM.
 #[derive(Debug)]
 pub struct BoxSelection {
     transform: Transform,
@@ -21,10 +20,10 @@ pub struct BoxSelection {
 
 #[derive(Debug)]
 struct Part {
-    /// In metres eastwards and northwards.
+    /// In the upright frame.
     rectangle: Bounds,
-    /// Around it, in map-frame metres.
-    bounds: Bounds,
+    /// Around it, in map-frame metres; none in UTM, whose boxes have bent sides there.
+    bounds: Option<Bounds>,
 }
 
 impl BoxSelection {
@@ -39,13 +38,17 @@ impl BoxSelection {
             _ if south > north => return Err("is inverted: south lies above north"),
             _ if west <= east => vec![[west, south, east, north]],
             Crs::Crs84 => vec![[west, south, 180.0, north], [-180.0, south, east, north]],
-            Crs::WebMercator => return Err("is inverted: west lies right of east"),
+            Crs::WebMercator | Crs::Utm(_) => return Err("is inverted: west lies right of east"),
         };
         let part = |[west, south, east, north]: [f64; 4]| {
+            if let Crs::Utm(_) = transform.crs() {
+                let rectangle = Bounds { low: Point::new(west, south), high: Point::new(east, north) };
+                return Part { rectangle, bounds: None };
+            }
             let corners = [[west, south], [east, south], [east, north], [west, north]];
             let corners = corners.map(|corner| transform.inverse(corner));
-            let rectangle = Bounds::around(&corners.map(|corner| transform.eastwards_northwards(corner)));
-            Part { rectangle, bounds: Bounds::around(&corners) }
+            let rectangle = Bounds::around(&corners.map(|corner| transform.upright(corner)));
+            Part { rectangle, bounds: Some(Bounds::around(&corners)) }
         };
         Ok(Self { transform, parts: boxes.into_iter().map(part).collect() })
     }
@@ -58,17 +61,16 @@ impl BoxSelection {
 
     fn meets_geometry(&self, bounds: &Bounds, geometry: &Geometry) -> bool {
         self.parts.iter().any(|part| {
-            bounds.meets(&part.bounds) && {
-                let is_inside = |corner: Point| part.rectangle.contains(self.transform.eastwards_northwards(corner));
+            part.bounds.is_none_or(|around| bounds.meets(&around)) && {
+                let is_inside = |corner: Point| part.rectangle.contains(self.transform.upright(corner));
                 bounds.corners().into_iter().all(is_inside) || self.meets_shape(part, geometry)
             }
         })
     }
 
     fn meets_shape(&self, part: &Part, geometry: &Geometry) -> bool {
-        let turned = |points: &Vec<Point>| -> Vec<Point> {
-            points.iter().map(|&point| self.transform.eastwards_northwards(point)).collect()
-        };
+        let turned =
+            |points: &Vec<Point>| -> Vec<Point> { points.iter().map(|&point| self.transform.upright(point)).collect() };
         let path = |points: &Vec<Point>| {
             turned(points).windows(2).any(|pair| part.rectangle.meets_segment([pair[0], pair[1]]))
         };
@@ -79,7 +81,7 @@ impl BoxSelection {
                 || polygon::contains(&rings, part.rectangle.low)
         };
         match geometry {
-            Geometry::Point(point) => part.rectangle.contains(self.transform.eastwards_northwards(*point)),
+            Geometry::Point(point) => part.rectangle.contains(self.transform.upright(*point)),
             Geometry::LineString(points) => path(points),
             Geometry::MultiLineString(paths) => paths.iter().any(path),
             Geometry::Polygon(rings) => area(rings),
@@ -139,6 +141,19 @@ mod tests {
         assert!(select([lon - 1e-6, lat - 1e-6, lon + 1e-6, lat + 1e-6]));
         assert!(!select([lon + 1e-6, lat - 1e-6, lon + 2e-6, lat + 1e-6]));
         assert!(select([-180.0, -90.0, 180.0, 90.0]));
+    }
+
+    #[test]
+    fn a_box_of_utm_selects_along_the_axes_of_its_zone() {
+        let georeference = Georeference { lon: 12.8, lat: 56.6, heading: 30.0 };
+        let crs = Crs::of_map(Some(georeference)).pop().expect("has systems");
+        let transform = Transform::new(crs, Some(georeference));
+        let shape = Geometry::LineString(vec![Point::new(100.0, 40.0), Point::new(300.0, 40.0)]);
+        let [easting, northing] = transform.forward(Point::new(200.0, 40.0));
+        let select = |bbox| meets(&BoxSelection::new(bbox, transform).expect("is a box"), &shape);
+        assert!(select([easting - 0.01, northing - 0.01, easting + 0.01, northing + 0.01]));
+        assert!(!select([easting + 1.0, northing + 1.0, easting + 2.0, northing + 2.0]));
+        assert!(select([0.0, 0.0, 1e6, 1e7]), "the whole zone");
     }
 
     proptest! {

@@ -89,11 +89,9 @@ impl FileShape {
 }
 
 fn crs(crs: Crs) -> FlatTable<'static> {
-    let code = match crs {
-        Crs::Crs84 => 4326,
-        Crs::WebMercator => 3857,
-    };
-    FlatTable(vec![(0, Field::Text("EPSG")), (1, Field::Int(code))])
+    // Degrees are those of EPSG:4326: this format has the longitude first, whatever the registry says.
+    let code = crs.epsg().unwrap_or(4326);
+    FlatTable(vec![(0, Field::Text("EPSG")), (1, Field::Int(code as i32))])
 }
 
 fn column((index, property): (usize, &Property)) -> FlatTable<'static> {

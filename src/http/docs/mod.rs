@@ -1,19 +1,33 @@
-//! The front door, the OpenAPI document and the reference page made of it. Nothing loads from elsewhere.
+//! The front door, the OpenAPI documents and the reference page made of them. Nothing loads from elsewhere.
 
+mod for_clients;
+mod of_map;
 pub mod openapi;
 pub mod problem_types;
 pub mod refusals;
+mod version_3_0;
 
-use axum::Json;
+use std::sync::Arc;
+
+use axum::Extension;
+use axum::extract::State;
+use axum::http::header::CONTENT_TYPE;
 use axum::response::{IntoResponse, Response};
 use bytes::Bytes;
 use serde::Serialize;
+use serde_json::Value;
 use utoipa::ToSchema;
 use utoipa_swagger_ui::{Config, SwaggerUi};
 
+use crate::app::{App, Caller};
 use crate::http::extract::conditional::{EntityTag, IfNoneMatch};
-use crate::http::links::{Base, JSON, OPENAPI};
+use crate::http::extract::negotiation::Accept;
+use crate::http::extract::{MapPath, Path};
+use crate::http::links::{Base, HTML, JSON, OPENAPI_3_0, OPENAPI_3_1};
+use crate::http::page;
+use crate::http::problem::Problem;
 use crate::views::link::Link;
+use refusals::NotFound;
 
 /// The front door.
 #[derive(Debug, Serialize, ToSchema)]
@@ -28,25 +42,29 @@ pub struct LandingPage {
 ///
 /// Leads to everything else.
 #[utoipa::path(get, path = "/", tag = "service", operation_id = "getLandingPage",
-    responses((status = 200, description = "The landing page", body = LandingPage)))]
-pub async fn landing(base: Base) -> Json<LandingPage> {
-    Json(LandingPage {
+    responses((status = 200, description = "The landing page",
+        content((LandingPage = "application/json"), (String = "text/html")))))]
+pub async fn landing(base: Base, accept: Accept) -> Response {
+    let view = LandingPage {
         title: "stillage",
         description: env!("CARGO_PKG_DESCRIPTION"),
         version: env!("CARGO_PKG_VERSION"),
         links: vec![
             base.link("self", "/", JSON),
-            base.link("service-desc", "/openapi.json", OPENAPI).titled("The API as an OpenAPI 3.1 document"),
-            base.link("service-doc", "/docs/", "text/html").titled("The API reference"),
+            base.link("alternate", "/?f=html", HTML).titled("This document as a page"),
+            base.link("service-desc", "/openapi-3.0.json", OPENAPI_3_0).titled("The API as an OpenAPI 3.0 document"),
+            base.link("related", "/openapi.json", OPENAPI_3_1).titled("The API as an OpenAPI 3.1 document"),
+            base.link("service-doc", "/docs/", HTML).titled("The API reference"),
             base.link("status", "/health/ready", JSON).titled("Readiness"),
             base.link("data", "/v1/maps", JSON).titled("The maps"),
             base.link("http://www.opengis.net/def/rel/ogc/1.0/job-list", "/v1/jobs", JSON).titled("The jobs"),
             base.link("related", "/v1/rule-sets", JSON).titled("The rule sets"),
         ],
-    })
+    };
+    page::answer(&accept, view.title, &view)
 }
 
-/// The OpenAPI document, written once, with its tag.
+/// A document, written once, with its tag.
 #[derive(Debug, Clone)]
 pub struct Document {
     bytes: Bytes,
@@ -54,12 +72,59 @@ pub struct Document {
 }
 
 impl Document {
-    /// The document in these bytes.
-    #[must_use]
-    pub fn new(bytes: impl Into<Bytes>) -> Self {
-        let bytes = bytes.into();
+    fn new(text: String) -> Self {
+        let bytes = Bytes::from(text);
         let tag = EntityTag::of_content(&[&blake3::hash(&bytes).to_hex()]);
         Self { bytes, tag }
+    }
+
+    fn answer(self, if_none_match: &IfNoneMatch, media_type: &'static str) -> Response {
+        let Self { bytes, tag } = self;
+        tag.answer(if_none_match, || ([(CONTENT_TYPE, media_type)], bytes).into_response())
+    }
+}
+
+/// The OpenAPI documents of the service.
+#[derive(Debug, Clone)]
+pub struct Documents {
+    version_3_1: Document,
+    version_3_0: Document,
+    /// That of a map, in version 3.0; [`of_map::SERVER`] stands for the address of the map.
+    of_map: Arc<str>,
+}
+
+impl Documents {
+    /// Those of a document in version 3.1.
+    #[must_use]
+    pub fn of(version_3_1: &Value) -> Self {
+        let texts = Texts::of(version_3_1);
+        Self {
+            version_3_1: Document::new(texts.version_3_1),
+            version_3_0: Document::new(texts.version_3_0),
+            of_map: texts.of_map.into(),
+        }
+    }
+}
+
+/// The OpenAPI documents as they are served and stored.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Texts {
+    /// The API in OpenAPI 3.1.
+    pub version_3_1: String,
+    /// The API in OpenAPI 3.0.
+    pub version_3_0: String,
+    /// The API of a map, in OpenAPI 3.0.
+    pub of_map: String,
+}
+
+impl Texts {
+    /// Those of a document in version 3.1.
+    #[must_use]
+    pub fn of(version_3_1: &Value) -> Self {
+        let version_3_0 = for_clients::for_clients(version_3_0::down_convert(version_3_1));
+        let of_map = of_map::of_map(&version_3_0);
+        let [version_3_1, version_3_0, of_map] = [version_3_1, &version_3_0, &of_map].map(openapi::text);
+        Self { version_3_1, version_3_0, of_map }
     }
 }
 
@@ -70,9 +135,41 @@ impl Document {
     responses((status = 200, description = "The OpenAPI 3.1 document", body = serde_json::Value,
         content_type = "application/vnd.oai.openapi+json;version=3.1",
         headers(("ETag" = String, description = "Changes with the document")))))]
-pub async fn openapi(axum::Extension(document): axum::Extension<Document>, if_none_match: IfNoneMatch) -> Response {
-    let Document { bytes, tag } = document;
-    tag.answer(&if_none_match, || ([(axum::http::header::CONTENT_TYPE, OPENAPI)], bytes).into_response())
+pub async fn openapi(Extension(documents): Extension<Documents>, if_none_match: IfNoneMatch) -> Response {
+    documents.version_3_1.answer(&if_none_match, OPENAPI_3_1)
+}
+
+/// OpenAPI 3.0 document
+///
+/// This document in the version that GIS read, with a path for each collection.
+#[utoipa::path(get, path = "/openapi-3.0.json", tag = "service", operation_id = "getOpenApi30",
+    responses((status = 200, description = "The OpenAPI 3.0 document", body = serde_json::Value,
+        content_type = "application/vnd.oai.openapi+json;version=3.0",
+        headers(("ETag" = String, description = "Changes with the document")))))]
+pub async fn openapi_3_0(Extension(documents): Extension<Documents>, if_none_match: IfNoneMatch) -> Response {
+    documents.version_3_0.answer(&if_none_match, OPENAPI_3_0)
+}
+
+/// OpenAPI document of a map
+///
+/// Every map is an OGC API of its own: its features in OpenAPI 3.0, with paths relative to the map.
+#[utoipa::path(get, path = "/v1/maps/{mapId}/api", tag = "features", operation_id = "getMapApi", params(MapPath),
+    responses((status = 200, description = "The OpenAPI 3.0 document", body = serde_json::Value,
+        content_type = "application/vnd.oai.openapi+json;version=3.0",
+        headers(("ETag" = String, description = "Changes with the document"))),
+        NotFound))]
+pub async fn map_api(
+    State(app): State<Arc<App>>,
+    Extension(documents): Extension<Documents>,
+    caller: Caller,
+    base: Base,
+    Path(path): Path<MapPath>,
+    if_none_match: IfNoneMatch,
+) -> Result<Response, Problem> {
+    let map = app.map(&caller, path.map_id.0).await?;
+    let server = base.link("self", &format!("/v1/maps/{}", map.id), JSON).href;
+    let document = Document::new(documents.of_map.replacen(of_map::SERVER, &server, 1));
+    Ok(document.answer(&if_none_match, OPENAPI_3_0))
 }
 
 /// The reference page at `/docs/`: swagger-ui, built into the program.

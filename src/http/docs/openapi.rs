@@ -3,7 +3,7 @@
 use serde_json::Value;
 use stillage_core::AnalysisOptions;
 use utoipa::openapi::path::{Operation, Parameter, ParameterBuilder, ParameterIn};
-use utoipa::openapi::schema::Type;
+use utoipa::openapi::schema::{ObjectBuilder, Type};
 use utoipa::openapi::{OpenApi, RefOr, Required, ResponseBuilder, Schema};
 use utoipa::{IntoResponses as _, OpenApi as _};
 
@@ -12,6 +12,7 @@ use super::refusals::{
     UnsupportedMediaType,
 };
 use crate::http::extract::crs::CrsName;
+use crate::http::extract::format;
 use crate::http::ogc::collections::CollectionId;
 use crate::http::problem::ProblemDocument;
 
@@ -77,6 +78,10 @@ fn complete_operation(operation: &mut Operation, is_read: bool) {
             schema.schema_type = Type::String.into();
         }
     }
+    if is_read {
+        let format = format_parameter(operation).map(RefOr::T);
+        operation.parameters.get_or_insert_default().extend(format);
+    }
     let has_if_match = operation.parameters.iter().flatten().any(|parameter| {
         matches!(parameter, RefOr::T(Parameter { name, parameter_in: ParameterIn::Header, .. }) if name == "If-Match")
     });
@@ -106,9 +111,19 @@ fn complete_operation(operation: &mut Operation, is_read: bool) {
             .parameter_in(ParameterIn::Header)
             .required(Required::False)
             .description(Some("ETags that the client has"))
-            .schema(Some(utoipa::openapi::ObjectBuilder::new().schema_type(Type::String)));
+            .schema(Some(ObjectBuilder::new().schema_type(Type::String)));
         operation.parameters.get_or_insert_default().push(condition.build().into());
     }
+}
+
+/// The parameter `f` of a read, where its formats have short names.
+fn format_parameter(operation: &Operation) -> Option<Parameter> {
+    let Some(RefOr::T(answer)) = operation.responses.responses.get("200") else { return None };
+    let media_types: Vec<&str> = answer.content.keys().map(String::as_str).collect();
+    let names = format::names(&media_types)?;
+    let schema = ObjectBuilder::new().schema_type(Type::String).enum_values(Some(names));
+    let builder = ParameterBuilder::new().name("f").parameter_in(ParameterIn::Query).required(Required::False);
+    Some(builder.description(Some("Format, where `Accept` cannot be set")).schema(Some(schema)).build())
 }
 
 /// The schemas of the options, with the member of [`AnalysisOptions`] that each describes.
@@ -124,9 +139,9 @@ const OPTIONS: [(&str, &str); 9] = [
     ("DeclutterOptions", "/declutter"),
 ];
 
-/// The document as it is served and stored: pretty, with the defaults of the core and a last line break.
+/// The document as JSON, with the defaults of the core.
 #[must_use]
-pub fn write(document: &OpenApi) -> String {
+pub fn value(document: &OpenApi) -> Value {
     let mut document = serde_json::to_value(document).expect("the document is plain data");
     let options = serde_json::to_value(AnalysisOptions::default()).expect("options are plain data");
     for (schema, member) in OPTIONS {
@@ -142,7 +157,13 @@ pub fn write(document: &OpenApi) -> String {
             };
         }
     }
-    let mut text = serde_json::to_string_pretty(&document).expect("the document is plain data");
+    document
+}
+
+/// A document as it is served and stored: pretty, with a last line break.
+#[must_use]
+pub fn text(document: &Value) -> String {
+    let mut text = serde_json::to_string_pretty(document).expect("the document is plain data");
     text.push('\n');
     text
 }

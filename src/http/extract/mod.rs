@@ -5,7 +5,9 @@ mod caller;
 pub mod coding;
 pub mod conditional;
 pub mod crs;
+pub mod datetime;
 pub mod form;
+pub mod format;
 pub mod negotiation;
 
 use std::error::Error;
@@ -74,7 +76,8 @@ impl<T: DeserializeOwned> Query<T> {
     }
 }
 
-/// How many entries a list may hold; `MAX` at most, `DEFAULT` when nothing is said.
+/// How many entries a list may hold; `DEFAULT` when nothing is said. Whoever asks for more than `MAX` gets `MAX` (OGC API
+/// Features part 1, requirement 22).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(try_from = "String")]
 pub struct Limit<const DEFAULT: u32, const MAX: u32>(pub u32);
@@ -89,8 +92,12 @@ impl<const DEFAULT: u32, const MAX: u32> TryFrom<String> for Limit<DEFAULT, MAX>
     type Error = String;
 
     fn try_from(text: String) -> Result<Self, String> {
-        let limit = text.parse().ok().filter(|limit| (1..=MAX).contains(limit));
-        limit.map(Self).ok_or_else(|| format!("must be a whole number from 1 to {MAX}"))
+        let is_number = !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
+        // More digits than fit are more than the most.
+        let limit = is_number.then(|| text.parse().unwrap_or(MAX)).filter(|limit| *limit > 0);
+        limit
+            .map(|limit| Self(limit.min(MAX)))
+            .ok_or_else(|| format!("must be a whole number from 1 (at most {MAX} are answered)"))
     }
 }
 
@@ -281,12 +288,25 @@ mod tests {
         };
         assert_eq!(paging("").await.expect("is right").0.limit.0, 100);
         assert_eq!(paging("limit=7").await.expect("is right").0.limit.0, 7);
-        for wrong in ["limit=0", "limit=1001", "limit=x", "limit=", "after=1", "limit=1&limit=2", "bogus=1"] {
+        for many in ["limit=1001", "limit=99999999999999999999"] {
+            assert_eq!(paging(many).await.expect("is right").0.limit.0, 1000, "{many}");
+        }
+        for wrong in [
+            "limit=0",
+            "limit=-1",
+            "limit=+1",
+            "limit=1.5",
+            "limit=x",
+            "limit=",
+            "after=1",
+            "limit=1&limit=2",
+            "bogus=1",
+        ] {
             let problem = paging(wrong).await.expect_err(wrong);
             assert_eq!(problem.kind(), ProblemType::BadParameter, "{wrong}");
         }
         let problem = paging("limit=0").await.expect_err("is refused");
         assert_eq!(problem.errors()[0].parameter.as_deref(), Some("limit"));
-        assert_eq!(problem.errors()[0].detail, "must be a whole number from 1 to 1000");
+        assert_eq!(problem.errors()[0].detail, "must be a whole number from 1 (at most 1000 are answered)");
     }
 }

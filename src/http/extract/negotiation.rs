@@ -8,7 +8,11 @@ use axum::http::{HeaderMap, HeaderValue, Method, header};
 use axum::middleware::Next;
 use axum::response::{IntoResponse, Response};
 
+use crate::http::links::JSON_FG;
 use crate::http::problem::{Problem, ProblemType};
+
+/// The name by which version 1.0 of JSON-FG calls itself until it is registered.
+const JSON_FG_VENDOR: &str = "application/vnd.ogc.fg+json";
 
 /// One media range of an `Accept` header.
 #[derive(Debug, Clone, PartialEq)]
@@ -22,7 +26,10 @@ struct MediaRange {
 impl MediaRange {
     fn read(text: &str) -> Option<Self> {
         let mut parts = text.split(';').map(str::trim);
-        let essence = parts.next().filter(|essence| essence.contains('/'))?.to_ascii_lowercase();
+        let mut essence = parts.next().filter(|essence| essence.contains('/'))?.to_ascii_lowercase();
+        if essence == JSON_FG_VENDOR {
+            JSON_FG.clone_into(&mut essence);
+        }
         let quality = parts.find_map(|part| part.strip_prefix("q=").or_else(|| part.strip_prefix("Q=")));
         Some(Self { essence, quality: quality.map_or(Some(1.0), |quality| quality.parse().ok())? })
     }
@@ -74,10 +81,14 @@ impl Accept {
         self.quality(media_type) > 0.0
     }
 
-    /// Whether `other` is wanted more than `default`.
+    /// The media type that is wanted most; of equals the first. The first too where none is accepted: [`negotiate`] then
+    /// refuses it.
     #[must_use]
-    pub fn prefers(&self, other: &str, default: &str) -> bool {
-        self.quality(other) > self.quality(default)
+    pub fn best(&self, media_types: &[&'static str]) -> &'static str {
+        let quality = |media_type: &&'static str| self.quality(media_type);
+        let better =
+            |best: &'static str, other: &'static str| if quality(&other) > quality(&best) { other } else { best };
+        media_types.iter().copied().reduce(better).unwrap_or_default()
     }
 }
 
@@ -127,9 +138,13 @@ mod tests {
     }
 
     #[test]
-    fn csv_is_for_those_who_ask_for_it() {
-        assert!(accept("text/csv").prefers("text/csv", "application/geo+json"));
-        assert!(accept("text/csv, */*;q=0.5").prefers("text/csv", "application/geo+json"));
-        assert!(!accept("*/*").prefers("text/csv", "application/geo+json"));
+    fn other_formats_are_for_those_who_ask_for_them() {
+        let best = |value| accept(value).best(&["application/geo+json", "text/html", "text/csv"]);
+        assert_eq!(best("text/csv"), "text/csv");
+        assert_eq!(best("text/csv, */*;q=0.5"), "text/csv");
+        assert_eq!(best("text/html,application/xhtml+xml,*/*;q=0.8"), "text/html");
+        for value in ["*/*", "", "application/json", "image/png", "text/html;q=0.5, application/geo+json"] {
+            assert_eq!(best(value), "application/geo+json", "{value}");
+        }
     }
 }

@@ -153,7 +153,8 @@ pub async fn get(
         return Err(Problem::parameter("heading", "must be degrees from -360 to 360"));
     }
     let context = app.context(&caller, path.map_id.0).await?;
-    let transform = Transform::new(query.crs.0, context.record.georeference);
+    let transform =
+        query.crs.transform(context.record.georeference).map_err(|detail| Problem::parameter("crs", detail))?;
     // Microseconds to a millisecond: no thread of its own.
     let view = locate(&context, &transform, [x, y], query.heading)?;
     Ok(EntityTag::of_map("at", &context).answer(&if_none_match, || Json(view).into_response()))

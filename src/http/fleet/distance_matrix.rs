@@ -12,7 +12,6 @@ use super::vehicle::{self, Footprint, Numbers};
 use super::waypoint::End;
 use crate::app::{App, Caller, MapContext};
 use crate::blocking::off_the_runtime;
-use crate::coordinates::Transform;
 use crate::http::docs::refusals::{NotAnalysed, NotFound};
 use crate::http::extract::crs::CrsName;
 use crate::http::extract::{JsonBody, MapPath, Path};
@@ -83,7 +82,8 @@ pub async fn create(
 }
 
 fn measure(context: &MapContext, body: &MatrixRequest) -> Result<MatrixView, Problem> {
-    let transform = Transform::new(body.crs.0, context.record.georeference);
+    let transform =
+        body.crs.transform(context.record.georeference).map_err(|detail| Problem::invalid("/crs", detail))?;
     let radius = Footprint::of(context, body.footprint_radius, body.footprint.as_ref())?.turning_radius();
     let speed = vehicle::speeds(body.speed_mps, None, None)?.speed;
     let blocked = vehicle::blocked(context, &body.blocked_faces, &body.blocked_edges)?;

@@ -19,10 +19,9 @@ use crate::coordinates::Transform;
 use crate::features::{Geometry, Pose};
 use crate::formats::geojson;
 use crate::http::docs::refusals::{NotAnalysed, NotFound};
-use crate::http::extract::crs::CrsName;
+use crate::http::extract::crs::{CONTENT_CRS, CrsName};
 use crate::http::extract::{MapPath, Path, Query};
 use crate::http::links::GEO_JSON;
-use crate::http::ogc::items::CONTENT_CRS;
 use crate::http::problem::{Problem, ProblemType};
 
 /// Routes that are found at most for one request.
@@ -206,7 +205,8 @@ pub fn answer(context: &MapContext, query: &RouteQuery) -> Result<Vec<u8>, Probl
         return Err(Problem::parameter("alternatives", detail));
     }
     let speeds = vehicle::speeds(query.speed_mps, query.acceleration_mps2, query.turn_rate_degps)?;
-    let transform = Transform::new(query.crs.0, context.record.georeference);
+    let transform =
+        query.crs.transform(context.record.georeference).map_err(|detail| Problem::parameter("crs", detail))?;
     let routes = find(context, query, &transform)?;
     Ok(RouteWriter { context, transform: &transform, speeds }.write(&routes))
 }

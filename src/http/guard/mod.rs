@@ -119,7 +119,6 @@ impl KnownParameters {
     /// A parameter of the query that the operation does not have.
     fn stranger(&self, path: &str, method: &Method, uri: &Uri) -> Option<String> {
         let method = if *method == Method::HEAD { Method::GET } else { method.clone() };
-        let path = if path.len() > 1 { path.trim_end_matches('/') } else { path };
         let known = self.0.get(&(path.to_owned(), method))?;
         let Query(pairs) = Query::<Vec<(String, String)>>::try_from_uri(uri).ok()?;
         pairs.into_iter().map(|(name, _)| name).find(|name| !known.contains(name))
@@ -138,6 +137,22 @@ pub async fn known_parameters(
         Some(name) => Problem::parameter(&name, "is not a parameter of this operation").into_response(),
         None => next.run(request).await,
     }
+}
+
+/// A resource is the same with a slash at its end: clients that take an address for a root ask for it so. The reference page
+/// alone lies in a folder.
+#[must_use]
+pub fn without_last_slash(mut request: Request) -> Request {
+    let path = request.uri().path();
+    let trimmed = path.trim_end_matches('/');
+    if trimmed.len() == path.len() || trimmed.is_empty() || trimmed.starts_with("/docs") {
+        return request;
+    }
+    let query = request.uri().query().map(|query| format!("?{query}")).unwrap_or_default();
+    if let Ok(address) = format!("{trimmed}{query}").parse() {
+        *request.uri_mut() = address;
+    }
+    request
 }
 
 /// Middleware: a body has to keep a pace; [`Paced`] ends the slow ones.

@@ -13,9 +13,11 @@ use super::{pictures, upload};
 use crate::app::{App, Caller, MapPatch, MapRecord};
 use crate::http::docs::refusals::{NoSpace, NotFound, NotSameSite};
 use crate::http::extract::conditional::{EntityTag, IfMatch, IfNoneMatch};
+use crate::http::extract::negotiation::Accept;
 use crate::http::extract::{JsonBody, MapPath, Paging, Path, Query, present};
-use crate::http::links::{Base, JSON, header as link_header};
+use crate::http::links::{Base, GEO_JSON, HTML, JSON, OPENAPI_3_0, header as link_header};
 use crate::http::ogc::jobs;
+use crate::http::page::{self, Markup};
 use crate::http::paging::cut;
 use crate::http::problem::Problem;
 use crate::views::georeference::GeoreferenceView;
@@ -36,6 +38,10 @@ fn map_links(base: &Base, map: &MapRecord) -> Vec<Link> {
     let to = |rel, below: &str, media_type| base.link(rel, &format!("/v1/maps/{}{below}", map.id), media_type);
     let mut links = vec![
         to("self", "", JSON),
+        to("alternate", "?f=html", HTML).titled("This map as a page"),
+        to("service-desc", "/api", OPENAPI_3_0).titled("The API of this map"),
+        base.link("service-doc", "/docs/", HTML).titled("The API reference"),
+        to("conformance", "/conformance", JSON).titled("The standards that are met"),
         to("data", "/collections", JSON).titled("Faces, edges, locations and the other features"),
         to("related", "/analyses", JSON).titled("Analyses"),
         to("related", "/diagnostics", JSON).titled("Signals and timings of the analysis"),
@@ -45,9 +51,10 @@ fn map_links(base: &Base, map: &MapRecord) -> Vec<Link> {
         to("related", "/changes", JSON).titled("What changed since a version of the labels"),
         to("version-history", "/semantics/versions", JSON).titled("Versions of the labels"),
         to("related", "/exports", JSON).titled("Files for fleet managers, planners and inventory systems"),
-        to("related", "/routes", crate::http::links::GEO_JSON).titled("Routes between two places"),
+        to("related", "/routes", GEO_JSON).titled("Routes between two places"),
     ];
     links.extend(pictures::NAMES.map(|(name, kind, title)| to("preview", &format!("/{name}"), kind).titled(title)));
+    links.push(base.link("http://www.opengis.net/def/rel/ogc/1.0/job-list", "/v1/jobs", JSON).titled("The jobs"));
     links.push(base.link("up", "/v1/maps", JSON));
     links
 }
@@ -141,7 +148,7 @@ pub async fn list(
 ///
 /// Its landing page: what it is, and links to all that can be asked of it.
 #[utoipa::path(get, path = "/v1/maps/{mapId}", tag = "maps", operation_id = "getMap", params(MapPath),
-    responses((status = 200, description = "The map", body = MapView,
+    responses((status = 200, description = "The map", content((MapView = "application/json"), (String = "text/html")),
         headers(("ETag" = String, description = "Its version"))),
         NotFound))]
 pub async fn get(
@@ -149,9 +156,14 @@ pub async fn get(
     caller: Caller,
     base: Base,
     Path(path): Path<MapPath>,
+    accept: Accept,
     if_none_match: IfNoneMatch,
 ) -> Result<Response, Problem> {
     let map = app.map(&caller, path.map_id.0).await?;
+    if page::is_wanted(&accept) {
+        // The tag is that of the JSON, which a write may name.
+        return Ok(page::document(&map.name.clone(), &view(&base, map), &Markup::default()));
+    }
     Ok(EntityTag::of_version(map.version).answer(&if_none_match, || Json(view(&base, map)).into_response()))
 }
 

@@ -10,7 +10,6 @@ use utoipa::IntoParams;
 
 use crate::app::{App, AppError, Caller, FieldProblem};
 use crate::blocking::off_the_runtime;
-use crate::coordinates::Transform;
 use crate::formats::csv;
 use crate::http::docs::refusals::{NotAnalysed, NotFound};
 use crate::http::extract::crs::CrsName;
@@ -61,7 +60,7 @@ pub async fn create(
     }
     let bytes = extract::body(request, &app).await?;
     let map = app.map(&caller, path.map_id.0).await?;
-    let transform = Transform::new(query.crs.0, map.georeference);
+    let transform = query.crs.transform(map.georeference).map_err(|detail| Problem::parameter("crs", detail))?;
     let rows = off_the_runtime(move || {
         let to_map = |position: [f64; 2]| -> Point { transform.inverse(position) };
         let rows = if is_table {

@@ -2,26 +2,31 @@
 
 use std::sync::Arc;
 
-use axum::Json;
 use axum::extract::State;
-use axum::response::{IntoResponse, Response};
+use axum::response::Response;
 use serde::{Deserialize, Serialize};
 use stillage_core::Point;
 use utoipa::openapi::RefOr;
 use utoipa::openapi::schema::{ObjectBuilder, Schema, Type};
 use utoipa::{IntoParams, PartialSchema, ToSchema};
 
+use super::items_format::Format;
 use crate::app::{App, Caller, MapContext};
 use crate::coordinates::{Crs, Transform};
 use crate::features::{Collection, CollectionSchema};
 use crate::http::docs::refusals::{NotAnalysed, NotFound};
 use crate::http::extract::conditional::{EntityTag, IfNoneMatch};
-use crate::http::extract::crs::{CRS84, EPSG_3857};
+use crate::http::extract::crs::{CRS84, CrsName};
+use crate::http::extract::negotiation::Accept;
 use crate::http::extract::{MapPath, Path};
-use crate::http::links::{Base, CSV, GEO_JSON, JSON};
+use crate::http::links::{Base, FLAT_GEOBUF, HTML, JSON, JSON_SCHEMA, encode};
+use crate::http::page::{self, Drawing, Markup};
 use crate::http::problem::Problem;
 use crate::views::id::Id;
 use crate::views::link::Link;
+
+/// Most features in the small map of a page: a browser draws them without delay.
+const MOST_DRAWN: usize = 5_000;
 
 /// A collection as a part of a path.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
@@ -69,9 +74,10 @@ pub struct CollectionView {
     item_type: &'static str,
     extent: Extent,
     /// The systems in which items can be asked for; the first is the default.
-    crs: Vec<&'static str>,
-    /// The system in which nothing is lost: of a map without georeference, the metres of the map frame.
-    storage_crs: &'static str,
+    crs: Vec<String>,
+    /// The system in which nothing is lost: of a map without georeference the metres of the map frame, else those of its
+    /// UTM zone.
+    storage_crs: String,
     /// Number of features.
     item_count: usize,
     links: Vec<Link>,
@@ -103,20 +109,28 @@ impl CollectionView {
     fn new(base: &Base, context: &MapContext, collection: Collection) -> Self {
         let CollectionSchema { title, description, .. } = *CollectionSchema::of(collection);
         let path = format!("/v1/maps/{}/collections/{}", context.record.id, collection.id());
-        // No query string: clients append to the address of the items.
+        let to = |rel, below: &str, media_type| base.link(rel, &format!("{path}{below}"), media_type);
         let mut links =
-            vec![base.link("self", &path, JSON), base.link("items", &format!("{path}/items"), GEO_JSON).titled(title)];
-        if collection == Collection::Locations {
-            links.push(base.link("items", &format!("{path}/items"), CSV).titled("The locations as a table"));
-        }
+            vec![to("self", "", JSON), to("alternate", "?f=html", HTML).titled("This collection as a page")];
+        // No query string: clients append to the address of the items.
+        links.extend(Format::ALL.map(|format| to("items", "/items", format.media_type()).titled(format.title())));
+        links.extend([
+            to("enclosure", "/items?f=fgb", FLAT_GEOBUF).titled("The whole collection as a file"),
+            to("http://www.opengis.net/def/rel/ogc/1.0/queryables", "/queryables", JSON_SCHEMA)
+                .titled("What can be asked for"),
+            to("http://www.opengis.net/def/rel/ogc/1.0/schema", "/schema", JSON_SCHEMA).titled("The properties"),
+            to("describedby", "/schema", JSON_SCHEMA).titled("The properties"),
+        ]);
+        let systems = Crs::of_map(context.record.georeference).into_iter().map(|crs| CrsName(crs).uri());
+        let crs: Vec<String> = systems.collect();
         Self {
             id: collection.id(),
             title,
             description,
             item_type: "feature",
             extent: Extent { spatial: SpatialExtent { bbox: vec![extent(context, collection)], crs: CRS84 } },
-            crs: vec![CRS84, EPSG_3857],
-            storage_crs: EPSG_3857,
+            storage_crs: crs.last().cloned().unwrap_or_default(),
+            crs,
             item_count: context.features(collection).len(),
             links,
         }
@@ -145,7 +159,8 @@ fn extent(context: &MapContext, collection: Collection) -> [f64; 4] {
 /// The collections of an analysed map.
 #[utoipa::path(get, path = "/v1/maps/{mapId}/collections", tag = "features", operation_id = "listCollections",
     params(MapPath),
-    responses((status = 200, description = "The collections", body = CollectionList,
+    responses((status = 200, description = "The collections",
+        content((CollectionList = "application/json"), (String = "text/html")),
         headers(("ETag" = String, description = "Changes with the map, its analysis and its labels"))),
         NotFound, NotAnalysed))]
 pub async fn list(
@@ -153,17 +168,21 @@ pub async fn list(
     caller: Caller,
     base: Base,
     Path(path): Path<MapPath>,
+    accept: Accept,
     if_none_match: IfNoneMatch,
 ) -> Result<Response, Problem> {
     let context = app.context(&caller, path.map_id.0).await?;
-    let tag = EntityTag::of_map("collections", &context);
+    let tag = EntityTag::of_map(&page::kind("collections", &accept), &context);
     tag.answer_computed(&if_none_match, move || {
         let collections = Collection::ALL.map(|collection| CollectionView::new(&base, &context, collection));
+        let own = format!("/v1/maps/{}/collections", path.map_id);
         let links = vec![
-            base.link("self", &format!("/v1/maps/{}/collections", path.map_id), JSON),
+            base.link("self", &own, JSON),
+            base.link("alternate", &format!("{own}?f=html"), HTML).titled("The collections as a page"),
             base.link("up", &format!("/v1/maps/{}", path.map_id), JSON),
         ];
-        Ok(Json(CollectionList { collections: collections.into(), links }).into_response())
+        let title = format!("Collections of {}", context.record.name);
+        Ok(page::answer(&accept, &title, &CollectionList { collections: collections.into(), links }))
     })
     .await
 }
@@ -171,7 +190,8 @@ pub async fn list(
 /// A collection
 #[utoipa::path(get, path = "/v1/maps/{mapId}/collections/{collectionId}", tag = "features",
     operation_id = "getCollection", params(CollectionPath),
-    responses((status = 200, description = "The collection", body = CollectionView,
+    responses((status = 200, description = "The collection",
+        content((CollectionView = "application/json"), (String = "text/html")),
         headers(("ETag" = String, description = "Changes with the map, its analysis and its labels"))),
         NotFound, NotAnalysed))]
 pub async fn get(
@@ -179,12 +199,28 @@ pub async fn get(
     caller: Caller,
     base: Base,
     Path(path): Path<CollectionPath>,
+    accept: Accept,
     if_none_match: IfNoneMatch,
 ) -> Result<Response, Problem> {
     let context = app.context(&caller, path.map_id.0).await?;
-    let tag = EntityTag::of_map("collection", &context);
+    let tag = EntityTag::of_map(&page::kind("collection", &accept), &context);
     tag.answer_computed(&if_none_match, move || {
-        Ok(Json(CollectionView::new(&base, &context, path.collection_id.0)).into_response())
+        let collection = path.collection_id.0;
+        let view = CollectionView::new(&base, &context, collection);
+        if !page::is_wanted(&accept) {
+            return Ok(page::answer(&accept, view.title, &view));
+        }
+        Ok(page::document(view.title, &view, &map_of(&base, &context, collection)))
     })
     .await
+}
+
+/// A small map of a collection, each feature with a link to its page.
+fn map_of(base: &Base, context: &MapContext, collection: Collection) -> Markup {
+    let path = format!("/v1/maps/{}/collections/{}/items", context.record.id, collection.id());
+    let drawn = context.features(collection).iter().take(MOST_DRAWN).map(|feature| {
+        let href = base.link("item", &format!("{path}/{}?f=html", encode(&feature.id.to_string())), HTML).href;
+        Drawing { feature, href }
+    });
+    page::drawing(&drawn.collect::<Vec<_>>())
 }

@@ -11,11 +11,13 @@ use stillage_core::registry::Given;
 use utoipa::ToSchema;
 
 use super::items::{self, FeaturePath, ItemQuery};
+use super::items_answer::Answer;
+use super::items_format::Format;
 use crate::app::{App, AppError, Caller, area_kind};
 use crate::blocking::off_the_runtime;
 use crate::features::{Collection, CollectionSchema};
 use crate::http::docs::refusals::{Conflict, MethodNotAllowed, NotFound, PreconditionRequired};
-use crate::http::extract::conditional::{EntityTag, IfMatch};
+use crate::http::extract::conditional::IfMatch;
 use crate::http::extract::{JsonBody, Path, Query, present};
 use crate::http::links::Base;
 use crate::http::problem::{Problem, ProblemType};
@@ -52,7 +54,7 @@ impl From<FeaturePatchBody> for Given {
 }
 
 /// Whether people may write something of the features of a collection.
-const fn is_writable(collection: Collection) -> bool {
+pub const fn is_writable(collection: Collection) -> bool {
     matches!(collection, Collection::Locations) || area_kind(collection).is_some()
 }
 
@@ -95,14 +97,14 @@ pub async fn update(
     let missing = || items::missing(collection, &path.feature_id);
     let id = CollectionSchema::of(collection).feature_id(&path.feature_id).map_err(|_| missing())?;
     context.nameable(collection, &id).ok_or_else(missing)?;
-    let tag = EntityTag::of_map("item", &context);
-    if_match.against(&tag, context.record.version)?.ok_or(AppError::PreconditionRequired)?;
+    let transform = parameters.transform(context.record.georeference)?;
+    if_match
+        .against(&items::tag(&context, Format::GeoJson), context.record.version)?
+        .ok_or(AppError::PreconditionRequired)?;
     let (context, id) = app.name_feature(&caller, &context, (collection, id), body.into()).await?;
-    off_the_runtime(move || {
-        let answer = items::feature_answer(&base, &context, collection, &id.to_string(), parameters.crs)?;
-        Ok(EntityTag::of_map("item", &context).on(answer))
-    })
-    .await
+    let tag = items::tag(&context, Format::GeoJson);
+    let answer = Answer { base, context, collection, format: Format::GeoJson, crs: parameters.crs, transform };
+    off_the_runtime(move || Ok(tag.on(items::feature(&answer, &id.to_string())?))).await
 }
 
 /// `OPTIONS` of a feature: what may be done with it.

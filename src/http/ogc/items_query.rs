@@ -1,22 +1,25 @@
-//! Which features a client asks for, and how they are to be written.
+//! Which features a client asks for.
 
 use std::collections::BTreeSet;
 
 use serde::Deserialize;
-use utoipa::{IntoParams, ToSchema};
+use utoipa::IntoParams;
 
-use crate::coordinates::{Crs, Georeference, Transform};
+use super::items_format::Format;
+use crate::coordinates::{Georeference, Transform};
 use crate::features::query::{BoxSelection, FeatureQuery, SortKey};
 use crate::features::{Collection, CollectionSchema};
 use crate::http::extract::Limit;
 use crate::http::extract::bbox::Bbox;
 use crate::http::extract::crs::CrsName;
-use crate::http::extract::negotiation::Accept;
-use crate::http::links::{CSV, GEO_JSON, encode};
+use crate::http::extract::datetime::Datetime;
+use crate::http::links::encode;
 use crate::http::problem::Problem;
 
 /// Most features of a page where nothing is said.
-const DEFAULT_LIMIT: u32 = 1_000;
+pub const DEFAULT_LIMIT: u32 = 1_000;
+/// Most features of a page.
+pub const MAX_LIMIT: u32 = 10_000;
 
 /// Which features.
 #[derive(Debug, Deserialize, IntoParams)]
@@ -33,6 +36,10 @@ pub struct ItemsQuery {
     #[serde(default, rename = "bbox-crs")]
     #[param(value_type = Option<CrsName>, rename = "bbox-crs")]
     bbox_crs: CrsName,
+    /// A time, or an interval such as `2026-01-01/..`. No feature has a time, so that it selects every feature.
+    #[serde(rename = "datetime")]
+    #[param(value_type = Option<String>, rename = "datetime", example = "2026-01-01T00:00:00Z/..")]
+    _datetime: Option<Datetime>,
     /// Properties to sort by, the most important first; `-` before a name sorts downwards. By id when absent. Features
     /// without a value come last.
     #[param(value_type = Option<Vec<String>>, style = Form, explode = false, min_items = 1, example = json!(["id"]))]
@@ -41,40 +48,15 @@ pub struct ItemsQuery {
     #[serde(default)]
     #[param(value_type = Option<CrsName>)]
     crs: CrsName,
-    /// Most features of the answer. A table is whole when absent.
-    #[param(value_type = Option<u32>, minimum = 1, maximum = 10_000, default = 1000)]
-    limit: Option<Limit<DEFAULT_LIMIT, 10_000>>,
+    /// Most features of the answer, and never more than 10,000. CSV and `FlatGeobuf` are whole when absent.
+    #[param(value_type = Option<u32>, minimum = 1, default = 1000)]
+    limit: Option<Limit<DEFAULT_LIMIT, MAX_LIMIT>>,
     /// Id of the last feature of the page before: taken from the `next` link.
     #[param(max_length = 64)]
     after: Option<String>,
-    /// Format, where `Accept` cannot be set. Only the locations are served as CSV.
-    #[param(inline)]
-    f: Option<Format>,
-}
-
-/// Format of the items.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, ToSchema)]
-#[serde(rename_all = "lowercase")]
-pub enum Format {
-    Json,
-    Csv,
 }
 
 impl ItemsQuery {
-    /// The format of the answer: what `f` says, else what the client accepts.
-    ///
-    /// # Errors
-    /// 400 where the collection is not served in it.
-    pub fn format(&self, collection: Collection, accept: &Accept) -> Result<Format, Problem> {
-        let has_table = collection == Collection::Locations;
-        match self.f {
-            Some(Format::Csv) if !has_table => Err(Problem::parameter("f", "only the locations are served as CSV")),
-            Some(format) => Ok(format),
-            None if has_table && accept.prefers(CSV, GEO_JSON) => Ok(Format::Csv),
-            None => Ok(Format::Json),
-        }
-    }
-
     /// The question to the features of a collection.
     ///
     /// # Errors
@@ -94,13 +76,14 @@ impl ItemsQuery {
             .sortby
             .as_deref()
             .map(|list| list.split(',').map(|key| SortKey::read(key, schema)).collect::<Result<Vec<_>, _>>());
-        let transform = Transform::new(self.bbox_crs.0, georeference);
+        let transform =
+            self.bbox_crs.transform(georeference).map_err(|detail| Problem::parameter("bbox-crs", detail))?;
         let within = self.bbox.map(|bbox| BoxSelection::new(bbox.0, transform));
         let after = self.after.as_deref().map(|id| schema.feature_id(id));
-        let limit = match (self.limit, format) {
-            (Some(limit), _) => limit.0 as usize,
-            (None, Format::Json) => DEFAULT_LIMIT as usize,
-            (None, Format::Csv) => usize::MAX,
+        let limit = match self.limit {
+            Some(limit) => limit.0 as usize,
+            None if format.is_whole() => usize::MAX,
+            None => DEFAULT_LIMIT as usize,
         };
         Ok(FeatureQuery {
             ids: ids.transpose().map_err(|detail| Problem::parameter("ids", detail))?,
@@ -112,8 +95,16 @@ impl ItemsQuery {
     }
 
     /// The system of the coordinates of the answer.
-    pub const fn crs(&self) -> Crs {
-        self.crs.0
+    pub const fn crs(&self) -> CrsName {
+        self.crs
+    }
+
+    /// From the map frame to the coordinates of the answer.
+    ///
+    /// # Errors
+    /// 400 where the map does not answer in them.
+    pub fn transform(&self, georeference: Option<Georeference>) -> Result<Transform, Problem> {
+        self.crs.transform(georeference).map_err(|detail| Problem::parameter("crs", detail))
     }
 
     /// Id of the last feature of the page before.
@@ -127,20 +118,20 @@ impl ItemsQuery {
         parameters.extend(self.ids.as_ref().map(|ids| format!("ids={}", encode(ids))));
         if let Some(bbox) = self.bbox {
             parameters.push(format!("bbox={bbox}"));
-            parameters.push(format!("bbox-crs={}", encode(self.bbox_crs.uri())));
+            parameters.push(format!("bbox-crs={}", encode(&self.bbox_crs.uri())));
         }
         parameters.extend(self.sortby.as_ref().map(|keys| format!("sortby={}", encode(keys))));
         if self.crs != CrsName::default() {
-            parameters.push(format!("crs={}", encode(self.crs.uri())));
+            parameters.push(format!("crs={}", encode(&self.crs.uri())));
         }
-        match (self.limit, format) {
-            (Some(limit), _) => parameters.push(format!("limit={}", limit.0)),
-            (None, Format::Json) => parameters.push(format!("limit={DEFAULT_LIMIT}")),
-            (None, Format::Csv) => {}
+        match self.limit {
+            Some(limit) => parameters.push(format!("limit={}", limit.0)),
+            None if format.is_whole() => {}
+            None => parameters.push(format!("limit={DEFAULT_LIMIT}")),
         }
         parameters.extend(after.map(|after| format!("after={}", encode(after))));
-        if format == Format::Csv {
-            parameters.push("f=csv".to_owned());
+        if format != Format::GeoJson {
+            parameters.push(format!("f={}", format.name()));
         }
         parameters.join("&")
     }

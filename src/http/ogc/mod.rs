@@ -1,7 +1,10 @@
 //! The resources of the OGC API standards: collections and their features, jobs.
 
 pub mod collections;
+pub mod conformance;
 pub mod item_names;
 pub mod items;
-mod items_query;
+mod items_answer;
+mod items_format;
+pub mod items_query;
 pub mod jobs;

@@ -1,0 +1,53 @@
+//! Which requirements of the OGC standards a map meets.
+
+use std::sync::Arc;
+
+use axum::extract::State;
+use axum::response::Response;
+use serde::Serialize;
+use utoipa::ToSchema;
+
+use crate::app::{App, Caller};
+use crate::http::docs::refusals::NotFound;
+use crate::http::extract::negotiation::Accept;
+use crate::http::extract::{MapPath, Path};
+use crate::http::page;
+use crate::http::problem::Problem;
+
+/// The classes of requirements that are met, by their URIs.
+const CONFORMS_TO: [&str; 8] = [
+    "http://www.opengis.net/spec/ogcapi-common-1/1.0/conf/core",
+    "http://www.opengis.net/spec/ogcapi-features-1/1.0/conf/core",
+    "http://www.opengis.net/spec/ogcapi-features-1/1.0/conf/geojson",
+    "http://www.opengis.net/spec/ogcapi-features-1/1.0/conf/html",
+    "http://www.opengis.net/spec/ogcapi-features-1/1.0/conf/oas30",
+    "http://www.opengis.net/spec/ogcapi-features-2/1.0/conf/crs",
+    "http://www.opengis.net/spec/json-fg-1/1.0/conf/core",
+    "http://www.opengis.net/spec/json-fg-1/1.0/conf/types-schemas",
+];
+
+/// Classes of requirements.
+#[derive(Debug, Serialize, ToSchema)]
+#[serde(rename_all = "camelCase")]
+pub struct Conformance {
+    /// Their URIs.
+    #[schema(example = json!(["http://www.opengis.net/spec/ogcapi-features-1/1.0/conf/core"]))]
+    conforms_to: &'static [&'static str],
+}
+
+/// Conformance
+///
+/// The classes of requirements of the OGC standards that the API of a map meets.
+#[utoipa::path(get, path = "/v1/maps/{mapId}/conformance", tag = "features", operation_id = "getConformance",
+    params(MapPath),
+    responses((status = 200, description = "The classes", content((Conformance = "application/json"), (String = "text/html"))),
+        NotFound))]
+pub async fn get(
+    State(app): State<Arc<App>>,
+    caller: Caller,
+    Path(path): Path<MapPath>,
+    accept: Accept,
+) -> Result<Response, Problem> {
+    let map = app.map(&caller, path.map_id.0).await?;
+    Ok(page::answer(&accept, &format!("Conformance of {}", map.name), &Conformance { conforms_to: &CONFORMS_TO }))
+}

@@ -1,0 +1,168 @@
+//! Features in the format that the client wants.
+
+use std::sync::Arc;
+
+use axum::http::{HeaderMap, HeaderValue, header};
+use axum::response::{IntoResponse, Response};
+use jiff::Timestamp;
+use serde_json::{Value, json};
+
+use super::items_format::Format;
+use super::items_query::ItemsQuery;
+use crate::app::MapContext;
+use crate::coordinates::{Crs, Transform};
+use crate::features::query::Page;
+use crate::features::{Collection, CollectionSchema, Feature};
+use crate::formats::json_fg::{self, Systems};
+use crate::formats::{Json, csv, flatgeobuf, geojson};
+use crate::http::extract::crs::{CONTENT_CRS, CrsName};
+use crate::http::links::{Base, JSON, encode, header as link_header};
+use crate::http::page::{self, Drawing, Markup};
+use crate::views::link::Link;
+
+/// What is asked about, and how it is to be written.
+pub struct Answer {
+    pub base: Base,
+    pub context: Arc<MapContext>,
+    pub collection: Collection,
+    pub format: Format,
+    pub crs: CrsName,
+    pub transform: Transform,
+}
+
+impl Answer {
+    /// The path of the collection.
+    fn path(&self) -> String {
+        format!("/v1/maps/{}/collections/{}", self.context.record.id, self.collection.id())
+    }
+
+    /// When the answer last changed: it is the same for all who ask, as its entity tag promises.
+    fn time_stamp(&self) -> Timestamp {
+        self.context.record.updated.max(self.context.semantics.created)
+    }
+
+    /// A page of features.
+    pub fn page(&self, query: &ItemsQuery, page: &Page<'_>) -> Response {
+        let address =
+            |format, after: Option<&str>| format!("{}/items?{}", self.path(), query.parameters(format, after));
+        let others = Format::ALL.into_iter().filter(|format| *format != self.format);
+        let last = page.features.last().filter(|_| page.has_more).map(|last| last.id.to_string());
+        let next = last.map(|last| {
+            let path = address(self.format, Some(&last));
+            self.base.link("next", &path, self.format.media_type()).titled("The next page")
+        });
+        let alternate = |format: Format| {
+            self.base.link("alternate", &address(format, query.after()), format.media_type()).titled(format.title())
+        };
+        let mut links = vec![self.base.link("self", &address(self.format, query.after()), self.format.media_type())];
+        links.extend(others.map(alternate));
+        links.push(self.base.link("collection", &self.path(), JSON));
+        links.extend(next.clone());
+        let time_stamp = self.time_stamp();
+        let returned = page.features.len();
+        let members: [(&str, &dyn Json); 4] = [
+            ("numberMatched", &page.matched),
+            ("numberReturned", &returned),
+            ("timeStamp", &time_stamp),
+            ("links", &links),
+        ];
+        let features = page.features.iter().copied();
+        let mut headers = self.headers();
+        headers.extend(next.iter().map(|link| (header::LINK, link_header(link))));
+        match self.format {
+            Format::GeoJson => {
+                (headers, geojson::feature_collection(features, &self.transform, &members)).into_response()
+            }
+            Format::JsonFg => self.with_systems(|systems| {
+                (headers, json_fg::feature_collection(self.collection, features, systems, &members)).into_response()
+            }),
+            // Positions of this table, which importers know, are map-frame metres whatever the request says.
+            Format::Csv if self.collection == Collection::Locations => {
+                (headers, csv::locations(features)).into_response()
+            }
+            Format::Csv => (headers, csv::collection(self.collection, features, &self.transform)).into_response(),
+            Format::FlatGeobuf => {
+                (headers, flatgeobuf::collection(self.collection, features, &self.transform)).into_response()
+            }
+            Format::Html => self.table(page, &links),
+        }
+    }
+
+    /// A feature by itself.
+    pub fn feature(&self, feature: &Feature) -> Response {
+        let path = format!("{}/items/{}", self.path(), encode(&feature.id.to_string()));
+        let address = |format: Format| match format {
+            Format::GeoJson => path.clone(),
+            other => format!("{path}?f={}", other.name()),
+        };
+        let alternate = |format: Format| self.base.link("alternate", &address(format), format.media_type());
+        let mut links = vec![self.base.link("self", &address(self.format), self.format.media_type())];
+        links.extend(Format::OF_ONE.into_iter().filter(|format| *format != self.format).map(alternate));
+        links.push(self.base.link("collection", &self.path(), JSON));
+        let members: [(&str, &dyn Json); 1] = [("links", &links)];
+        match self.format {
+            Format::JsonFg => self
+                .with_systems(|systems| (self.headers(), json_fg::feature(feature, systems, &members)).into_response()),
+            Format::Html => {
+                let title = format!("{} {}", CollectionSchema::of(self.collection).title, feature.id);
+                let drawing = page::drawing(&[self.drawn(feature)]);
+                page::document(&title, &json!({"properties": properties(feature), "links": links}), &drawing)
+            }
+            _ => (self.headers(), geojson::feature(feature, &self.transform, &members)).into_response(),
+        }
+    }
+
+    fn headers(&self) -> HeaderMap {
+        let mut headers = HeaderMap::new();
+        let (media_type, extension) = match self.format {
+            Format::Csv => ("text/csv; charset=utf-8", Some("csv")),
+            Format::FlatGeobuf => (self.format.media_type(), Some("fgb")),
+            _ => (self.format.media_type(), None),
+        };
+        headers.insert(header::CONTENT_TYPE, HeaderValue::from_static(media_type));
+        headers.insert(CONTENT_CRS, self.crs.header());
+        let name = extension.map(|extension| format!("attachment; filename=\"{}.{extension}\"", self.collection.id()));
+        headers.extend(name.and_then(|name| Some((header::CONTENT_DISPOSITION, HeaderValue::try_from(name).ok()?))));
+        headers
+    }
+
+    /// The metres of JSON-FG: those of the map frame where degrees are asked for.
+    fn with_systems<T>(&self, write: impl FnOnce(Systems<'_>) -> T) -> T {
+        let (map_frame, uri) = (Transform::map_frame(), self.crs.uri());
+        let degrees = Transform::new(Crs::Crs84, self.context.record.georeference);
+        let (place, place_uri) = match self.crs.0 {
+            Crs::Crs84 => (&map_frame, json_fg::ENGINEERING_2D),
+            _ => (&self.transform, uri.as_str()),
+        };
+        write(Systems { place, place_uri, geometry: &degrees })
+    }
+
+    fn drawn<'a>(&self, feature: &'a Feature) -> Drawing<'a> {
+        let path = format!("{}/items/{}?f=html", self.path(), encode(&feature.id.to_string()));
+        Drawing { feature, href: self.base.link("item", &path, Format::Html.media_type()).href }
+    }
+
+    /// A page of features as a page for people: a small map, and a row for each.
+    fn table(&self, page: &Page<'_>, links: &[Link]) -> Response {
+        let schema = CollectionSchema::of(self.collection);
+        let cells = |name: &'static str, texts: Vec<Markup>| {
+            Markup::element("tr", &[], texts.into_iter().map(|text| Markup::element(name, &[], [text])))
+        };
+        let head = cells("th", schema.properties.iter().map(|property| page::text(property.name)).collect());
+        let drawn: Vec<Drawing<'_>> = page.features.iter().map(|feature| self.drawn(feature)).collect();
+        let rows = drawn.iter().map(|Drawing { feature, href }| {
+            let mut texts: Vec<Markup> = feature.properties().map(|(_, value)| page::part(&value)).collect();
+            texts[0] = Markup::element("a", &[("href", href)], [texts[0].clone()]);
+            cells("td", texts)
+        });
+        let table = Markup::element("table", &[], std::iter::once(head).chain(rows));
+        let found = format!("{} of {} features", page.features.len(), page.matched);
+        let found = Markup::element("p", &[], [page::text(&found)]);
+        let links = page::part(&links);
+        page::page(schema.title, &[&page::drawing(&drawn), &found, &table, &links])
+    }
+}
+
+fn properties(feature: &Feature) -> Value {
+    feature.properties().map(|(name, value)| (name.to_owned(), json!(value))).collect()
+}
