@@ -87,6 +87,8 @@ fn answered_in_time() -> OpenApiRouter<Arc<App>> {
         .routes(routes!(ogc::conformance::get))
         .routes(routes!(ogc::collections::list))
         .routes(routes!(ogc::collections::get))
+        .routes(routes!(ogc::queryables::queryables))
+        .routes(routes!(ogc::queryables::schema))
         .routes(routes!(ogc::items::list))
         .routes(routes!(ogc::items::get, ogc::item_names::update))
         .route(

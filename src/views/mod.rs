@@ -10,6 +10,7 @@ pub mod diagnostics;
 pub mod evaluation;
 pub mod export;
 pub mod feature;
+pub mod feature_schema;
 pub mod georeference;
 pub mod graph_report;
 pub mod id;

@@ -179,6 +179,8 @@ async fn valid(site: &Site, operation: &str) -> (Sent, &'static [u16]) {
         "getConformance" => get(format!("{map}/conformance")),
         "listCollections" => get(format!("{map}/collections")),
         "getCollection" => get(format!("{map}/collections/doors")),
+        "getQueryables" => get(format!("{map}/collections/faces/queryables")),
+        "getSchema" => get(format!("{map}/collections/faces/schema")),
         "getFeatures" => get(format!("{map}/collections/faces/items")),
         "getFeature" => get(format!("{map}/collections/vertices/items/0")),
         "nameFeature" => {
@@ -247,7 +249,9 @@ fn wrongs(site: &Site, operation: &str, good: &Sent) -> Vec<Sent> {
         "getRuleSet" | "replaceRuleSet" | "deleteRuleSet" => {
             vec![own("/v1/rule-sets/none"), own("/v1/rule-sets/office")]
         }
-        "getCollection" => vec![own(&format!("{}/collections/none", site.map))],
+        "getCollection" | "getQueryables" | "getSchema" => {
+            vec![own(&good.path.replace("/doors", "/none").replace("/faces", "/none"))]
+        }
         "getFeature" => vec![own(&format!("{}/collections/vertices/items/999999", site.map))],
         "getExport" => vec![own(&format!("{}/exports/none.json", site.map))],
         "locatePose" => vec![own(&format!("{}/at?point=1000,0&crs=EPSG:3857", site.map))],

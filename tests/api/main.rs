@@ -13,6 +13,7 @@ mod document;
 mod evaluations;
 mod exports;
 mod features;
+mod filters;
 mod graph_report;
 mod jobs;
 mod maps;

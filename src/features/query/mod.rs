@@ -1,5 +1,6 @@
 //! Which features of a collection, in which order, and how many at a time.
 
+mod filterable;
 mod selection;
 mod sort;
 #[cfg(test)]
@@ -9,7 +10,9 @@ use std::collections::BTreeSet;
 
 use super::feature::Feature;
 use super::id::FeatureId;
+use crate::cql2::Filter;
 
+pub use filterable::{GEOMETRY, queryables};
 pub use selection::BoxSelection;
 pub use sort::SortKey;
 
@@ -20,6 +23,8 @@ pub struct FeatureQuery {
     pub ids: Option<BTreeSet<FeatureId>>,
     /// Only those that meet this box.
     pub within: Option<BoxSelection>,
+    /// Only those that all of these select.
+    pub filters: Vec<Filter>,
     /// By which properties they are sorted; by id when empty, and where these are equal.
     pub sort: Vec<SortKey>,
     /// The last feature of the page before.
@@ -55,6 +60,7 @@ impl FeatureQuery {
         let is_selected = |feature: &&Feature| {
             self.ids.as_ref().is_none_or(|ids| ids.contains(&feature.id))
                 && self.within.as_ref().is_none_or(|within| within.meets(feature))
+                && self.filters.iter().all(|filter| filter.selects(*feature))
         };
         let mut matched: Vec<&Feature> = features.iter().filter(is_selected).collect();
         let start = if self.sort.is_empty() {

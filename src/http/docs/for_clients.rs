@@ -7,6 +7,7 @@
 use serde_json::{Map, Value, json};
 
 use crate::features::Collection;
+use crate::http::ogc::filter::may_have_parameter;
 use crate::http::ogc::item_names::is_writable;
 use crate::http::ogc::items_query::MAX_LIMIT;
 
@@ -55,7 +56,7 @@ fn literal_paths(path: &str, item: Value) -> Vec<(String, Value)> {
             if !is_writable(collection) {
                 operations.remove("patch");
             }
-            operations.values_mut().for_each(|operation| say_collection(operation, collection.id()));
+            operations.values_mut().for_each(|operation| say_collection(operation, collection));
         }
         (path.replace(COLLECTION, collection.id()), item)
     };
@@ -63,13 +64,17 @@ fn literal_paths(path: &str, item: Value) -> Vec<(String, Value)> {
 }
 
 /// Makes an operation that of one collection.
-fn say_collection(operation: &mut Value, collection: &str) {
+fn say_collection(operation: &mut Value, collection: Collection) {
     if let Some(parameters) = operation.get_mut("parameters").and_then(Value::as_array_mut) {
-        parameters.retain(|parameter| parameter["name"] != "collectionId");
+        parameters.retain(|parameter| {
+            let name = parameter["name"].as_str().unwrap_or_default();
+            name != "collectionId" && (parameter["in"] != "query" || may_have_parameter(collection, name))
+        });
     }
-    let (first, rest) = collection.split_at(1);
+    let id = collection.id();
+    let (first, rest) = id.split_at(1);
     for (member, suffix) in
-        [("operationId", format!("Of{}{rest}", first.to_uppercase())), ("summary", format!(": {collection}"))]
+        [("operationId", format!("Of{}{rest}", first.to_uppercase())), ("summary", format!(": {id}"))]
     {
         if let Some(Value::String(text)) = operation.get_mut(member) {
             text.push_str(&suffix);

@@ -8,6 +8,7 @@ use serde::Deserialize;
 use utoipa::IntoParams;
 
 use super::collections::{CollectionId, CollectionPath};
+use super::filter::PropertyParameters;
 use super::items_answer::Answer;
 use super::items_format::Format;
 use super::items_query::ItemsQuery;
@@ -32,7 +33,7 @@ use crate::views::id::Id;
 /// `crs` says otherwise; of a map without georeference those of EPSG:3857 are the metres of the map frame. Pages go on
 /// after an id, so that nothing is skipped or repeated when the map changes between them.
 #[utoipa::path(get, path = "/v1/maps/{mapId}/collections/{collectionId}/items", tag = "features",
-    operation_id = "getFeatures", params(CollectionPath, ItemsQuery),
+    operation_id = "getFeatures", params(CollectionPath, ItemsQuery, PropertyParameters),
     responses((status = 200, description = "A page of features",
         content((FeatureCollectionView = "application/geo+json"), (FeatureCollectionView = "application/fg+json"),
             (String = "text/html"), (String = "text/csv"), (String = "application/flatgeobuf")),
@@ -45,7 +46,7 @@ pub async fn list(
     caller: Caller,
     base: Base,
     Path(path): Path<CollectionPath>,
-    Query(query): Query<ItemsQuery>,
+    query: ItemsQuery,
     accept: Accept,
     if_none_match: IfNoneMatch,
 ) -> Result<Response, Problem> {

@@ -2,19 +2,24 @@
 
 use std::collections::BTreeSet;
 
+use axum::extract::FromRequestParts;
+use axum::http::Uri;
+use axum::http::request::Parts;
 use serde::Deserialize;
 use utoipa::IntoParams;
 
+use super::filter::{self, FilterLanguage};
 use super::items_format::Format;
 use crate::coordinates::{Georeference, Transform};
+use crate::cql2::Filter;
 use crate::features::query::{BoxSelection, FeatureQuery, SortKey};
 use crate::features::{Collection, CollectionSchema};
-use crate::http::extract::Limit;
 use crate::http::extract::bbox::Bbox;
 use crate::http::extract::crs::CrsName;
 use crate::http::extract::datetime::Datetime;
+use crate::http::extract::{Limit, Query};
 use crate::http::links::encode;
-use crate::http::problem::Problem;
+use crate::http::problem::{Problem, ProblemType};
 
 /// Most features of a page where nothing is said.
 pub const DEFAULT_LIMIT: u32 = 1_000;
@@ -40,6 +45,17 @@ pub struct ItemsQuery {
     #[serde(rename = "datetime")]
     #[param(value_type = Option<String>, rename = "datetime", example = "2026-01-01T00:00:00Z/..")]
     _datetime: Option<Datetime>,
+    /// A condition that selects features, in the language that `filter-lang` says: `areaM2 > 20 AND label = 'co'`.
+    #[param(max_length = 65_536, example = "id < 100")]
+    filter: Option<String>,
+    /// The language of `filter`; `cql-text` is an old name of `cql2-text`, which is the default.
+    #[serde(default, rename = "filter-lang")]
+    #[param(value_type = Option<FilterLanguage>, rename = "filter-lang", inline)]
+    filter_lang: FilterLanguage,
+    /// System of the coordinates in `filter`; CRS84 when absent.
+    #[serde(default, rename = "filter-crs")]
+    #[param(value_type = Option<CrsName>, rename = "filter-crs")]
+    filter_crs: CrsName,
     /// Properties to sort by, the most important first; `-` before a name sorts downwards. By id when absent. Features
     /// without a value come last.
     #[param(value_type = Option<Vec<String>>, style = Form, explode = false, min_items = 1, example = json!(["id"]))]
@@ -54,6 +70,29 @@ pub struct ItemsQuery {
     /// Id of the last feature of the page before: taken from the `next` link.
     #[param(max_length = 64)]
     after: Option<String>,
+    /// Properties and what they are to be equal to, each a parameter of its own.
+    #[serde(skip)]
+    #[param(ignore)]
+    equal: Vec<(String, String)>,
+}
+
+impl<S: Sync> FromRequestParts<S> for ItemsQuery {
+    type Rejection = Problem;
+
+    async fn from_request_parts(parts: &mut Parts, _: &S) -> Result<Self, Problem> {
+        let query = parts.uri.query().unwrap_or_default();
+        let names_property = |pair: &&str| filter::is_property(pair.split('=').next().unwrap_or_default());
+        let (equal, others): (Vec<&str>, Vec<&str>) = query.split('&').partition(names_property);
+        let Query(equal) = Query::read(&with_query(&equal)?)?;
+        let Query(read) = Query::<Self>::read(&with_query(&others)?)?;
+        Ok(Self { equal, ..read })
+    }
+}
+
+/// An address with these pairs.
+fn with_query(pairs: &[&str]) -> Result<Uri, Problem> {
+    let address = format!("/?{}", pairs.join("&")).parse();
+    address.map_err(|_| Problem::new(ProblemType::BadParameter, "the query is no part of an address"))
 }
 
 impl ItemsQuery {
@@ -79,6 +118,7 @@ impl ItemsQuery {
         let transform =
             self.bbox_crs.transform(georeference).map_err(|detail| Problem::parameter("bbox-crs", detail))?;
         let within = self.bbox.map(|bbox| BoxSelection::new(bbox.0, transform));
+        let filters = self.filters(collection, georeference)?;
         let after = self.after.as_deref().map(|id| schema.feature_id(id));
         let limit = match self.limit {
             Some(limit) => limit.0 as usize,
@@ -88,10 +128,21 @@ impl ItemsQuery {
         Ok(FeatureQuery {
             ids: ids.transpose().map_err(|detail| Problem::parameter("ids", detail))?,
             within: within.transpose().map_err(|detail| Problem::parameter("bbox", detail))?,
+            filters,
             sort: sort.transpose().map_err(|detail| Problem::parameter("sortby", detail))?.unwrap_or_default(),
             after: after.transpose().map_err(|detail| Problem::parameter("after", detail))?,
             limit,
         })
+    }
+
+    fn filters(&self, collection: Collection, georeference: Option<Georeference>) -> Result<Vec<Filter>, Problem> {
+        let transform =
+            self.filter_crs.transform(georeference).map_err(|detail| Problem::parameter("filter-crs", detail))?;
+        let mut filters = filter::equal(collection, &self.equal)?;
+        if let Some(text) = &self.filter {
+            filters.push(filter::filter(collection, text, self.filter_lang, &transform)?);
+        }
+        Ok(filters)
     }
 
     /// The system of the coordinates of the answer.
@@ -119,6 +170,12 @@ impl ItemsQuery {
         if let Some(bbox) = self.bbox {
             parameters.push(format!("bbox={bbox}"));
             parameters.push(format!("bbox-crs={}", encode(&self.bbox_crs.uri())));
+        }
+        parameters.extend(self.equal.iter().map(|(name, value)| format!("{name}={}", encode(value))));
+        if let Some(filter) = &self.filter {
+            parameters.push(format!("filter={}", encode(filter)));
+            parameters.push(format!("filter-lang={}", self.filter_lang.name()));
+            parameters.push(format!("filter-crs={}", encode(&self.filter_crs.uri())));
         }
         parameters.extend(self.sortby.as_ref().map(|keys| format!("sortby={}", encode(keys))));
         if self.crs != CrsName::default() {

@@ -2,9 +2,11 @@
 
 pub mod collections;
 pub mod conformance;
+pub mod filter;
 pub mod item_names;
 pub mod items;
 mod items_answer;
 mod items_format;
 pub mod items_query;
 pub mod jobs;
+pub mod queryables;
