@@ -179,8 +179,7 @@ async fn valid(site: &Site, operation: &str) -> (Sent, &'static [u16]) {
         "getConformance" => get(format!("{map}/conformance")),
         "listCollections" => get(format!("{map}/collections")),
         "getCollection" => get(format!("{map}/collections/doors")),
-        "getQueryables" => get(format!("{map}/collections/faces/queryables")),
-        "getSchema" => get(format!("{map}/collections/faces/schema")),
+        "getQueryables" | "getSchema" => get(format!("{map}/collections/faces/{}", operation[3..].to_lowercase())),
         "getFeatures" => get(format!("{map}/collections/faces/items")),
         "getFeature" => get(format!("{map}/collections/vertices/items/0")),
         "nameFeature" => {

@@ -165,7 +165,7 @@ async fn bad_values_are_refused_by_name() {
         ("f=xml", "f"),
         ("f=json&f=csv", "f"),
         ("offset=3", "offset"),
-        ("filter=label='co'", "filter"),
+        ("filter=label=", "filter"),
     ] {
         let problem = api.get(&format!("{map}/collections/faces/items?{query}")).await.problem(400, "bad-parameter");
         assert_eq!(problem["errors"][0]["parameter"], parameter, "{query}: {problem}");

@@ -7,7 +7,7 @@ use super::places::QUERYABLES;
 use crate::cql2::{Filter, read_json, read_text};
 
 /// Far more than a refusal takes, far less than a computation would.
-const AT_ONCE: Duration = Duration::from_millis(200);
+const AT_ONCE: Duration = Duration::from_millis(500);
 
 fn refusal(read: impl FnOnce() -> Result<Filter, crate::cql2::FilterError>) -> String {
     let start = Instant::now();
