@@ -5,13 +5,13 @@ use std::fmt;
 /// A filter that cannot be used.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct FilterError {
-    place: Place,
+    place: FaultPlace,
     detail: String,
 }
 
 /// Where in the filter.
 #[derive(Debug, Clone, PartialEq, Eq)]
-enum Place {
+enum FaultPlace {
     /// The detail says it.
     Named,
     /// A character of the text, counted from 1.
@@ -26,26 +26,26 @@ const EXCERPT: usize = 24;
 impl FilterError {
     /// The detail names the culprit itself.
     pub(super) fn new(detail: impl Into<String>) -> Self {
-        Self { place: Place::Named, detail: detail.into() }
+        Self { place: FaultPlace::Named, detail: detail.into() }
     }
 
     /// At a byte of the text.
     pub(super) fn in_text(text: &str, byte: usize, detail: impl Into<String>) -> Self {
-        Self { place: Place::Column(text[..byte].chars().count() + 1), detail: detail.into() }
+        Self { place: FaultPlace::Column(text[..byte].chars().count() + 1), detail: detail.into() }
     }
 
     /// At a JSON pointer; the empty one is the whole filter.
     pub(super) fn at(pointer: &str, detail: impl Into<String>) -> Self {
-        Self { place: Place::Pointer(pointer.to_owned()), detail: detail.into() }
+        Self { place: FaultPlace::Pointer(pointer.to_owned()), detail: detail.into() }
     }
 }
 
 impl fmt::Display for FilterError {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         match &self.place {
-            Place::Column(column) => write!(formatter, "column {column}: {}", self.detail),
-            Place::Pointer(pointer) if !pointer.is_empty() => write!(formatter, "{pointer}: {}", self.detail),
-            Place::Pointer(_) | Place::Named => formatter.write_str(&self.detail),
+            FaultPlace::Column(column) => write!(formatter, "column {column}: {}", self.detail),
+            FaultPlace::Pointer(pointer) if !pointer.is_empty() => write!(formatter, "{pointer}: {}", self.detail),
+            FaultPlace::Pointer(_) | FaultPlace::Named => formatter.write_str(&self.detail),
         }
     }
 }
