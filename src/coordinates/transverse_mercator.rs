@@ -25,12 +25,12 @@ const LATITUDES: std::ops::RangeInclusive<f64> = -80.0..=84.0;
 /// Steps of Newton's method for the latitude: the second is exact to rounding, the third is for certainty.
 const NEWTON_STEPS: usize = 3;
 
-/// Terms of a series in the third flattening: coefficients of `N` to the power of 1 to 6.
-type Terms = [[f64; 6]; 6];
+/// SeriesTerms of a series in the third flattening: coefficients of `N` to the power of 1 to 6.
+type SeriesTerms = [[f64; 6]; 6];
 
 /// From the sphere to the ellipsoid (equation 35).
 #[rustfmt::skip]
-const ALPHA: Terms = [
+const ALPHA: SeriesTerms = [
     [1.0 / 2.0, -2.0 / 3.0, 5.0 / 16.0, 41.0 / 180.0, -127.0 / 288.0, 7_891.0 / 37_800.0],
     [0.0, 13.0 / 48.0, -3.0 / 5.0, 557.0 / 1_440.0, 281.0 / 630.0, -1_983_433.0 / 1_935_360.0],
     [0.0, 0.0, 61.0 / 240.0, -103.0 / 140.0, 15_061.0 / 26_880.0, 167_603.0 / 181_440.0],
@@ -41,7 +41,7 @@ const ALPHA: Terms = [
 
 /// From the ellipsoid to the sphere (equation 36).
 #[rustfmt::skip]
-const BETA: Terms = [
+const BETA: SeriesTerms = [
     [1.0 / 2.0, -2.0 / 3.0, 37.0 / 96.0, -1.0 / 360.0, -81.0 / 512.0, 96_199.0 / 604_800.0],
     [0.0, 1.0 / 48.0, 1.0 / 15.0, -437.0 / 1_440.0, 46.0 / 105.0, -1_118_711.0 / 3_870_720.0],
     [0.0, 0.0, 17.0 / 480.0, -37.0 / 840.0, -209.0 / 4_480.0, 5_569.0 / 90_720.0],
@@ -116,7 +116,7 @@ impl UtmZone {
 }
 
 /// Adds the terms of a series to a point along and across the middle meridian, radians (equations 11 and 13).
-fn series(terms: &Terms, sign: f64, [along, across]: [f64; 2]) -> [f64; 2] {
+fn series(terms: &SeriesTerms, sign: f64, [along, across]: [f64; 2]) -> [f64; 2] {
     let mut sum = [along, across];
     for (index, term) in terms.iter().enumerate() {
         let coefficient = sign * term.iter().rev().fold(0.0, |sum, coefficient| (sum + coefficient) * N);

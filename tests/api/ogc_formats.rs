@@ -66,7 +66,7 @@ async fn every_collection_is_a_table() {
         let matched = api.get(&items).await.json()["numberMatched"].as_u64().expect("a number");
         let table = api.get(&format!("{items}?f=csv")).await;
         let mut reader = csv::Reader::from_reader(table.body.as_slice());
-        let last = reader.headers().expect("a head").iter().last().map(str::to_owned);
+        let last = reader.headers().expect("a head").iter().next_back().map(str::to_owned);
         assert_eq!(reader.records().count() as u64, matched, "{collection}");
         if collection != "locations" {
             assert_eq!(last.as_deref(), Some("geometry"));

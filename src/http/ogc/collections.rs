@@ -20,7 +20,7 @@ use crate::http::extract::crs::{CRS84, CrsName};
 use crate::http::extract::negotiation::Accept;
 use crate::http::extract::{MapPath, Path};
 use crate::http::links::{Base, FLAT_GEOBUF, HTML, JSON, JSON_SCHEMA, encode};
-use crate::http::page::{self, Drawing, Markup};
+use crate::http::page::{self, LinkedFeature, Markup};
 use crate::http::problem::Problem;
 use crate::views::id::Id;
 use crate::views::link::Link;
@@ -220,7 +220,7 @@ fn map_of(base: &Base, context: &MapContext, collection: Collection) -> Markup {
     let path = format!("/v1/maps/{}/collections/{}/items", context.record.id, collection.id());
     let drawn = context.features(collection).iter().take(MOST_DRAWN).map(|feature| {
         let href = base.link("item", &format!("{path}/{}?f=html", encode(&feature.id.to_string())), HTML).href;
-        Drawing { feature, href }
+        LinkedFeature { feature, href }
     });
     page::drawing(&drawn.collect::<Vec<_>>())
 }

@@ -17,7 +17,7 @@ use crate::formats::json_fg::{self, Systems};
 use crate::formats::{Json, csv, flatgeobuf, geojson};
 use crate::http::extract::crs::{CONTENT_CRS, CrsName};
 use crate::http::links::{Base, JSON, encode, header as link_header};
-use crate::http::page::{self, Drawing, Markup};
+use crate::http::page::{self, LinkedFeature, Markup};
 use crate::views::link::Link;
 
 /// What is asked about, and how it is to be written.
@@ -137,9 +137,9 @@ impl Answer {
         write(Systems { place, place_uri, geometry: &degrees })
     }
 
-    fn drawn<'a>(&self, feature: &'a Feature) -> Drawing<'a> {
+    fn drawn<'a>(&self, feature: &'a Feature) -> LinkedFeature<'a> {
         let path = format!("{}/items/{}?f=html", self.path(), encode(&feature.id.to_string()));
-        Drawing { feature, href: self.base.link("item", &path, Format::Html.media_type()).href }
+        LinkedFeature { feature, href: self.base.link("item", &path, Format::Html.media_type()).href }
     }
 
     /// A page of features as a page for people: a small map, and a row for each.
@@ -149,8 +149,8 @@ impl Answer {
             Markup::element("tr", &[], texts.into_iter().map(|text| Markup::element(name, &[], [text])))
         };
         let head = cells("th", schema.properties.iter().map(|property| page::text(property.name)).collect());
-        let drawn: Vec<Drawing<'_>> = page.features.iter().map(|feature| self.drawn(feature)).collect();
-        let rows = drawn.iter().map(|Drawing { feature, href }| {
+        let drawn: Vec<LinkedFeature<'_>> = page.features.iter().map(|feature| self.drawn(feature)).collect();
+        let rows = drawn.iter().map(|LinkedFeature { feature, href }| {
             let mut texts: Vec<Markup> = feature.properties().map(|(_, value)| page::part(&value)).collect();
             texts[0] = Markup::element("a", &[("href", href)], [texts[0].clone()]);
             cells("td", texts)

@@ -17,7 +17,7 @@ const SHORTEST_M: f64 = 1.0;
 
 /// What a drawing shows: a feature and its address.
 #[derive(Debug)]
-pub struct Drawing<'a> {
+pub struct LinkedFeature<'a> {
     /// The feature.
     pub feature: &'a Feature,
     /// Where its page is.
@@ -26,7 +26,7 @@ pub struct Drawing<'a> {
 
 /// A small map of features, each with a link to its page. Nothing where no feature has a shape.
 #[must_use]
-pub fn drawing(features: &[Drawing<'_>]) -> Markup {
+pub fn drawing(features: &[LinkedFeature<'_>]) -> Markup {
     let points: Vec<&Point> = features.iter().flat_map(|drawn| drawn.feature.geometry.points()).collect();
     let bounds = Bounds::around(points);
     if bounds.is_empty() {
@@ -43,7 +43,7 @@ pub fn drawing(features: &[Drawing<'_>]) -> Markup {
         width + 2.0 * margin,
         height + 2.0 * margin
     );
-    let linked = |drawn: &Drawing<'_>| {
+    let linked = |drawn: &LinkedFeature<'_>| {
         let name = Markup::element("title", &[], [text(&drawn.feature.id.to_string())]);
         let shape = shape(&drawn.feature.geometry, size * POINT_RADIUS, name);
         Markup::element("a", &[("href", &drawn.href)], [shape])

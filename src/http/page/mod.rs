@@ -13,7 +13,7 @@ use serde::Serialize;
 use crate::http::extract::negotiation::Accept;
 use crate::http::links::{HTML, JSON};
 
-pub use drawing::{Drawing, drawing};
+pub use drawing::{LinkedFeature, drawing};
 pub use markup::{Markup, text};
 
 /// What a page looks like: that of a document that is read, on screens of any width, light or dark.
