@@ -25,7 +25,7 @@ const LATITUDES: std::ops::RangeInclusive<f64> = -80.0..=84.0;
 /// Steps of Newton's method for the latitude: the second is exact to rounding, the third is for certainty.
 const NEWTON_STEPS: usize = 3;
 
-/// SeriesTerms of a series in the third flattening: coefficients of `N` to the power of 1 to 6.
+/// The terms of a series in the third flattening: coefficients of `N` to the power of 1 to 6.
 type SeriesTerms = [[f64; 6]; 6];
 
 /// From the sphere to the ellipsoid (equation 35).

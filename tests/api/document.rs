@@ -378,19 +378,23 @@ fn references(value: &Value, found: &mut Vec<String>) {
 #[tokio::test]
 async fn the_document_needs_nothing_from_elsewhere() {
     let api = Api::new().await;
+    let of_map = format!("{}/api", waiting_map(&api).await);
+    for path in ["/openapi.json", "/openapi-3.0.json", &of_map] {
+        let document = api.get(path).await.json();
+        let mut found = Vec::new();
+        references(&document, &mut found);
+        for reference in found {
+            let pointer = reference.strip_prefix('#').unwrap_or_else(|| panic!("{path}: {reference} leads away"));
+            assert!(document.pointer(pointer).is_some(), "{path}: {reference} leads nowhere");
+        }
+        let mut ids = BTreeSet::new();
+        for (id, operation) in operations(&document) {
+            assert!(ids.insert(id.clone()), "{path}: {id} is there twice");
+            assert!(operation["tags"][0].is_string() && operation["summary"].is_string(), "{path}: {id}");
+        }
+    }
     let document = api.get("/openapi.json").await.json();
-    let mut found = Vec::new();
-    references(&document, &mut found);
-    for reference in found {
-        let pointer = reference.strip_prefix('#').unwrap_or_else(|| panic!("{reference} leads away"));
-        assert!(document.pointer(pointer).is_some(), "{reference} leads nowhere");
-    }
     assert_eq!(document["info"]["license"]["identifier"], "MIT OR Apache-2.0");
-    let mut ids = BTreeSet::new();
-    for (id, operation) in operations(&document) {
-        assert!(ids.insert(id.clone()), "{id} is there twice");
-        assert!(operation["tags"][0].is_string() && operation["summary"].is_string(), "{id}");
-    }
 }
 
 #[tokio::test]

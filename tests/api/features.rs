@@ -270,6 +270,7 @@ async fn locations_are_a_table_too() {
     assert!(page.header("link").contains("f=csv"), "{}", page.header("link"));
     let json_tag = api.get(&items).await.header("etag").to_owned();
     assert_ne!(page.header("etag"), json_tag, "another representation");
+    assert_eq!(page.header("content-crs"), "", "its positions are map-frame metres");
 }
 
 #[tokio::test]

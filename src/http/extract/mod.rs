@@ -109,9 +109,9 @@ pub type ListLimit = Limit<100, 1_000>;
 #[into_params(parameter_in = Query)]
 #[serde(deny_unknown_fields)]
 pub struct Paging {
-    /// Most entries of the answer.
+    /// Most entries of the answer, and never more than 1,000.
     #[serde(default)]
-    #[param(value_type = Option<u32>, minimum = 1, maximum = 1000, default = 100)]
+    #[param(value_type = Option<u32>, minimum = 1, default = 100)]
     pub limit: ListLimit,
     /// Id of the last entry of the page before: taken from the `next` link.
     pub after: Option<Id>,

@@ -78,6 +78,7 @@ impl Answer {
             }),
             // Positions of this table, which importers know, are map-frame metres whatever the request says.
             Format::Csv if self.collection == Collection::Locations => {
+                headers.remove(CONTENT_CRS);
                 (headers, csv::locations(features)).into_response()
             }
             Format::Csv => (headers, csv::collection(self.collection, features, &self.transform)).into_response(),

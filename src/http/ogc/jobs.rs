@@ -72,9 +72,9 @@ pub struct JobQuery {
     #[serde(rename = "type")]
     #[param(inline, rename = "type")]
     _type: Option<JobType>,
-    /// Most entries of the answer.
+    /// Most entries of the answer, and never more than 1,000.
     #[serde(default)]
-    #[param(value_type = Option<u32>, minimum = 1, maximum = 1000, default = 100)]
+    #[param(value_type = Option<u32>, minimum = 1, default = 100)]
     limit: ListLimit,
     /// Id of the last job of the page before: taken from the `next` link.
     after: Option<Id>,
