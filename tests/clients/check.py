@@ -4,12 +4,14 @@ import json
 import pathlib
 import subprocess
 import sys
+import urllib.parse
 import urllib.request
 
 import jsonschema
 import openapi_spec_validator
 import pyogrio
 from owslib.ogcapi.features import Features
+
 
 MAP, SCHEMAS, WORK = sys.argv[1], pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3])
 SERVICE = MAP.split("/v1/")[0]
@@ -67,6 +69,27 @@ def system_gdal_reads_and_converts():
     assert f"Feature Count: {len(FACES)}" in run("ogrinfo", "-ro", "-so", str(copy), "faces")
 
 
+def read_through_relay(where):
+    """What GDAL of today reads with a selection, and what it asked for: shapes, bytes, requests."""
+    service = urllib.parse.urlsplit(SERVICE)
+    command = [sys.executable, str(pathlib.Path(__file__).with_name("counting.py")), service.hostname, str(service.port)]
+    relay = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+    source = SOURCE.replace(service.netloc, f"127.0.0.1:{relay.stdout.readline().strip()}")
+    _, _, shapes, _ = pyogrio.raw.read(source, layer="faces", where=where)
+    counted = json.loads(relay.communicate()[0])
+    return len(shapes), counted["bytes"], [request for request in counted["requests"] if "/items?" in request]
+
+
+def todays_gdal_leaves_selections_to_the_service():
+    """GDAL of today: a selection is made by the service, not after everything was downloaded."""
+    wanted = [face for face in FACES if face["properties"]["label"] == "co" and face["properties"]["areaM2"] > 50]
+    count, some_bytes, requests = read_through_relay("label = 'co' AND areaM2 > 50")
+    assert count == len(wanted) > 0, (count, len(wanted))
+    assert any("filter=" in request for request in requests), requests
+    count, all_bytes, _ = read_through_relay(None)
+    assert count == len(FACES) and some_bytes < all_bytes, (some_bytes, all_bytes)
+
+
 def files_are_read():
     """GDAL of today: each format of a whole collection has every feature in metres of the map."""
     metres = get(f"{MAP}/collections/faces/items?crs=EPSG:3857&limit=10000")["features"]
@@ -93,12 +116,15 @@ def todays_gdal_reads_metres():
 
 
 def owslib_reads():
-    """OWSLib: conformance, collections, a page in a box, a feature, the definition of the API."""
+    """OWSLib: conformance, collections, queryables, schema, a page in a box, a filter, a feature, the API's definition."""
     client = Features(f"{MAP}/")
     assert any(uri.endswith("ogcapi-features-1/1.0/conf/core") for uri in client.conformance()["conformsTo"])
     assert client.feature_collections() == COLLECTIONS
     page = client.collection_items("faces", limit=3, bbox=["-180", "-90", "180", "90"])
     assert (page["numberMatched"], page["numberReturned"]) == (len(FACES), 3)
+    for properties in (client.collection_queryables("faces"), client.collection_schema("faces")):
+        assert "areaM2" in properties["properties"], properties
+    assert client.collection_items("faces", filter="label='co'")["numberMatched"] == len(CORRIDORS)
     assert client.collection_item("faces", str(FACES[0]["id"]))["id"] == FACES[0]["id"]
     assert client.api()["openapi"] == "3.0.3"
 
@@ -121,6 +147,7 @@ for check in (
     json_fg_is_valid,
     system_gdal_reads_and_converts,
     todays_gdal_reads_metres,
+    todays_gdal_leaves_selections_to_the_service,
     files_are_read,
     owslib_reads,
     a_surveyed_map_is_in_its_zone,
