@@ -102,7 +102,7 @@ impl Transform {
     pub fn readable(&self, point: Point) -> [f64; 2] {
         let digits = match self.crs {
             Crs::Crs84 => 1e8,
-            Crs::WebMercator => 1e3,
+            Crs::WebMercator | Crs::Utm(_) => 1e3,
         };
         self.forward(point).map(|value| (value * digits).round() / digits)
     }

@@ -8,7 +8,7 @@ use crate::coordinates::{Crs, Transform};
 pub fn did_you_mean_crs(context: &MapContext, transform: &Transform, position: [f64; 2]) -> Option<&'static str> {
     let (other, hint) = match transform.crs() {
         Crs::Crs84 => (Crs::WebMercator, "did you mean crs=EPSG:3857?"),
-        Crs::WebMercator => (Crs::Crs84, "did you mean crs=CRS84?"),
+        Crs::WebMercator | Crs::Utm(_) => (Crs::Crs84, "did you mean crs=CRS84?"),
     };
     let other = Transform::new(other, context.record.georeference);
     let systems = [(transform, false), (&other, true)];
