@@ -71,7 +71,9 @@ impl Follower {
             while let Some(&cell) = cluster.get(next) {
                 next += 1;
                 let beside: Vec<usize> = self.beside(cell).filter(|&other| !is_seen[other] && is_end(other)).collect();
-                beside.iter().for_each(|&other| is_seen[other] = true);
+                for &other in &beside {
+                    is_seen[other] = true;
+                }
                 cluster.extend(beside);
             }
             found.push(cluster);

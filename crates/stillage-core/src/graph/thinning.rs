@@ -20,13 +20,13 @@ pub(super) fn thinned(width: usize, room: &[u16], anchors: &[usize]) -> Vec<bool
     for &anchor in anchors {
         is_anchor[anchor] = true;
     }
-    let mut levels: Vec<Vec<u32>> = vec![Vec::new(); usize::from(room.iter().copied().max().unwrap_or(0)) + 1];
+    let most = room.iter().copied().max().unwrap_or(0);
+    let mut levels: Vec<Vec<u32>> = vec![Vec::new(); usize::from(most) + 1];
     for (cell, &room) in room.iter().enumerate().filter(|&(_, &room)| room > 0) {
         levels[usize::from(room)].push(cell as u32);
     }
     let around = around(width);
-    for level in 0..levels.len() {
-        let mut queue = std::mem::take(&mut levels[level]);
+    for (mut queue, level) in levels.into_iter().zip(0..=most) {
         let mut next = 0;
         while let Some(&cell) = queue.get(next) {
             let cell = cell as usize;
@@ -35,9 +35,8 @@ pub(super) fn thinned(width: usize, room: &[u16], anchors: &[usize]) -> Vec<bool
                 remains[cell] = false;
                 // A cell that had to stay may be simple now.
                 let beside = around.iter().map(|&by| cell.wrapping_add_signed(by));
-                queue.extend(
-                    beside.filter(|&cell| remains[cell] && usize::from(room[cell]) <= level).map(|cell| cell as u32),
-                );
+                let again = beside.filter(|&cell| remains[cell] && room[cell] <= level);
+                queue.extend(again.map(|cell| cell as u32));
             }
         }
     }
