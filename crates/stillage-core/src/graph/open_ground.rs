@@ -41,11 +41,12 @@ impl GroundWays {
             let mut course = vec![ways.points[from]];
             course.extend(line.cells.iter().map(|&cell| window.center(map, cell)));
             course.push(ways.points[to]);
-            if from == to && length(&course) < least_distance {
-                continue;
-            }
             let mut bends = Vec::new();
             add_bends(router, &course, 0..course.len() - 1, &mut bends);
+            // A ring this small goes around nothing that a straight way would not pass.
+            if from == to && bends.len() < 2 {
+                continue;
+            }
             let mut way = vec![from];
             for bend in bends {
                 way.push(ways.points.len());
@@ -94,10 +95,6 @@ fn add_bends(router: &Router, course: &[Point], piece: Range<usize>, bends: &mut
     add_bends(router, course, start..bend, bends);
     bends.push(bend);
     add_bends(router, course, bend..end, bends);
-}
-
-fn length(path: &[Point]) -> f64 {
-    path.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum()
 }
 
 /// The cells around a face, with a border of one cell that is no ground.
