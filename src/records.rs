@@ -293,21 +293,27 @@ pub struct SemanticsRecord {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum SemanticsOrigin {
-    /// Nobody yet: the suggestion is in force.
+    /// Nobody, or a person who went back to the suggestion.
     Suggested,
     /// A person.
     Assigned,
 }
 
-/// A new version of the human level.
-#[derive(Debug, Clone)]
-pub struct NewSemantics {
-    /// The rule set; the one in force when absent.
-    pub rule_set: Option<String>,
-    /// The decision.
-    pub assignment: Assignment,
-    /// How locations are cut and numbered; as in force when absent.
-    pub layout: Option<LayoutOptions>,
+impl SemanticsOrigin {
+    /// The name in the database.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Suggested => "suggested",
+            Self::Assigned => "assigned",
+        }
+    }
+
+    /// The origin with a name.
+    #[must_use]
+    pub fn find(name: &str) -> Option<Self> {
+        [Self::Suggested, Self::Assigned].into_iter().find(|origin| origin.name() == name)
+    }
 }
 
 /// The result of asking for an analysis.

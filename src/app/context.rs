@@ -87,16 +87,8 @@ impl GeometricLevel {
     ) -> Result<MapContext, AppError> {
         let rule_set = decision.as_ref().map_or_else(|| Ok(RuleSet::default()), |made| read_rule_set(&made.draft))?;
         let suggestions = semantics::suggest(&self.analysis, &rule_set);
-        let semantics = decision.unwrap_or_else(|| SemanticsRecord {
-            analysis: analysis_id,
-            rule_set: RuleSet::DEFAULT_ID.to_owned(),
-            draft: rule_set.draft().clone(),
-            assignment: Assignment::suggested(&suggestions, &rule_set),
-            layout: suggested_layout,
-            version: 0,
-            origin: SemanticsOrigin::Suggested,
-            created,
-        });
+        let semantics =
+            decision.unwrap_or_else(|| suggested_semantics(&self.analysis, (analysis_id, created), suggested_layout));
         let semantic = semantics::apply(&self.analysis, &rule_set, &semantics.assignment)?;
         let Self { grid, analysis: geometric, cells } = self;
         let frame = *grid.frame();
@@ -107,6 +99,7 @@ impl GeometricLevel {
             record,
             grid,
             analysis_id,
+            analysed: created,
             analysis: geometric,
             cells,
             semantics,
@@ -119,6 +112,33 @@ impl GeometricLevel {
             features: FeatureCache::default(),
             routers: RouterCache::default(),
         })
+    }
+}
+
+impl MapContext {
+    /// The suggestion for its analysis, in the layout in force. Takes milliseconds: keep it off the runtime.
+    #[must_use]
+    pub fn suggested(&self) -> SemanticsRecord {
+        suggested_semantics(&self.analysis, (self.analysis_id, self.analysed), self.semantics.layout.clone())
+    }
+}
+
+/// The suggestion under the default rule set, for an analysis with this id and time.
+fn suggested_semantics(
+    analysis: &Analysis,
+    (id, created): (Uuid, Timestamp),
+    layout: LayoutOptions,
+) -> SemanticsRecord {
+    let rule_set = RuleSet::default();
+    SemanticsRecord {
+        analysis: id,
+        rule_set: RuleSet::DEFAULT_ID.to_owned(),
+        assignment: Assignment::suggested(&semantics::suggest(analysis, &rule_set), &rule_set),
+        draft: rule_set.draft().clone(),
+        layout,
+        version: 0,
+        origin: SemanticsOrigin::Suggested,
+        created,
     }
 }
 

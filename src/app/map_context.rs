@@ -2,6 +2,7 @@
 
 use std::sync::{Arc, OnceLock};
 
+use jiff::Timestamp;
 use stillage_core::graph::NavigationGraph;
 use stillage_core::layout::{Layout, LayoutSpec};
 use stillage_core::registry::NumberedLocation;
@@ -23,6 +24,8 @@ pub struct MapContext {
     pub grid: Arc<OccupancyGrid>,
     /// The analysis in force.
     pub analysis_id: Uuid,
+    /// When it was made.
+    pub(super) analysed: Timestamp,
     /// The geometric level.
     pub analysis: Arc<Analysis>,
     /// What is read off its cells.

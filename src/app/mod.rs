@@ -5,7 +5,7 @@
 //! | `maps` | upload, list, rename, delete |
 //! | `jobs` | analyses and the jobs that make them |
 //! | `rule_sets` | the vocabulary of labels |
-//! | `semantics` | the human decision on a map |
+//! | `semantics`, `semantics_change` | the human decision on a map, its versions |
 //! | `registries` | uploads aligned to an earlier map, the codes of a site's places |
 //! | `names`, `name_import` | what people call locations, places, aisles and rows |
 //! | `comparisons` | what changed between two maps, or two versions of labels |
@@ -38,13 +38,14 @@ mod registries;
 mod routers;
 mod rule_sets;
 mod semantics;
+mod semantics_change;
 mod service;
 #[cfg(test)]
 mod tests;
 
 pub use crate::records::{
-    AnalysisRecord, AnalysisTicket, JobFilter, JobRecord, JobState, MapPatch, MapRecord, NewMap, NewSemantics,
-    RuleSetRecord, SemanticsOrigin, SemanticsRecord, StageReport,
+    AnalysisRecord, AnalysisTicket, JobFilter, JobRecord, JobState, MapPatch, MapRecord, NewMap, RuleSetRecord,
+    SemanticsOrigin, SemanticsRecord, StageReport,
 };
 pub use caller::Caller;
 pub use comparisons::{LabelComparison, MapComparison, PairAlignment};
@@ -54,4 +55,5 @@ pub use grid::GridSource;
 pub use map_context::MapContext;
 pub use name_import::{NameChange, NameReport};
 pub use names::{Nameable, area_kind};
+pub use semantics_change::{SemanticsChange, Unnamed};
 pub use service::App;

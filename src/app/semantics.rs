@@ -1,7 +1,7 @@
 //! The human decision on a map.
 //!
 //! Until somebody decides, the suggestion is in force, as version 0. A decision is a new immutable version; it keeps the
-//! rule set as it was. It belongs to the analysis whose categories it names: when another analysis comes into force, its
+//! rule set as it was. An earlier version, 0 too, is restored as a new one. It belongs to the analysis whose categories it names: when another analysis comes into force, its
 //! own newest decision is (or its suggestion, version 0 again). Versions of decisions count on over all analyses of a
 //! map. A decision holds how locations are cut and numbered, too; the suggestion has the layout of the newest decision
 //! on the map, or on an earlier map of the site.
@@ -13,12 +13,12 @@ use stillage_core::graph::{NODE_REACH_M, navigation_graph};
 use stillage_core::lane_rule::LaneRule;
 use stillage_core::layout::{self, CodeTemplate, LONGEST_CODE, LayoutOptions, LayoutSpec};
 use stillage_core::routing::Router;
-use stillage_core::semantics::{self, SemanticMap};
+use stillage_core::semantics::{self, Assignment, SemanticMap};
 use uuid::Uuid;
 
 use super::context::read_rule_set;
 use super::registries::site_to_grid;
-use super::{App, AppError, Caller, MapContext, NewSemantics, SemanticsRecord};
+use super::{App, AppError, Caller, MapContext, SemanticsChange, SemanticsOrigin, SemanticsRecord};
 use crate::blocking::off_the_runtime;
 use crate::store::{NewSemanticsRow, now};
 
@@ -29,27 +29,73 @@ impl App {
     }
 
     /// Makes a new version; needs `if_match`, the version in force.
-    pub async fn put_semantics(
+    pub async fn change_semantics(
         &self,
         caller: &Caller,
         map: Uuid,
-        new: NewSemantics,
+        change: SemanticsChange,
         if_match: Option<u64>,
     ) -> Result<SemanticsRecord, AppError> {
+        let context = self.context_at(caller, map, if_match).await?;
+        let row = self.checked_semantics(caller, &context, change).await?;
+        self.decide(caller, &context, row).await
+    }
+
+    /// Makes a new version that is equal to an earlier one, or to the suggestion (version 0), which then is in force in
+    /// the layout that is; needs `if_match`, the version in force.
+    pub async fn restore_semantics(
+        &self,
+        caller: &Caller,
+        map: Uuid,
+        version: u64,
+        if_match: Option<u64>,
+    ) -> Result<SemanticsRecord, AppError> {
+        let context = self.context_at(caller, map, if_match).await?;
+        let wanted = self.semantics_version(caller, map, version).await?;
+        if wanted.analysis != context.analysis_id {
+            return Err(AppError::Conflict(format!(
+                "version {version} names the categories of analysis {}, which is not in force: activate that one first",
+                wanted.analysis
+            )));
+        }
+        let row = NewSemanticsRow {
+            map,
+            analysis: context.analysis_id,
+            replaces: context.semantics.version,
+            rule_set: wanted.rule_set,
+            draft: wanted.draft,
+            assignment: wanted.assignment,
+            layout: wanted.layout,
+            origin: wanted.origin,
+        };
+        self.decide(caller, &context, row).await
+    }
+
+    /// The map, when the version in force is the one that a decision was made on.
+    async fn context_at(&self, caller: &Caller, map: Uuid, if_match: Option<u64>) -> Result<Arc<MapContext>, AppError> {
         let context = self.context(caller, map).await?;
         let replaces = if_match.ok_or(AppError::PreconditionRequired)?;
         if replaces != context.semantics.version {
             return Err(AppError::PreconditionFailed { current: context.semantics.version });
         }
-        let row = self.checked_semantics(caller, &context, new).await?;
+        Ok(context)
+    }
+
+    /// Stores a decision.
+    async fn decide(
+        &self,
+        caller: &Caller,
+        context: &MapContext,
+        row: NewSemanticsRow,
+    ) -> Result<SemanticsRecord, AppError> {
         let is_other_layout = row.layout != context.semantics.layout;
         match self.store.insert_semantics(caller.tenant(), &row, now()).await? {
-            None => Err(AppError::not_found("map", map)),
+            None => Err(AppError::not_found("map", row.map)),
             Some(Err(current)) => Err(AppError::PreconditionFailed { current }),
             Some(Ok(record)) => {
                 if is_other_layout {
                     // Writes the new codes, which raises the version of the map: not under the first who asks for it.
-                    self.context(caller, map).await?;
+                    self.context(caller, row.map).await?;
                 }
                 Ok(record)
             }
@@ -62,14 +108,29 @@ impl App {
         Ok(self.store.semantics_versions(caller.tenant(), map).await?)
     }
 
+    /// One version; 0 is the suggestion for the analysis in force.
+    pub async fn semantics_version(
+        &self,
+        caller: &Caller,
+        map: Uuid,
+        version: u64,
+    ) -> Result<SemanticsRecord, AppError> {
+        if version == 0 {
+            let context = self.context(caller, map).await?;
+            return off_the_runtime(move || Ok(context.suggested())).await;
+        }
+        let found = self.semantics_versions(caller, map).await?.into_iter().find(|record| record.version == version);
+        found.ok_or_else(|| AppError::not_found("version", version.to_string()))
+    }
+
     /// A decision that can be applied to the analysis in force.
     async fn checked_semantics(
         &self,
         caller: &Caller,
         context: &Arc<MapContext>,
-        new: NewSemantics,
+        change: SemanticsChange,
     ) -> Result<NewSemanticsRow, AppError> {
-        let (rule_set, draft) = match new.rule_set {
+        let (rule_set, draft) = match change.rule_set.clone() {
             None => (context.semantics.rule_set.clone(), context.semantics.draft.clone()),
             Some(id) => match self.rule_set(caller, &id).await {
                 Ok(record) => (record.id, record.draft),
@@ -80,9 +141,11 @@ impl App {
             },
         };
         let checked = read_rule_set(&draft)?;
-        let (assignment, layout) = (new.assignment, new.layout.unwrap_or_else(|| context.semantics.layout.clone()));
         let on = Arc::clone(context);
         let (assignment, layout) = off_the_runtime(move || {
+            let suggested = Assignment::suggested(&semantics::suggest(&on.analysis, &checked), &checked);
+            let assignment = change.labels(&on.semantics, &checked, &suggested)?;
+            let layout = change.layout.unwrap_or_else(|| on.semantics.layout.clone());
             let semantic = semantics::apply(&on.analysis, &checked, &assignment)?;
             check_layout(&on, &semantic, &layout)?;
             check_lane_rules(&on, &semantic, &layout)?;
@@ -90,7 +153,8 @@ impl App {
         })
         .await?;
         let (map, analysis, replaces) = (context.record.id, context.analysis_id, context.semantics.version);
-        Ok(NewSemanticsRow { map, analysis, replaces, rule_set, draft, assignment, layout })
+        let origin = SemanticsOrigin::Assigned;
+        Ok(NewSemanticsRow { map, analysis, replaces, rule_set, draft, assignment, layout, origin })
     }
 }
 

@@ -7,7 +7,7 @@ use stillage_core::semantics::{Assignment, RuleSetDraft};
 use uuid::Uuid;
 
 use super::StoreError;
-use crate::records::{SemanticsRecord, Tenant};
+use crate::records::{SemanticsOrigin, SemanticsRecord, Tenant};
 
 /// A decision to be stored.
 #[derive(Debug, Clone)]
@@ -26,6 +26,8 @@ pub struct NewSemanticsRow {
     pub assignment: Assignment,
     /// How locations are cut and numbered.
     pub layout: LayoutOptions,
+    /// Suggested where a person went back to the suggestion.
+    pub origin: SemanticsOrigin,
 }
 
 /// What is kept of human decisions.

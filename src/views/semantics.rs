@@ -43,11 +43,11 @@ pub struct OverrideView {
     pub label: String,
 }
 
-/// Who decided: nobody yet (the suggestion is in force), or a person.
+/// Who decided: nobody (the suggestion is in force), or a person.
 #[derive(Debug, Serialize, ToSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum OriginView {
-    /// Nobody yet.
+    /// Nobody, or a person who went back to the suggestion.
     Suggested,
     /// A person.
     Assigned,
@@ -81,13 +81,14 @@ pub struct SemanticsBody {
     /// The rule set; the one in force when absent.
     #[schema(example = "site")]
     pub rule_set: Option<String>,
-    /// Label by category. Categories that are not named become the rule set's unidentified label.
+    /// Label by category. Categories that are not named keep the label in force. Under another rule set, those that nobody
+    /// decided on, or whose label it has not, get its suggestion.
     #[serde(default)]
     #[schema(example = json!({"0": "co", "1": "pc"}))]
     pub assignment: BTreeMap<String, String>,
-    /// Labels of single faces.
-    #[serde(default)]
-    pub overrides: Vec<OverrideView>,
+    /// Labels of single faces, all of them; as in force when absent.
+    #[schema(required = false)]
+    pub overrides: Option<Vec<OverrideView>>,
     /// How locations are cut and numbered; as in force when absent. Another template, entrance or width of places is a wish
     /// for new codes: only those that people gave stay.
     #[schema(required = false)]

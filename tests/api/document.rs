@@ -175,6 +175,15 @@ async fn valid(site: &Site, operation: &str) -> (Sent, &'static [u16]) {
             let assignment = json!({"assignment": {"0": "co"}});
             (Sent::new(Method::PUT, format!("{map}/semantics")).json(&assignment).with("if-match", "*"), &[200])
         }
+        "changeSemantics" => {
+            let patch = json!({"assignment": {"0": "co"}});
+            (Sent::new(Method::PATCH, format!("{map}/semantics")).json(&patch).with("if-match", "*"), &[200])
+        }
+        "getSemanticsVersion" => get(format!("{map}/semantics/versions/0")),
+        "restoreSemantics" => {
+            let path = format!("{map}/semantics/versions/0/restore");
+            (Sent::new(Method::POST, path).with("if-match", "*"), &[200])
+        }
         "listSemanticsVersions" => get(format!("{map}/semantics/versions")),
         "getConformance" => get(format!("{map}/conformance")),
         "listCollections" => get(format!("{map}/collections")),

@@ -24,5 +24,6 @@ mod ogc_part_2;
 mod protocol;
 mod routes;
 mod semantics;
+mod semantics_changes;
 mod sites;
 mod uploads;

@@ -2,11 +2,12 @@
 
 mod sharing;
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use serde_json::json;
 use stillage_core::AnalysisOptions;
-use stillage_core::semantics::{Assignment, RuleSet};
+use stillage_core::semantics::RuleSet;
 use stillage_core::spec::CategoryCount;
 use tempfile::TempDir;
 use uuid::Uuid;
@@ -114,10 +115,10 @@ async fn a_decision_changes_the_answer_and_nothing_is_read_again() {
     let service = service().await;
     let map = analysed(&service).await;
     let before = service.context(&me(), map).await.unwrap();
-    let assignment: Assignment = serde_json::from_value(json!({"assignment": {"0": "co"}})).unwrap();
     let decide = async |rule_set: Option<&str>, if_match| {
-        let new = NewSemantics { rule_set: rule_set.map(Into::into), assignment: assignment.clone(), layout: None };
-        service.put_semantics(&me(), map, new, if_match).await
+        let categories = BTreeMap::from([(0, Some("co".to_owned()))]);
+        let change = SemanticsChange { rule_set: rule_set.map(Into::into), categories, ..SemanticsChange::default() };
+        service.change_semantics(&me(), map, change, if_match).await
     };
     assert!(matches!(decide(None, None).await, Err(AppError::PreconditionRequired)));
     assert!(matches!(decide(None, Some(3)).await, Err(AppError::PreconditionFailed { current: 0 })));
@@ -135,12 +136,9 @@ async fn a_decision_changes_the_answer_and_nothing_is_read_again() {
     assert!(matches!(decide(None, Some(0)).await, Err(AppError::PreconditionFailed { current: 1 })));
     assert_eq!(service.semantics_versions(&me(), map).await.unwrap(), [made]);
 
-    let wrong = NewSemantics {
-        rule_set: None,
-        assignment: serde_json::from_value(json!({"assignment": {"0": "?"}})).unwrap(),
-        layout: None,
-    };
-    let wrong = service.put_semantics(&me(), map, wrong, Some(1)).await;
+    let categories = BTreeMap::from([(0, Some("?".to_owned()))]);
+    let wrong = SemanticsChange { categories, ..SemanticsChange::default() };
+    let wrong = service.change_semantics(&me(), map, wrong, Some(1)).await;
     assert!(matches!(&wrong, Err(AppError::Invalid { fields, .. }) if !fields.is_empty()), "{wrong:?}");
 }
 
@@ -148,8 +146,8 @@ async fn a_decision_changes_the_answer_and_nothing_is_read_again() {
 async fn other_options_bring_their_own_suggestion_and_the_old_ones_the_old_decision() {
     let service = service().await;
     let map = analysed(&service).await;
-    let new = NewSemantics { rule_set: Some("office".into()), assignment: Assignment::default(), layout: None };
-    service.put_semantics(&me(), map, new, Some(0)).await.unwrap();
+    let change = SemanticsChange { rule_set: Some("office".into()), ..SemanticsChange::default() };
+    service.change_semantics(&me(), map, change, Some(0)).await.unwrap();
 
     let options = AnalysisOptions { seed: 9, ..AnalysisOptions::default() };
     let AnalysisTicket::Job(_) = service.create_analysis(&me(), map, options).await.unwrap() else {

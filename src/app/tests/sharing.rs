@@ -18,8 +18,8 @@ async fn what_another_process_changes_is_seen_at_the_next_question() {
     service.update_map(&me(), map, patch, None).await.unwrap();
     assert_eq!(other.context(&me(), map).await.unwrap().record.name, "Hall");
 
-    let new = NewSemantics { rule_set: Some("office".into()), assignment: Assignment::default(), layout: None };
-    service.put_semantics(&me(), map, new, Some(0)).await.unwrap();
+    let change = SemanticsChange { rule_set: Some("office".into()), ..SemanticsChange::default() };
+    service.change_semantics(&me(), map, change, Some(0)).await.unwrap();
     let decided = other.context(&me(), map).await.unwrap();
     assert_eq!((decided.semantics.version, decided.semantics.rule_set.as_str()), (1, "office"));
     assert!(Arc::ptr_eq(&before.analysis, &decided.analysis), "the geometry is not read again");
@@ -49,8 +49,8 @@ async fn what_belongs_to_another_caller_is_not_found() {
     not_found(service.create_analysis(&other, job.map, AnalysisOptions::default()).await.unwrap_err());
     not_found(service.semantics(&other, job.map).await.unwrap_err());
     not_found(service.semantics_versions(&other, job.map).await.unwrap_err());
-    let new = NewSemantics { rule_set: None, assignment: Assignment::default(), layout: None };
-    not_found(service.put_semantics(&other, job.map, new, Some(0)).await.unwrap_err());
+    let change = SemanticsChange::default();
+    not_found(service.change_semantics(&other, job.map, change, Some(0)).await.unwrap_err());
     not_found(service.update_map(&other, job.map, MapPatch::default(), None).await.unwrap_err());
     not_found(service.delete_map(&other, job.map).await.unwrap_err());
     not_found(service.job(&other, job.id).await.unwrap_err());

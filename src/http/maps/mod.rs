@@ -9,4 +9,5 @@ pub mod pictures;
 pub mod registry;
 pub mod rule_sets;
 pub mod semantics;
+mod semantics_body;
 pub mod upload;

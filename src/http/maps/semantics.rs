@@ -1,26 +1,25 @@
 //! The human level of a map: categories with suggestions, and the labels in force.
 
-use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use axum::Json;
 use axum::extract::State;
 use axum::http::header;
 use axum::response::{IntoResponse, Response};
-use stillage_core::Point;
-use stillage_core::layout::LayoutOptions;
-use stillage_core::semantics::Assignment;
+use serde::Deserialize;
+use utoipa::IntoParams;
 use uuid::Uuid;
 
-use crate::app::{App, Caller, MapContext, NewSemantics, SemanticsRecord};
-use crate::http::docs::refusals::{NotAnalysed, NotFound, PreconditionRequired};
+use super::semantics_body::{self, SemanticsPatchBody};
+use crate::app::{App, Caller, MapContext, SemanticsChange, SemanticsRecord};
+use crate::http::docs::refusals::{Conflict, NotAnalysed, NotFound, PreconditionRequired};
 use crate::http::extract::conditional::{EntityTag, IfMatch, IfNoneMatch};
-use crate::http::extract::{JsonBody, MapPath, Path, pointer_step};
+use crate::http::extract::{JsonBody, MapPath, Path};
 use crate::http::links::{Base, JSON};
 use crate::http::problem::Problem;
 use crate::views::category::{CategoryList, CategoryView};
-use crate::views::layout::LayoutView;
-use crate::views::semantics::{OverrideView, SemanticsBody, SemanticsHistory, SemanticsView};
+use crate::views::id::Id;
+use crate::views::semantics::{SemanticsBody, SemanticsHistory, SemanticsView};
 
 /// List categories
 ///
@@ -59,23 +58,6 @@ fn tag(analysis: Uuid, record: &SemanticsRecord) -> EntityTag {
     EntityTag::of_content(&["semantics", &analysis.to_string(), &record.version.to_string(), &layout])
 }
 
-fn read_assignment(body: SemanticsBody) -> Result<Assignment, Problem> {
-    let mut overrides = BTreeMap::new();
-    for (index, OverrideView { face, label }) in body.overrides.into_iter().enumerate() {
-        if overrides.insert(face, label).is_some() {
-            return Err(Problem::invalid(format!("/overrides/{index}/face"), format!("face {face} is named twice")));
-        }
-    }
-    let mut assignment = BTreeMap::new();
-    for (category, label) in body.assignment {
-        let number = category.parse().ok().filter(|number: &u8| number.to_string() == category);
-        let unknown =
-            || Problem::invalid(format!("/assignment/{}", pointer_step(&category)), "there is no such category");
-        assignment.insert(number.ok_or_else(unknown)?, label);
-    }
-    Ok(Assignment { assignment, overrides })
-}
-
 /// Labels in force
 ///
 /// Until a person assigns labels, the suggestion is in force (version 0, origin `suggested`).
@@ -100,7 +82,7 @@ pub async fn get(
 /// Assign labels
 ///
 /// Makes a new version, which is in force at once: labels, cogency, connectivity, places and locations follow from it
-/// in milliseconds, without a job.
+/// in milliseconds, without a job. Categories and members that are not named stay as they are in force.
 #[utoipa::path(put, path = "/v1/maps/{mapId}/semantics", tag = "semantics", operation_id = "assignSemantics",
     params(MapPath, ("If-Match" = Option<String>, Header, description = "The ETag that was read; 428 without it")),
     request_body = SemanticsBody,
@@ -114,36 +96,58 @@ pub async fn assign(
     if_match: IfMatch,
     JsonBody(body): JsonBody<SemanticsBody>,
 ) -> Result<Response, Problem> {
-    let map = path.map_id.0;
-    let faces: Vec<u32> = body.overrides.iter().map(|entry| entry.face).collect();
-    let context = app.context(&caller, map).await?;
-    let layout = body.layout.as_ref().map(|layout| read_layout(layout, &context)).transpose()?;
-    let new = NewSemantics { rule_set: body.rule_set.clone(), assignment: read_assignment(body)?, layout };
-    let if_match = if_match.against(&tag(context.analysis_id, &context.semantics), context.semantics.version)?;
-    let record = app.put_semantics(&caller, map, new, if_match).await;
-    let record = record.map_err(|error| Problem::from(error).map_pointers(|pointer| list_pointer(pointer, &faces)))?;
-    let headers = [(header::ETAG, tag(context.analysis_id, &record).header())];
-    Ok((headers, Json(SemanticsView::new(record, &context.record.to_site()))).into_response())
+    let faces: Vec<u32> = body.overrides.iter().flatten().map(|entry| entry.face).collect();
+    let context = app.context(&caller, path.map_id.0).await?;
+    let change = semantics_body::of_put(body, &context)?;
+    decide(&app, &caller, &context, &if_match, change).await.map_err(in_list(faces))
 }
 
-/// The layout that is wished. The entrance lies in the map, or just outside it.
-fn read_layout(body: &LayoutView, context: &MapContext) -> Result<LayoutOptions, Problem> {
-    /// How far outside the grid an entrance may lie, metres: a map may end before the door.
-    const OUTSIDE_M: f64 = 10.0;
-    let wrong = |pointer: &str, detail: String| Problem::invalid(format!("/layout{pointer}"), detail);
-    let layout = body.read(&context.semantics.layout, &context.record.to_site());
-    let layout = layout.map_err(|unusable| wrong(unusable.pointer, unusable.detail))?;
-    if let Some(entrance) = body.entrance() {
-        let (grid, at) = (&context.grid, context.grid.frame().to_grid(Point::from(entrance)));
-        let is_near =
-            |place: f64, cells: usize| (-OUTSIDE_M..=cells as f64 * grid.resolution() + OUTSIDE_M).contains(&place);
-        if !(is_near(at.x, grid.width()) && is_near(at.y, grid.height())) {
-            let detail =
-                format!("lies more than {OUTSIDE_M} m outside the map: give x and y in metres of the map frame");
-            return Err(wrong("/entrance", detail));
-        }
-    }
-    Ok(layout)
+/// Change labels
+///
+/// Makes a new version as `PUT` does, from what the merge patch (RFC 7396) names: one category, one face, one member of the
+/// layout. Null takes back what a person decided.
+#[utoipa::path(patch, path = "/v1/maps/{mapId}/semantics", tag = "semantics", operation_id = "changeSemantics",
+    params(MapPath, ("If-Match" = Option<String>, Header, description = "The ETag that was read; 428 without it")),
+    request_body(content((SemanticsPatchBody = "application/merge-patch+json"),
+        (SemanticsPatchBody = "application/json"))),
+    responses((status = 200, description = "The labels as they are now", body = SemanticsView,
+            headers(("ETag" = String, description = "Changes with them"))),
+        NotFound, NotAnalysed, PreconditionRequired))]
+pub async fn change(
+    State(app): State<Arc<App>>,
+    caller: Caller,
+    Path(path): Path<MapPath>,
+    if_match: IfMatch,
+    JsonBody(body): JsonBody<SemanticsPatchBody>,
+) -> Result<Response, Problem> {
+    let faces = body.listed_faces();
+    let context = app.context(&caller, path.map_id.0).await?;
+    let change = semantics_body::of_patch(body, &context)?;
+    decide(&app, &caller, &context, &if_match, change).await.map_err(in_list(faces))
+}
+
+/// Makes a new version and answers it.
+async fn decide(
+    app: &App,
+    caller: &Caller,
+    context: &MapContext,
+    if_match: &IfMatch,
+    change: SemanticsChange,
+) -> Result<Response, Problem> {
+    let if_match = if_match.against(&tag(context.analysis_id, &context.semantics), context.semantics.version)?;
+    let record = app.change_semantics(caller, context.record.id, change, if_match).await?;
+    Ok(answer(context, record))
+}
+
+/// Labels with their tag.
+fn answer(context: &MapContext, record: SemanticsRecord) -> Response {
+    let headers = [(header::ETAG, tag(context.analysis_id, &record).header())];
+    (headers, Json(SemanticsView::new(record, &context.record.to_site()))).into_response()
+}
+
+/// Lets a problem point into the list of overrides that was sent.
+fn in_list(faces: Vec<u32>) -> impl FnOnce(Problem) -> Problem {
+    move |problem| problem.map_pointers(|pointer| list_pointer(pointer, &faces))
 }
 
 /// The core names an override by its face (`/overrides/12`); in the request it is an entry of a list.
@@ -178,19 +182,63 @@ pub async fn versions(
     Ok(Json(SemanticsHistory { versions, links }))
 }
 
+/// `/v1/maps/{mapId}/semantics/versions/{version}`
+#[derive(Debug, Deserialize, IntoParams)]
+#[into_params(parameter_in = Path)]
+#[serde(rename_all = "camelCase")]
+pub struct VersionPath {
+    /// The map.
+    pub map_id: Id,
+    /// The version; 0 is the suggestion for the analysis in force.
+    pub version: u64,
+}
+
+/// A version of the labels
+///
+/// A version that a person made never changes. Version 0 is the suggestion for the analysis in force.
+#[utoipa::path(get, path = "/v1/maps/{mapId}/semantics/versions/{version}", tag = "semantics",
+    operation_id = "getSemanticsVersion", params(VersionPath),
+    responses((status = 200, description = "The version", body = SemanticsView,
+        headers(("ETag" = String, description = "Changes with the suggestion"))),
+        NotFound, NotAnalysed))]
+pub async fn version(
+    State(app): State<Arc<App>>,
+    caller: Caller,
+    Path(path): Path<VersionPath>,
+    if_none_match: IfNoneMatch,
+) -> Result<Response, Problem> {
+    let to_site = app.map(&caller, path.map_id.0).await?.to_site();
+    let record = app.semantics_version(&caller, path.map_id.0, path.version).await?;
+    let tag = tag(record.analysis, &record);
+    Ok(tag.answer(&if_none_match, || Json(SemanticsView::new(record, &to_site)).into_response()))
+}
+
+/// Restore a version of the labels
+///
+/// Makes a new version that is equal to an earlier one, with the rule set as it was then: the way to undo, and to undo an
+/// undo. Version 0 is the suggestion: its labels come into force under the default rule set, in the layout in force.
+#[utoipa::path(post, path = "/v1/maps/{mapId}/semantics/versions/{version}/restore", tag = "semantics",
+    operation_id = "restoreSemantics",
+    params(VersionPath, ("If-Match" = Option<String>, Header,
+        description = "The ETag of the labels in force, as it was read; 428 without it")),
+    responses((status = 200, description = "The labels as they are now", body = SemanticsView,
+            headers(("ETag" = String, description = "Changes with them"))),
+        NotFound, Conflict, PreconditionRequired))]
+pub async fn restore(
+    State(app): State<Arc<App>>,
+    caller: Caller,
+    Path(path): Path<VersionPath>,
+    if_match: IfMatch,
+) -> Result<Response, Problem> {
+    let context = app.context(&caller, path.map_id.0).await?;
+    let if_match = if_match.against(&tag(context.analysis_id, &context.semantics), context.semantics.version)?;
+    let record = app.restore_semantics(&caller, path.map_id.0, path.version, if_match).await?;
+    Ok(answer(&context, record))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn a_face_is_overridden_once() {
-        let body: SemanticsBody = serde_json::from_str(
-            r#"{"overrides": [{"face": 3, "label": "co"}, {"face": 3, "label": "ju"}], "version": 4, "origin": "assigned"}"#,
-        )
-        .expect("is a body");
-        let problem = read_assignment(body).expect_err("is refused");
-        assert_eq!(problem.errors()[0].pointer.as_deref(), Some("/overrides/1/face"));
-    }
 
     #[test]
     fn pointers_lead_into_the_list() {

@@ -5,7 +5,7 @@ use stillage_core::semantics::Assignment;
 use stillage_core::layout::LayoutOptions;
 
 use super::*;
-use crate::records::MapPatch;
+use crate::records::{MapPatch, SemanticsOrigin};
 
 pub async fn the_analysis_asked_for_last_answers(engine: &impl Engine) {
     let store = engine.store();
@@ -48,6 +48,7 @@ pub async fn decisions_are_bound_to_their_analysis_and_replace_what_they_saw(eng
             draft: draft(),
             assignment: Assignment::default(),
             layout: layout.clone(),
+            origin: SemanticsOrigin::Assigned,
         };
         let decided = store.insert_semantics(&local(), &row, now()).await.unwrap().expect("the map is there");
         decided.map(|record| record.version)
@@ -97,6 +98,7 @@ pub async fn the_state_of_a_map_changes_with_every_answer_about_it(engine: &impl
         draft: draft(),
         assignment: Assignment::default(),
         layout: LayoutOptions::default(),
+        origin: SemanticsOrigin::Assigned,
     };
     store.insert_semantics(&local(), &row, now()).await.unwrap().unwrap().unwrap();
     assert_eq!(state().await.semantics, 1);

@@ -5,7 +5,7 @@ use stillage_core::semantics::Assignment;
 use stillage_core::layout::LayoutOptions;
 
 use super::*;
-use crate::records::MapPatch;
+use crate::records::{MapPatch, SemanticsOrigin};
 
 pub async fn what_belongs_to_another_tenant_is_not_there(engine: &impl Engine) {
     let store = engine.store();
@@ -39,6 +39,7 @@ pub async fn what_belongs_to_another_tenant_is_not_there(engine: &impl Engine) {
         draft: draft(),
         assignment: Assignment::default(),
         layout: LayoutOptions::default(),
+        origin: SemanticsOrigin::Assigned,
     };
     assert_eq!(store.insert_semantics(&other, &row, now()).await.unwrap(), None);
     assert!(!store.delete_map(&other, job.map).await.unwrap());

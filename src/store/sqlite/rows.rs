@@ -31,6 +31,7 @@ pub(super) trait Columns {
     fn blob(&self, column: &'static str) -> Result<BlobId, StoreError>;
     fn tenant(&self) -> Result<Tenant, StoreError>;
     fn state(&self) -> Result<JobState, StoreError>;
+    fn origin(&self) -> Result<SemanticsOrigin, StoreError>;
 }
 
 impl Columns for SqliteRow {
@@ -84,6 +85,11 @@ impl Columns for SqliteRow {
     fn state(&self) -> Result<JobState, StoreError> {
         let value = self.text("state")?;
         JobState::find(&value).ok_or(StoreError::BadValue { column: "state", value })
+    }
+
+    fn origin(&self) -> Result<SemanticsOrigin, StoreError> {
+        let value = self.text("origin")?;
+        SemanticsOrigin::find(&value).ok_or(StoreError::BadValue { column: "origin", value })
     }
 }
 
@@ -155,7 +161,7 @@ pub(super) fn semantics_record(row: &SqliteRow) -> Result<SemanticsRecord, Store
         assignment: row.json("assignment")?,
         layout: row.json("layout")?,
         version: row.whole("version")?,
-        origin: SemanticsOrigin::Assigned,
+        origin: row.origin()?,
         created: row.time("created")?,
     })
 }

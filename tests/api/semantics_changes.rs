@@ -1,0 +1,142 @@
+//! What a person decided stays decided: changes name what changes, and versions can be had again.
+
+use axum::body::Body;
+use axum::http::Method;
+use serde_json::{Value, json};
+
+use crate::client::{Answer, Api, request};
+
+/// Changes the labels of a map, whatever they are.
+async fn change(api: &Api, map: &str, method: Method, body: &Value) -> Answer {
+    api.send_json(method, &format!("{map}/semantics"), &[("if-match", "*")], body).await
+}
+
+async fn restore(api: &Api, map: &str, version: u64) -> Answer {
+    let path = format!("{map}/semantics/versions/{version}/restore");
+    api.send(request(Method::POST, &path, &[("if-match", "*")], Body::empty())).await
+}
+
+/// The members that people decide.
+fn decided(semantics: &Value) -> [&Value; 4] {
+    ["ruleSet", "assignment", "overrides", "layout"].map(|member| &semantics[member])
+}
+
+#[tokio::test]
+async fn what_a_put_does_not_name_stays() {
+    let api = Api::new().await;
+    let map = api.hall().await;
+    let suggested = api.get(&format!("{map}/semantics")).await.json();
+    let overrides = json!([{"face": 1, "label": "ju"}]);
+    let first = change(&api, &map, Method::PUT, &json!({"assignment": {"0": "wp"}, "overrides": overrides})).await;
+    assert_eq!(first.status, 200, "{}", first.text());
+    let mut expected = suggested["assignment"].clone();
+    expected["0"] = "wp".into();
+    assert_eq!(first.json()["assignment"], expected, "the others keep their labels");
+
+    let second = change(&api, &map, Method::PUT, &json!({"assignment": {"1": "co"}})).await.json();
+    expected["1"] = "co".into();
+    assert_eq!((&second["assignment"], &second["overrides"]), (&expected, &overrides));
+    let third = change(&api, &map, Method::PUT, &json!({"overrides": []})).await.json();
+    assert_eq!((&third["assignment"], &third["overrides"]), (&expected, &json!([])), "a list is the whole list");
+}
+
+#[tokio::test]
+async fn a_patch_changes_one_category_one_face_or_one_member_of_the_layout() {
+    let api = Api::new().await;
+    let map = api.hall().await;
+    let path = format!("{map}/semantics");
+    let suggested = api.get(&path).await.json();
+    let patch = json!({"assignment": {"0": "wp"}, "overrides": {"1": "ju", "2": "co"},
+        "layout": {"codeTemplate": "{aisle:03}-{bay:03}", "vehicleRadiusM": 0.4}});
+    api.send_json(Method::PATCH, &path, &[], &patch).await.problem(428, "precondition-required");
+    let first = change(&api, &map, Method::PATCH, &patch).await;
+    assert_eq!(first.status, 200, "{}", first.text());
+    assert_eq!(first.header("etag"), api.get(&path).await.header("etag"));
+
+    let patch = json!({"overrides": {"1": null, "3": "co"}, "layout": {"vehicleRadiusM": null}});
+    let second = change(&api, &map, Method::PATCH, &patch).await.json();
+    assert_eq!(second["assignment"], first.json()["assignment"]);
+    assert_eq!(second["overrides"], json!([{"face": 2, "label": "co"}, {"face": 3, "label": "co"}]));
+    assert_eq!(second["layout"], json!({"codeTemplate": "{aisle:03}-{bay:03}"}));
+
+    let one = change(&api, &map, Method::PATCH, &json!({"assignment": {"0": null}})).await.json();
+    assert_eq!(one["assignment"], suggested["assignment"], "the category is as suggested again");
+    let list = json!({"overrides": [{"face": 5, "label": "ju"}]});
+    assert_eq!(change(&api, &map, Method::PATCH, &list).await.json()["overrides"], list["overrides"]);
+    let none = json!({"assignment": null, "overrides": null, "layout": null});
+    let none = change(&api, &map, Method::PATCH, &none).await.json();
+    assert_eq!(decided(&none), decided(&suggested));
+    assert_eq!(none["origin"], "assigned", "somebody said so");
+}
+
+#[tokio::test]
+async fn a_patch_that_makes_no_sense_is_refused_piece_by_piece() {
+    let api = Api::new().await;
+    let map = api.hall().await;
+    let cases = [
+        (json!({"assignment": {"0": "xx"}}), "/assignment/0"),
+        (json!({"assignment": {"99": null}}), "/assignment/99"),
+        (json!({"assignment": {"0": 7}}), "/assignment/0"),
+        (json!({"overrides": {"x": "co"}}), "/overrides/x"),
+        (json!({"overrides": {"99999": "co"}}), "/overrides/99999"),
+        (json!({"overrides": [{"face": 1, "label": "co"}, {"face": 99_999, "label": "co"}]}), "/overrides/1"),
+        (json!({"overrides": "co"}), "/overrides"),
+        (json!({"layout": {"vehicleRadiusM": -1}}), "/layout/vehicleRadiusM"),
+        (json!({"layout": {"colour": 1}}), "/layout/colour"),
+        (json!({"ruleset": "office"}), "/ruleset"),
+    ];
+    for (body, pointer) in cases {
+        let problem = change(&api, &map, Method::PATCH, &body).await.problem(422, "invalid");
+        assert_eq!(problem["errors"][0]["pointer"], pointer, "{body}: {problem}");
+    }
+    assert_eq!(api.get(&format!("{map}/semantics")).await.json()["version"], 0, "nothing was changed");
+}
+
+#[tokio::test]
+async fn another_rule_set_keeps_the_labels_that_it_knows() {
+    let api = Api::new().await;
+    let map = api.hall().await;
+    let office = change(&api, &map, Method::PATCH, &json!({"ruleSet": "office"})).await.json();
+    let categories = api.get(&format!("{map}/categories")).await.json();
+    for category in categories["categories"].as_array().expect("categories") {
+        assert_eq!(category["label"], category["suggestion"]["label"], "nobody decided: as suggested under it");
+    }
+    assert_eq!(office["ruleSet"], "office");
+    let decision = json!({"ruleSet": "warehouse", "assignment": {"0": "ju"}, "overrides": {"1": "pc"}});
+    assert_eq!(change(&api, &map, Method::PATCH, &decision).await.json()["assignment"]["0"], "ju");
+    let problem = change(&api, &map, Method::PATCH, &json!({"ruleSet": "office"})).await.problem(422, "invalid");
+    assert_eq!(problem["errors"][0]["pointer"], "/ruleSet", "{problem}");
+    let both = change(&api, &map, Method::PATCH, &json!({"ruleSet": "office", "overrides": null})).await;
+    assert_eq!(both.status, 200, "{}", both.text());
+}
+
+#[tokio::test]
+async fn an_earlier_version_is_restored_as_a_new_one() {
+    let api = Api::new().await;
+    let map = api.hall().await;
+    let versions = format!("{map}/semantics/versions");
+    let suggested = api.get(&format!("{map}/semantics")).await.json();
+    let first = change(&api, &map, Method::PATCH, &json!({"assignment": {"0": "wp"}, "overrides": {"1": "ju"}})).await;
+    change(&api, &map, Method::PATCH, &json!({"overrides": null})).await;
+
+    let read = api.get(&format!("{versions}/1")).await;
+    assert_eq!(read.json(), first.json());
+    assert_eq!(api.get_with(&format!("{versions}/1"), &[("if-none-match", read.header("etag"))]).await.status, 304);
+    let restored = restore(&api, &map, 1).await;
+    assert_eq!(restored.status, 200, "{}", restored.text());
+    assert_eq!((&restored.json()["version"], &restored.json()["origin"]), (&json!(3), &json!("assigned")));
+    assert_eq!(decided(&restored.json()), decided(&first.json()));
+    let faces = api.get(&format!("{map}/collections/faces/items/1")).await.json();
+    assert_eq!(faces["properties"]["label"], "ju", "it is in force");
+
+    let as_suggested = restore(&api, &map, 0).await.json();
+    assert_eq!((&as_suggested["version"], &as_suggested["origin"]), (&json!(4), &json!("suggested")));
+    assert_eq!(decided(&as_suggested), decided(&suggested));
+    assert_eq!(api.get(&format!("{versions}/0")).await.json(), suggested);
+    restore(&api, &map, 9).await.problem(404, "not-found");
+    api.get(&format!("{versions}/9")).await.problem(404, "not-found");
+    let path = format!("{versions}/1/restore");
+    api.send(request(Method::POST, &path, &[], Body::empty())).await.problem(428, "precondition-required");
+    let stale = [("if-match", restored.header("etag"))];
+    api.send(request(Method::POST, &path, &stale, Body::empty())).await.problem(412, "precondition-failed");
+}
