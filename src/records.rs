@@ -240,6 +240,16 @@ impl JobRecord {
     pub fn analysis(&self) -> Option<Uuid> {
         self.outputs.as_ref()?.get("analysis")?.as_str()?.parse().ok()
     }
+
+    /// What became of the job when its map was deleted, and the job with it.
+    #[must_use]
+    pub fn deleted(self, now: Timestamp) -> Self {
+        let message = "the map was deleted, and its jobs with it".to_owned();
+        // Later than every change before, whatever the clock does.
+        let next = Timestamp::from_microsecond(self.updated.as_microsecond() + 1).unwrap_or(now);
+        let updated = now.max(next);
+        Self { state: JobState::Dismissed, stage: None, message, finished: Some(now), updated, ..self }
+    }
 }
 
 /// Which jobs to list: newest first, after a job when paging.

@@ -18,8 +18,8 @@ const DISMISSAL: Duration = Duration::from_secs(1);
 const MAX_PAGE: u32 = 10_000;
 
 impl App {
-    /// Analyses again with other options; identical options answer the existing analysis, which then is the one in
-    /// force.
+    /// Analyses again with other options; identical options answer the existing analysis. It is a proposal beside the one
+    /// in force, which still answers, until it is activated: with [`Self::activate_analysis`], or at once.
     ///
     /// Human decisions belong to the analysis whose categories they name: a new analysis begins with its suggestion, and
     /// going back to an earlier one brings its decisions back.
@@ -28,13 +28,14 @@ impl App {
         caller: &Caller,
         map: Uuid,
         options: AnalysisOptions,
+        activate: bool,
     ) -> Result<AnalysisTicket, AppError> {
         options.clone().check()?;
         let record = self.map(caller, map).await?;
         self.check_memory(u64::from(record.width), u64::from(record.height), &options)?;
         let source =
             self.store.map_source(caller.tenant(), map).await?.ok_or_else(|| AppError::not_found("map", map))?;
-        let job = AnalysisProcess::job(map, &source, &options);
+        let job = AnalysisProcess::job(map, &source, &options, activate);
         let max_queued = self.config.max_queued_jobs;
         let request = self.store.request_analysis(caller.tenant(), &options, &job, max_queued, now()).await?;
         match request {
@@ -47,6 +48,19 @@ impl App {
             }
             Some(Request::Existing(analysis)) => Ok(AnalysisTicket::Existing(analysis)),
         }
+    }
+
+    /// Puts an analysis in force.
+    pub async fn activate_analysis(
+        &self,
+        caller: &Caller,
+        map: Uuid,
+        analysis: Uuid,
+    ) -> Result<AnalysisRecord, AppError> {
+        let missing = || AppError::not_found("analysis by this version of the algorithms", analysis);
+        let found = self.analyses(caller, map).await?.into_iter().find(|record| record.id == analysis);
+        let record = found.ok_or_else(missing)?;
+        if self.store.activate(caller.tenant(), map, analysis, now()).await? { Ok(record) } else { Err(missing()) }
     }
 
     /// The analyses of a map, newest first.

@@ -58,7 +58,7 @@ impl App {
             alignment,
             warnings: decoded.warnings,
         };
-        let job = AnalysisProcess::job(row.id, blob.id(), &options);
+        let job = AnalysisProcess::job(row.id, blob.id(), &options, true);
         let (max_queued, key) = (self.config.max_queued_jobs, key.as_ref());
         let upload = self.store.create_map(caller.tenant(), &row, &blob, &job, key, max_queued, now()).await?;
         if let Upload::New(_) = upload {
@@ -97,10 +97,12 @@ impl App {
         }
     }
 
-    /// Deletes everything of the map. Its jobs go with it: one that runs stops within a second.
-    pub async fn delete_map(&self, caller: &Caller, id: Uuid) -> Result<(), AppError> {
-        if !self.store.delete_map(caller.tenant(), id).await? {
-            return Err(AppError::not_found("map", id));
+    /// Deletes everything of the map. Its jobs go with it: one that runs stops within a second. `if_match` is optional
+    /// here.
+    pub async fn delete_map(&self, caller: &Caller, id: Uuid, if_match: Option<u64>) -> Result<(), AppError> {
+        if !self.store.delete_map(caller.tenant(), id, if_match).await? {
+            let current = self.map(caller, id).await?.version;
+            return Err(AppError::PreconditionFailed { current });
         }
         self.contexts.remove(id);
         self.signals.changed();

@@ -112,7 +112,7 @@ async fn take_up(store: &dyn Store, max_attempts: u32) -> Result<(), AppError> {
     for Outdated { tenant, map, options } in store.outdated().await? {
         tracing::info!(%map, "will be analysed again by this version of the algorithms");
         let Some(source) = store.map_source(&tenant, map).await? else { continue };
-        let job = AnalysisProcess::job(map, &source, &options);
+        let job = AnalysisProcess::job(map, &source, &options, true);
         store.request_analysis(&tenant, &options, &job, u64::MAX, now()).await?;
     }
     Ok(())

@@ -68,6 +68,7 @@ fn answered_in_time() -> OpenApiRouter<Arc<App>> {
         .routes(routes!(maps::map::list))
         .routes(routes!(maps::map::get, maps::map::update, maps::map::delete))
         .routes(routes!(maps::analyses::list, maps::analyses::create))
+        .routes(routes!(maps::analyses::activate))
         .routes(routes!(maps::analyses::diagnostics))
         .routes(routes!(maps::evaluations::create))
         .routes(routes!(maps::comparisons::compare))

@@ -186,7 +186,7 @@ async fn a_job_of_a_deleted_map_stops() {
     let job = upload(&service.store, "endless").await;
     service.signals.queued();
     service.wait_for(job.id, |job| job.state == JobState::Running).await;
-    service.store.delete_map(&local(), job.map).await.unwrap();
+    service.store.delete_map(&local(), job.map, None).await.unwrap();
     let next = upload(&service.store, "fine").await;
     service.signals.queued();
     service.wait_for(next.id, |job| job.state == JobState::Successful).await;

@@ -1,7 +1,7 @@
 //! Analyses: finished results, and the one in force for each map.
 //!
-//! A map may have many analyses; the one that was asked for last answers. Asking again for options that were analysed
-//! before puts that analysis back in force without a job.
+//! A map may have many analyses, one of which answers. The first one does so at once; later ones are proposals beside it
+//! until they are activated, or at once where their request says so: of two such requests, the later one wins.
 
 use async_trait::async_trait;
 use jiff::Timestamp;
@@ -27,7 +27,7 @@ pub struct NewAnalysis {
 /// What became of the wish for an analysis.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Request {
-    /// It was there, and is in force now.
+    /// It was there; it is in force now where that was asked.
     Existing(Box<AnalysisRecord>),
     /// A new job will make it.
     New(JobRecord),
@@ -91,6 +91,9 @@ pub trait Analyses {
         max_queued: u64,
         now: Timestamp,
     ) -> Result<Option<Request>, StoreError>;
+
+    /// Puts an analysis in force; `false` when the map has no such analysis by this version of the algorithms.
+    async fn activate(&self, tenant: &Tenant, map: Uuid, analysis: Uuid, now: Timestamp) -> Result<bool, StoreError>;
 
     /// The analyses of a map, newest first; none when there is no such map.
     async fn analyses(&self, tenant: &Tenant, map: Uuid) -> Result<Vec<AnalysisRecord>, StoreError>;

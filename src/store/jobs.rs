@@ -21,6 +21,8 @@ pub struct NewJob {
     pub inputs: Value,
     /// The address of its result.
     pub address: ResultAddress,
+    /// Whether an analysis that it makes comes into force at once. The first one of a map does anyway.
+    pub activates: bool,
 }
 
 /// What is kept of jobs.

@@ -98,7 +98,7 @@ pub trait Maps {
         now: Timestamp,
     ) -> Result<Option<Result<MapRecord, MapRecord>>, StoreError>;
 
-    /// Deletes everything of a map: rows first, then the blobs that no other map shares. `false` when there is no such
-    /// map. Its running jobs find out with their next heartbeat.
-    async fn delete_map(&self, tenant: &Tenant, id: Uuid) -> Result<bool, StoreError>;
+    /// Deletes everything of a map, when it is at the version in `if_match`: rows first, then the blobs that no other map
+    /// shares. `false` when there is no such map at that version. Its running jobs find out with their next heartbeat.
+    async fn delete_map(&self, tenant: &Tenant, id: Uuid, if_match: Option<u64>) -> Result<bool, StoreError>;
 }

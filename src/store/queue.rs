@@ -75,7 +75,8 @@ pub struct Progress {
 /// What a job made.
 #[derive(Debug, Clone)]
 pub enum JobResult {
-    /// An analysis of its map, which then is in force unless another one was asked for later. The outputs of the job are
+    /// An analysis of its map. It comes into force where none is, or where its job activates it, unless another one was asked
+    /// for later. The outputs of the job are
     /// `{"analysis": id}`.
     Analysis(Box<NewAnalysis>, Blob),
     /// A JSON object, which is the outputs of the job.

@@ -4,6 +4,7 @@ use jiff::Timestamp;
 use serde::Serialize;
 use stillage_core::AnalysisOptions;
 use utoipa::ToSchema;
+use uuid::Uuid;
 
 use super::id::Id;
 use super::link::Link;
@@ -18,6 +19,8 @@ use crate::records::AnalysisRecord;
 pub struct AnalysisView {
     id: Id,
     map_id: Id,
+    /// Whether it is the one that answers; the others are proposals.
+    in_force: bool,
     #[schema(value_type = String, format = DateTime)]
     created: Timestamp,
     /// The options, with every default filled in.
@@ -29,9 +32,12 @@ pub struct AnalysisView {
     diagnostics: Vec<DiagnosticView>,
 }
 
-impl From<AnalysisRecord> for AnalysisView {
-    fn from(record: AnalysisRecord) -> Self {
+impl AnalysisView {
+    /// An analysis of a map whose analysis in force has the id `in_force`.
+    #[must_use]
+    pub fn new(record: AnalysisRecord, in_force: Option<Uuid>) -> Self {
         Self {
+            in_force: in_force == Some(record.id),
             id: Id(record.id),
             map_id: Id(record.map),
             created: record.created,

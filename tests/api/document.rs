@@ -140,9 +140,15 @@ async fn valid(site: &Site, operation: &str) -> (Sent, &'static [u16]) {
         }
         "getMap" => get(map.clone()),
         "updateMap" => (Sent::new(Method::PATCH, map).json(&json!({"name": "Hall"})).with("if-match", "*"), &[200]),
-        "deleteMap" => (Sent::new(Method::DELETE, waiting_map(&site.api).await), &[204]),
+        "deleteMap" => (Sent::new(Method::DELETE, waiting_map(&site.api).await).with("if-match", "*"), &[204]),
         "listAnalyses" => get(format!("{map}/analyses")),
         "createAnalysis" => (Sent::new(Method::POST, format!("{map}/analyses")).json(&json!({"seed": 7})), &[202, 200]),
+        "activateAnalysis" => {
+            let list = site.api.get(&format!("{map}/analyses")).await.json();
+            let id = list["analyses"].as_array().expect("a list").last().expect("the first one")["id"].clone();
+            let path = format!("{map}/analyses/{}/activate", id.as_str().expect("an id"));
+            (Sent::new(Method::POST, path), &[200])
+        }
         "getDiagnostics" => get(format!("{map}/diagnostics")),
         "evaluate" => {
             let truth = json!({"type": "FeatureCollection", "features": [{"type": "Feature", "properties": {"label": "corridor"},

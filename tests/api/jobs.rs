@@ -87,6 +87,20 @@ async fn the_events_of_a_job_end_with_its_end() {
 }
 
 #[tokio::test]
+async fn the_events_of_a_job_end_when_its_map_is_deleted() {
+    let api = Api::new().await;
+    let job = queued(&api).await;
+    let map = api.get(&job).await.json()["mapId"].as_str().expect("an id").to_owned();
+    let delete = request(Method::DELETE, &format!("/v1/maps/{map}"), &[], Body::empty());
+    let events_path = format!("{job}/events");
+    let (stream, deleted) = tokio::join!(api.get(&events_path), api.send(delete));
+    assert_eq!(deleted.status, 204);
+    let states: Vec<String> = events(&stream).into_iter().map(|event| event.1).collect();
+    assert_eq!(states, ["accepted", "dismissed"]);
+    assert!(stream.text().contains("the map was deleted, and its jobs with it"), "{}", stream.text());
+}
+
+#[tokio::test]
 async fn events_are_not_compressed() {
     let api = Api::new().await;
     let job = queued(&api).await;

@@ -2,7 +2,7 @@
 
 use axum::body::Body;
 use axum::http::Method;
-use serde_json::json;
+use serde_json::{Value, json};
 
 use crate::client::{Api, HALL, METADATA, pgm, request, upload};
 
@@ -142,6 +142,63 @@ async fn other_options_are_another_analysis_and_the_same_are_not() {
     assert_eq!(problem["errors"][1]["pointer"], "/regions/minShare");
     let problem = analyse(json!({"categorization": {"k": "x"}})).await.problem(422, "invalid");
     assert_eq!(problem["errors"][0]["pointer"], "/categorization/k");
+}
+
+#[tokio::test]
+async fn a_map_that_changed_since_it_was_read_is_not_deleted() {
+    let api = Api::new().await;
+    let map = api.hall().await;
+    let read = api.get(&map).await.header("etag").to_owned();
+    api.send_json(Method::PATCH, &map, &[], &json!({"name": "Hall"})).await;
+    let delete = async |tag: &str| api.send(request(Method::DELETE, &map, &[("if-match", tag)], Body::empty())).await;
+    delete(&read).await.problem(412, "precondition-failed");
+    let current = api.get(&map).await.header("etag").to_owned();
+    assert_eq!(delete(&current).await.status, 204);
+    api.get(&map).await.problem(404, "not-found");
+}
+
+#[tokio::test]
+async fn another_analysis_is_a_proposal_until_somebody_activates_it() {
+    let api = Api::new().await;
+    let map = api.hall().await;
+    let path = format!("{map}/analyses");
+    let analyse = async |query: &str, options| {
+        let answer = api.send_json(Method::POST, &format!("{path}{query}"), &[], &options).await;
+        api.app.run_until_empty().await.expect("the queue can be worked on");
+        answer
+    };
+    // Seed and whether it is in force, newest first.
+    let list = async || {
+        let list = api.get(&path).await.json()["analyses"].take();
+        let one = |analysis: &Value| (analysis["options"]["seed"].as_u64(), analysis["inForce"].as_bool());
+        list.as_array().expect("a list").iter().map(one).collect::<Vec<_>>()
+    };
+    assert_eq!(list().await, [(Some(1), Some(true))], "the first one is in force at once");
+    let labels = json!({"assignment": {"0": "wp"}});
+    let labelled = api.send_json(Method::PATCH, &format!("{map}/semantics"), &[("if-match", "*")], &labels).await;
+    assert_eq!(labelled.status, 200, "{}", labelled.text());
+    let faces = api.get(&format!("{map}/collections/faces/items")).await;
+
+    assert_eq!(analyse("", json!({"seed": 2})).await.status, 202);
+    assert_eq!(list().await, [(Some(2), Some(false)), (Some(1), Some(true))]);
+    let unchanged = api.get(&format!("{map}/collections/faces/items")).await;
+    assert_eq!(unchanged.header("etag"), faces.header("etag"), "what clients see is what the person decided");
+    let asked_again = analyse("", json!({"seed": 2})).await;
+    assert_eq!((asked_again.status.as_u16(), &asked_again.json()["inForce"]), (200, &json!(false)));
+
+    let activate =
+        async |id: &str| api.send(request(Method::POST, &format!("{path}/{id}/activate"), &[], Body::empty())).await;
+    let activated = activate(asked_again.json()["id"].as_str().expect("an id")).await;
+    assert_eq!((activated.status.as_u16(), &activated.json()["inForce"]), (200, &json!(true)), "{}", activated.text());
+    assert_eq!(list().await, [(Some(2), Some(true)), (Some(1), Some(false))]);
+    activate("00000000-0000-7000-8000-000000000000").await.problem(404, "not-found");
+
+    analyse("?activate=true", json!({"seed": 1})).await;
+    assert_eq!(list().await, [(Some(2), Some(false)), (Some(1), Some(true))]);
+    assert_eq!(api.get(&format!("{map}/semantics")).await.json()["assignment"]["0"], "wp", "with its labels");
+    analyse("?activate=true", json!({"seed": 3})).await;
+    assert_eq!(list().await, [(Some(3), Some(true)), (Some(2), Some(false)), (Some(1), Some(false))]);
+    analyse("?activate=perhaps", json!({"seed": 3})).await.problem(400, "bad-parameter");
 }
 
 #[tokio::test]

@@ -162,7 +162,7 @@ async fn another_template_is_a_wish_for_new_codes() {
     // What was read can be sent back, and another analysis keeps the layout.
     let same = put_semantics(&api, &map, &json!({})).await;
     assert_eq!((same.status.as_u16(), codes(&api, &map).await), (200, coded.clone()));
-    api.send_json(Method::POST, &format!("{map}/analyses"), &[], &json!({"seed": 5})).await;
+    api.send_json(Method::POST, &format!("{map}/analyses?activate=true"), &[], &json!({"seed": 5})).await;
     api.app.run_until_empty().await.expect("the queue can be worked on");
     assert_eq!(api.get(&format!("{map}/semantics")).await.json()["layout"], layout["layout"]);
     assert_eq!(codes(&api, &map).await, coded);
@@ -237,7 +237,7 @@ async fn lanes_follow_the_rules_of_people() {
     let after = lanes(&api, &map).await;
     assert!(after.contains(&lane) && !after.contains(&back));
     // Rules outlive another analysis.
-    api.send_json(Method::POST, &format!("{map}/analyses"), &[], &json!({"seed": 5})).await;
+    api.send_json(Method::POST, &format!("{map}/analyses?activate=true"), &[], &json!({"seed": 5})).await;
     api.app.run_until_empty().await.expect("the queue can be worked on");
     let again = lanes(&api, &map).await;
     assert!(again.contains(&lane) && !again.contains(&back));

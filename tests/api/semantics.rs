@@ -111,7 +111,7 @@ async fn in_the_papers_way_categories_are_those_of_cells() {
     let api = Api::new().await;
     let map = api.hall().await;
     let options = json!({"orientation": {"method": "paper"}, "annotation": {"method": "vote"}});
-    let asked = api.send_json(Method::POST, &format!("{map}/analyses"), &[], &options).await;
+    let asked = api.send_json(Method::POST, &format!("{map}/analyses?activate=true"), &[], &options).await;
     assert_eq!(asked.status, 202, "{}", asked.text());
     api.app.run_until_empty().await.expect("the queue can be worked on");
     let list = api.get(&format!("{map}/categories")).await.json();

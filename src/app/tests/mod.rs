@@ -150,13 +150,13 @@ async fn other_options_bring_their_own_suggestion_and_the_old_ones_the_old_decis
     service.change_semantics(&me(), map, change, Some(0)).await.unwrap();
 
     let options = AnalysisOptions { seed: 9, ..AnalysisOptions::default() };
-    let AnalysisTicket::Job(_) = service.create_analysis(&me(), map, options).await.unwrap() else {
+    let AnalysisTicket::Job(_) = service.create_analysis(&me(), map, options, true).await.unwrap() else {
         panic!("it is new")
     };
     service.run_until_empty().await.unwrap();
     assert_eq!(service.semantics(&me(), map).await.unwrap().version, 0);
 
-    let again = service.create_analysis(&me(), map, AnalysisOptions::default()).await.unwrap();
+    let again = service.create_analysis(&me(), map, AnalysisOptions::default(), true).await.unwrap();
     assert!(matches!(again, AnalysisTicket::Existing(_)));
     let semantics = service.semantics(&me(), map).await.unwrap();
     assert_eq!((semantics.version, semantics.rule_set.as_str()), (1, "office"));
@@ -219,9 +219,9 @@ async fn a_map_is_renamed_georeferenced_and_deleted() {
     assert_eq!((record.name.as_str(), record.version), ("Halmstad", version + 1));
     assert_eq!(service.context(&me(), map).await.unwrap().record, record, "memory follows");
 
-    service.delete_map(&me(), map).await.unwrap();
+    service.delete_map(&me(), map, None).await.unwrap();
     assert!(matches!(service.context(&me(), map).await, Err(AppError::NotFound { kind: "map", .. })));
-    assert!(matches!(service.delete_map(&me(), map).await, Err(AppError::NotFound { .. })));
+    assert!(matches!(service.delete_map(&me(), map, None).await, Err(AppError::NotFound { .. })));
     assert_eq!(service.jobs(&me(), JobFilter { limit: 9, ..JobFilter::default() }).await.unwrap(), []);
 }
 

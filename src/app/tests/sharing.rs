@@ -25,11 +25,11 @@ async fn what_another_process_changes_is_seen_at_the_next_question() {
     assert!(Arc::ptr_eq(&before.analysis, &decided.analysis), "the geometry is not read again");
 
     let options = AnalysisOptions { seed: 9, ..AnalysisOptions::default() };
-    service.create_analysis(&me(), map, options).await.unwrap();
+    service.create_analysis(&me(), map, options, true).await.unwrap();
     service.run_until_empty().await.unwrap();
     assert_eq!(other.context(&me(), map).await.unwrap().analysis.options.seed, 9);
 
-    service.delete_map(&me(), map).await.unwrap();
+    service.delete_map(&me(), map, None).await.unwrap();
     assert!(matches!(other.context(&me(), map).await, Err(AppError::NotFound { kind: "map", .. })));
 }
 
@@ -46,13 +46,13 @@ async fn what_belongs_to_another_caller_is_not_found() {
     not_found(service.map(&other, job.map).await.unwrap_err());
     not_found(service.context(&other, job.map).await.unwrap_err());
     not_found(service.analyses(&other, job.map).await.unwrap_err());
-    not_found(service.create_analysis(&other, job.map, AnalysisOptions::default()).await.unwrap_err());
+    not_found(service.create_analysis(&other, job.map, AnalysisOptions::default(), true).await.unwrap_err());
     not_found(service.semantics(&other, job.map).await.unwrap_err());
     not_found(service.semantics_versions(&other, job.map).await.unwrap_err());
     let change = SemanticsChange::default();
     not_found(service.change_semantics(&other, job.map, change, Some(0)).await.unwrap_err());
     not_found(service.update_map(&other, job.map, MapPatch::default(), None).await.unwrap_err());
-    not_found(service.delete_map(&other, job.map).await.unwrap_err());
+    not_found(service.delete_map(&other, job.map, None).await.unwrap_err());
     not_found(service.job(&other, job.id).await.unwrap_err());
     not_found(service.dismiss_job(&other, job.id).await.unwrap_err());
     not_found(service.rule_set(&other, "clinic").await.unwrap_err());

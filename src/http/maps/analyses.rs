@@ -5,23 +5,26 @@ use std::sync::Arc;
 use axum::Json;
 use axum::extract::State;
 use axum::response::{IntoResponse, Response};
+use serde::Deserialize;
+use utoipa::IntoParams;
 
 use crate::app::{AnalysisTicket, App, Caller};
 use crate::http::docs::refusals::{NoSpace, NotAnalysed, NotFound};
 use crate::http::extract::conditional::{EntityTag, IfNoneMatch};
-use crate::http::extract::{JsonBody, MapPath, Path};
+use crate::http::extract::{JsonBody, MapPath, Path, Query};
 use crate::http::links::{Base, JSON};
 use crate::http::ogc::jobs;
 use crate::http::problem::Problem;
 use crate::options::RequestedOptions;
 use crate::views::analysis::{AnalysisList, AnalysisView};
 use crate::views::diagnostics::Diagnostics;
+use crate::views::id::Id;
 use crate::views::job::JobView;
 use crate::views::options::AnalysisOptionsView;
 
 /// List analyses
 ///
-/// Every analysis of the map, one per set of options.
+/// Every analysis of the map, one per set of options. One is in force, the others are proposals.
 #[utoipa::path(get, path = "/v1/maps/{mapId}/analyses", tag = "maps", operation_id = "listAnalyses", params(MapPath),
     responses((status = 200, description = "The analyses", body = AnalysisList),
         NotFound))]
@@ -31,15 +34,40 @@ pub async fn list(
     base: Base,
     Path(path): Path<MapPath>,
 ) -> Result<Json<AnalysisList>, Problem> {
-    let analyses = app.analyses(&caller, path.map_id.0).await?.into_iter().map(Into::into).collect();
+    let in_force = app.map(&caller, path.map_id.0).await?.analysis;
+    let analyses = app.analyses(&caller, path.map_id.0).await?.into_iter();
+    let analyses = analyses.map(|record| AnalysisView::new(record, in_force)).collect();
     let links = vec![base.link("self", &format!("/v1/maps/{}/analyses", path.map_id), JSON)];
     Ok(Json(AnalysisList { analyses, links }))
 }
 
+/// When a new analysis comes into force.
+#[derive(Debug, Deserialize, IntoParams)]
+#[into_params(parameter_in = Query)]
+pub struct ActivateQuery {
+    /// Whether the analysis comes into force as soon as it is there.
+    #[serde(default)]
+    #[param(value_type = Option<bool>, default = false)]
+    activate: bool,
+}
+
+/// `/v1/maps/{mapId}/analyses/{analysisId}`
+#[derive(Debug, Deserialize, IntoParams)]
+#[into_params(parameter_in = Path)]
+#[serde(rename_all = "camelCase")]
+pub struct AnalysisPath {
+    /// The map.
+    map_id: Id,
+    /// The analysis.
+    analysis_id: Id,
+}
+
 /// Analyse again
 ///
-/// With other options. Options that were analysed before answer that analysis (200) instead of a job (202).
-#[utoipa::path(post, path = "/v1/maps/{mapId}/analyses", tag = "maps", operation_id = "createAnalysis", params(MapPath),
+/// With other options. The result is a proposal beside the analysis in force, which still answers, until it is activated.
+/// Options that were analysed before answer that analysis (200) instead of a job (202).
+#[utoipa::path(post, path = "/v1/maps/{mapId}/analyses", tag = "maps", operation_id = "createAnalysis",
+    params(MapPath, ActivateQuery),
     request_body = AnalysisOptionsView,
     responses(
         (status = 200, description = "These options were analysed before", body = AnalysisView),
@@ -51,21 +79,43 @@ pub async fn create(
     caller: Caller,
     base: Base,
     Path(path): Path<MapPath>,
+    Query(query): Query<ActivateQuery>,
     JsonBody(RequestedOptions(options)): JsonBody<RequestedOptions>,
 ) -> Result<Response, Problem> {
-    let ticket = app.create_analysis(&caller, path.map_id.0, options).await;
+    let ticket = app.create_analysis(&caller, path.map_id.0, options, query.activate).await;
     // The use case names the options as a part of an upload; here they are the whole body.
     let in_body = |pointer: &str| pointer.strip_prefix("/options").unwrap_or(pointer).to_owned();
     Ok(match ticket.map_err(|error| Problem::from(error).map_pointers(in_body))? {
-        AnalysisTicket::Existing(record) => Json(AnalysisView::from(*record)).into_response(),
+        AnalysisTicket::Existing(record) => {
+            let in_force = app.map(&caller, path.map_id.0).await?.analysis;
+            Json(AnalysisView::new(*record, in_force)).into_response()
+        }
         AnalysisTicket::Job(job) => jobs::accepted(&base, *job),
     })
+}
+
+/// Activate an analysis
+///
+/// It answers from now on, with the labels that people gave to its categories, or its suggestion. The way back is to activate
+/// the one before.
+#[utoipa::path(post, path = "/v1/maps/{mapId}/analyses/{analysisId}/activate", tag = "maps",
+    operation_id = "activateAnalysis", params(AnalysisPath),
+    responses((status = 200, description = "The analysis, in force", body = AnalysisView),
+        NotFound))]
+pub async fn activate(
+    State(app): State<Arc<App>>,
+    caller: Caller,
+    Path(path): Path<AnalysisPath>,
+) -> Result<Json<AnalysisView>, Problem> {
+    let record = app.activate_analysis(&caller, path.map_id.0, path.analysis_id.0).await?;
+    let in_force = app.map(&caller, path.map_id.0).await?.analysis;
+    Ok(Json(AnalysisView::new(record, in_force)))
 }
 
 /// Signals and timings
 ///
 /// What was taken for clutter, the orientation histogram and its mixture, the radiograms, the time of each stage, and the
-/// remarks on the newest analysis.
+/// remarks on the analysis in force.
 #[utoipa::path(get, path = "/v1/maps/{mapId}/diagnostics", tag = "maps", operation_id = "getDiagnostics",
     params(MapPath),
     responses((status = 200, description = "The diagnostics", body = Diagnostics,

@@ -213,15 +213,19 @@ pub async fn update(
 
 /// Delete a map
 ///
-/// Dismisses its jobs and deletes everything of it.
-#[utoipa::path(delete, path = "/v1/maps/{mapId}", tag = "maps", operation_id = "deleteMap", params(MapPath),
+/// Dismisses its jobs and deletes everything of it. With `If-Match` only if nobody changed it since.
+#[utoipa::path(delete, path = "/v1/maps/{mapId}", tag = "maps", operation_id = "deleteMap",
+    params(MapPath, ("If-Match" = Option<String>, Header, description = "The ETag that was read")),
     responses((status = 204, description = "Deleted"),
         NotFound))]
 pub async fn delete(
     State(app): State<Arc<App>>,
     caller: Caller,
     Path(path): Path<MapPath>,
+    if_match: IfMatch,
 ) -> Result<StatusCode, Problem> {
-    app.delete_map(&caller, path.map_id.0).await?;
+    let version = app.map(&caller, path.map_id.0).await?.version;
+    let if_match = if_match.against(&EntityTag::of_version(version), version)?;
+    app.delete_map(&caller, path.map_id.0, if_match).await?;
     Ok(StatusCode::NO_CONTENT)
 }

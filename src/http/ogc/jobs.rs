@@ -10,10 +10,11 @@ use axum::http::{HeaderMap, StatusCode, header};
 use axum::response::sse::{Event, KeepAlive, Sse};
 use axum::response::{IntoResponse, Response};
 use futures::Stream;
+use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 use utoipa::{IntoParams, ToSchema};
 
-use crate::app::{App, Caller, JobFilter, JobRecord, JobState};
+use crate::app::{App, AppError, Caller, JobFilter, JobRecord, JobState};
 use crate::http::docs::refusals::{Conflict, NotFound};
 use crate::http::extract::{ListLimit, Path, Query};
 use crate::http::links::{Base, JSON, header as link_header};
@@ -191,7 +192,7 @@ pub struct JobEvent {
 /// Watch a job
 ///
 /// Server-sent events: `progress` with the job as its data and its time of change as its id. The stream ends with the
-/// final state. A client that comes back with `Last-Event-ID` is sent what is newer; when nothing more will come, 204
+/// final state: `dismissed` where the map is deleted. A client that comes back with `Last-Event-ID` is sent what is newer; when nothing more will come, 204
 /// tells it to stay away.
 #[utoipa::path(get, path = "/v1/jobs/{jobId}/events", tag = "jobs", operation_id = "watchJob",
     params(JobPath, ("Last-Event-ID" = Option<String>, Header, description = "Id of the last event that arrived")),
@@ -210,7 +211,7 @@ pub async fn events(
     if job.state.is_final() && last.is_some_and(|last| last >= event_id(&job)) {
         return Ok(StatusCode::NO_CONTENT.into_response());
     }
-    let events = Sse::new(watch(app, caller, base, path.job_id, last));
+    let events = Sse::new(watch(app, caller, base, job, last));
     // Proxies that buffer would hold the events back.
     let headers = [("x-accel-buffering", "no"), ("cache-control", "no-store")];
     Ok((headers, events.keep_alive(KeepAlive::new().interval(HEARTBEAT))).into_response())
@@ -226,22 +227,29 @@ fn watch(
     app: Arc<App>,
     caller: Caller,
     base: Base,
-    id: Id,
+    job: JobRecord,
     last: Option<i64>,
 ) -> impl Stream<Item = Result<Event, Infallible>> {
     struct Watching {
         changes: tokio::sync::watch::Receiver<u64>,
         last: Option<i64>,
+        /// The job as it was read last.
+        job: JobRecord,
         over: bool,
     }
-    let start = Watching { changes: app.job_changes(), last, over: false };
+    let start = Watching { changes: app.job_changes(), last, job, over: false };
     futures::stream::unfold(start, move |mut watching| {
         let (app, caller, base) = (Arc::clone(&app), caller.clone(), base.clone());
         async move {
             while !watching.over && !app.is_stopping() {
                 // Marked before the job is read: a change after the reading wakes again.
                 watching.changes.mark_unchanged();
-                let job = app.job(&caller, id.0).await.ok()?;
+                let job = match app.job(&caller, watching.job.id).await {
+                    Ok(job) => job,
+                    Err(AppError::NotFound { .. }) => watching.job.clone().deleted(Timestamp::now()),
+                    Err(_) => return None,
+                };
+                watching.job = job.clone();
                 if watching.last.is_none_or(|last| event_id(&job) > last) {
                     watching.last = Some(event_id(&job));
                     watching.over = job.state.is_final();

@@ -15,8 +15,8 @@ use crate::store::{Blob, BlobId, NewAnalysis, NewJob, ResultAddress};
 const DESCRIPTION: ProcessDescription = ProcessDescription {
     id: "semantic-map",
     title: "Analysis of a map",
-    description: "Reads the map, finds its place categories, orientations, rows, rooms and faces, and puts the result \
-                  in force for the map.",
+    description: "Reads the map, finds its place categories, orientations, rows, rooms and faces. The first result of \
+                  a map comes into force at once, later ones when a person says so.",
     version: ALGORITHM_VERSION,
     inputs: &[Parameter { name: "options", title: "Options of every stage", schema: "AnalysisOptions" }],
     outputs: &[Parameter { name: "analysis", title: "Id of the analysis", schema: "string" }],
@@ -38,12 +38,13 @@ pub struct AnalysisProcess {
 }
 
 impl AnalysisProcess {
-    /// A job that analyses a map with some options; `source` is the map's upload.
+    /// A job that analyses a map with some options; `source` is the map's upload. The result comes into force at once where
+    /// the job `activates` it, and is a proposal otherwise.
     #[must_use]
-    pub fn job(map: Uuid, source: &BlobId, options: &AnalysisOptions) -> NewJob {
+    pub fn job(map: Uuid, source: &BlobId, options: &AnalysisOptions, activates: bool) -> NewJob {
         let (process, inputs) = (DESCRIPTION.id, json!({"options": options}));
         let address = ResultAddress::of(source, process, DESCRIPTION.version, &inputs);
-        NewJob { id: Uuid::now_v7(), map, process, inputs, address }
+        NewJob { id: Uuid::now_v7(), map, process, inputs, address, activates }
     }
 }
 

@@ -32,6 +32,37 @@ pub async fn the_analysis_asked_for_last_answers(engine: &impl Engine) {
     assert_eq!(store.analyses(&local(), map).await.unwrap().len(), 2);
 }
 
+pub async fn a_proposal_answers_once_it_is_activated(engine: &impl Engine) {
+    let store = engine.store();
+    let map = upload(store, "map").await.map;
+    let source = store.map_source(&local(), map).await.unwrap().expect("the map is there");
+    let propose = async |seed| {
+        let job = NewJob { activates: false, ..job_of(map, &source, seed) };
+        store.request_analysis(&local(), &with_seed(seed), &job, 9, now()).await.unwrap().expect("the map is there")
+    };
+    let finish_next = async || finish(store, &claim(store, now()).await.expect("a job waits")).await.unwrap();
+    let in_force = async || {
+        let snapshot = store.snapshot(&local(), map).await.unwrap().unwrap();
+        snapshot.analysis.map(|(record, _)| record.options.seed)
+    };
+    finish_next().await;
+    assert!(matches!(propose(2).await, Request::New(_)));
+    finish_next().await;
+    let Request::Existing(proposal) = propose(2).await else { panic!("it is there") };
+    assert_eq!(in_force().await, Some(1), "nobody activated the other one");
+    assert!(store.activate(&local(), map, proposal.id, now()).await.unwrap());
+    assert_eq!(in_force().await, Some(2));
+
+    assert!(matches!(propose(3).await, Request::New(_)));
+    assert!(matches!(request(store, map, 3).await, Request::Pending(_)), "the same, at once");
+    finish_next().await;
+    assert_eq!(in_force().await, Some(3));
+    let stranger = Tenant::new("other");
+    assert!(!store.activate(&stranger, map, proposal.id, now()).await.unwrap());
+    assert!(!store.activate(&local(), map, Uuid::now_v7(), now()).await.unwrap());
+    assert_eq!(in_force().await, Some(3));
+}
+
 pub async fn decisions_are_bound_to_their_analysis_and_replace_what_they_saw(engine: &impl Engine) {
     let store = engine.store();
     let map = upload(store, "map").await.map;

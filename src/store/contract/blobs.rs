@@ -35,13 +35,13 @@ pub async fn deleting_a_map_takes_everything_but_what_others_share(engine: &impl
     assert_eq!(claimed.job, first.id, "first come, first served");
     finish(store, &claimed).await.unwrap();
 
-    assert!(store.delete_map(&local(), first.map).await.unwrap());
-    assert!(!store.delete_map(&local(), first.map).await.unwrap());
+    assert!(store.delete_map(&local(), first.map, None).await.unwrap());
+    assert!(!store.delete_map(&local(), first.map, None).await.unwrap());
     assert_eq!(counts(store).await, (1, 0, 1));
     let source = store.map_source(&local(), second.map).await.unwrap().unwrap();
     store.blobs().get(&source).await.expect("the other map still has its upload");
 
-    store.delete_map(&local(), second.map).await.unwrap();
+    store.delete_map(&local(), second.map, None).await.unwrap();
     assert!(store.blobs().get(&source).await.is_err());
     assert_eq!(store.blobs().older_than(Duration::ZERO).await.unwrap(), []);
 }

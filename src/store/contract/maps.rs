@@ -16,7 +16,7 @@ pub async fn an_idempotency_key_stands_for_one_upload(engine: &impl Engine) {
     assert_eq!(try_upload(store, &local(), "map", Some(&key("b")), 9).await, Upload::KeyReused);
     assert_eq!(counts(store).await.0, 1);
     assert_eq!(store.seen_upload(&local(), &key("a"), later(25 * 3600)).await.unwrap(), None, "forgotten after a day");
-    store.delete_map(&local(), job.map).await.unwrap();
+    store.delete_map(&local(), job.map, None).await.unwrap();
     assert!(
         matches!(try_upload(store, &local(), "map", Some(&key("b")), 9).await, Upload::New(_)),
         "gone with its job"

@@ -76,6 +76,7 @@ macro_rules! contract {
                 }
                 analyses {
                     the_analysis_asked_for_last_answers
+                    a_proposal_answers_once_it_is_activated
                     decisions_are_bound_to_their_analysis_and_replace_what_they_saw
                     the_state_of_a_map_changes_with_every_answer_about_it
                 }
@@ -108,7 +109,7 @@ pub fn local() -> Tenant {
 fn job_of(map: Uuid, source: &BlobId, seed: u64) -> NewJob {
     let inputs = json!({"seed": seed});
     let address = ResultAddress::of(source, PROCESS, 1, &inputs);
-    NewJob { id: Uuid::now_v7(), map, process: PROCESS, inputs, address }
+    NewJob { id: Uuid::now_v7(), map, process: PROCESS, inputs, address, activates: true }
 }
 
 fn with_seed(seed: u64) -> AnalysisOptions {

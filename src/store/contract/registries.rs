@@ -68,9 +68,9 @@ pub async fn maps_of_a_site_share_its_registry_and_it_ends_with_the_last(engine:
     }
     assert!(!read(store, first).await.is_newest && read(store, second.id).await.is_newest);
 
-    store.delete_map(&local(), first).await.unwrap();
+    store.delete_map(&local(), first, None).await.unwrap();
     assert_eq!(read(store, second.id).await.registry, registry("01"), "the site outlives its first map");
-    store.delete_map(&local(), second.id).await.unwrap();
+    store.delete_map(&local(), second.id, None).await.unwrap();
     let anew = NewMapRow { id: first, site: first, ..map_row("hall") };
     let job = job_of(first, source.id(), 1);
     store.create_map(&local(), &anew, &source, &job, None, u64::MAX, now()).await.unwrap();

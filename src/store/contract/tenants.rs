@@ -42,7 +42,7 @@ pub async fn what_belongs_to_another_tenant_is_not_there(engine: &impl Engine) {
         origin: SemanticsOrigin::Assigned,
     };
     assert_eq!(store.insert_semantics(&other, &row, now()).await.unwrap(), None);
-    assert!(!store.delete_map(&other, job.map).await.unwrap());
+    assert!(!store.delete_map(&other, job.map, None).await.unwrap());
 
     let waiting = upload(store, "second").await;
     assert_eq!(store.dismiss(&other, waiting.id, now()).await.unwrap(), None);

@@ -33,8 +33,10 @@ impl Analyses for Sqlite {
             return Ok(None);
         }
         if let Some(existing) = find_analysis(&mut transaction, job.map, options).await? {
-            put_in_force(&mut transaction, job.map, existing.id, job.id, now).await?;
-            transaction.commit().await?;
+            if job.activates {
+                put_in_force(&mut transaction, job.map, existing.id, job.id, now).await?;
+                transaction.commit().await?;
+            }
             return Ok(Some(Request::Existing(Box::new(existing))));
         }
         let pending = sqlx::query(
@@ -46,6 +48,12 @@ impl Analyses for Sqlite {
         .fetch_optional(&mut *transaction)
         .await?;
         if let Some(row) = pending {
+            sqlx::query("UPDATE jobs SET activates = max(activates, $2) WHERE id = $1")
+                .bind(row.text("id")?)
+                .bind(job.activates)
+                .execute(&mut *transaction)
+                .await?;
+            transaction.commit().await?;
             return Ok(Some(Request::Pending(job_record(&row)?)));
         }
         if is_queue_full(&mut transaction, max_queued).await? {
@@ -54,6 +62,25 @@ impl Analyses for Sqlite {
         let job = insert_job(&mut transaction, tenant, job, now).await?;
         transaction.commit().await?;
         Ok(Some(Request::New(job)))
+    }
+
+    async fn activate(&self, tenant: &Tenant, map: Uuid, analysis: Uuid, now: Timestamp) -> Result<bool, StoreError> {
+        let mut transaction = self.write().await?;
+        let found = sqlx::query(
+            "SELECT 1 FROM analyses JOIN maps ON maps.id = analyses.map \
+             WHERE maps.tenant = $1 AND maps.id = $2 AND analyses.id = $3 AND analyses.algorithm = $4",
+        )
+        .bind(tenant.as_str())
+        .bind(map.to_string())
+        .bind(analysis.to_string())
+        .bind(ALGORITHM_VERSION)
+        .fetch_optional(&mut *transaction)
+        .await?;
+        if found.is_some() {
+            put_in_force(&mut transaction, map, analysis, Uuid::now_v7(), now).await?;
+            transaction.commit().await?;
+        }
+        Ok(found.is_some())
     }
 
     async fn analyses(&self, tenant: &Tenant, map: Uuid) -> Result<Vec<AnalysisRecord>, StoreError> {
@@ -140,8 +167,8 @@ impl Analyses for Sqlite {
     }
 }
 
-/// Stores the result of a claim and puts it in force, unless a later request did so before. The caller has ended the
-/// job in the same transaction.
+/// Stores the result of a claim, and puts it in force where none is or where the job activates it, unless a later request
+/// did so before. The caller has ended the job in the same transaction.
 pub(super) async fn insert_analysis(
     connection: &mut SqliteConnection,
     claim: &Claim,
@@ -166,7 +193,16 @@ pub(super) async fn insert_analysis(
     .bind(json(&analysis.diagnostics))
     .execute(&mut *connection)
     .await?;
-    put_in_force(connection, claim.map, analysis.id, claim.job, now).await
+    let comes_into_force = sqlx::query(
+        "SELECT 1 FROM jobs JOIN maps ON maps.id = jobs.map WHERE jobs.id = $1 AND (jobs.activates OR maps.analysis IS NULL)",
+    )
+    .bind(claim.job.to_string())
+    .fetch_optional(&mut *connection)
+    .await?;
+    if comes_into_force.is_some() {
+        put_in_force(connection, claim.map, analysis.id, claim.job, now).await?;
+    }
+    Ok(())
 }
 
 /// Lets an analysis answer for its map, unless it does already or a later request chose another one. Ids are version 7,

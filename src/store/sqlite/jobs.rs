@@ -77,8 +77,8 @@ pub(super) async fn insert_job(
     now: Timestamp,
 ) -> Result<JobRecord, StoreError> {
     let row = sqlx::query(
-        "INSERT INTO jobs (id, tenant, map, process, inputs, state, address, created, updated) \
-         VALUES ($1, $2, $3, $4, $5, 'accepted', $6, $7, $7) RETURNING *",
+        "INSERT INTO jobs (id, tenant, map, process, inputs, state, address, activates, created, updated) \
+         VALUES ($1, $2, $3, $4, $5, 'accepted', $6, $7, $8, $8) RETURNING *",
     )
     .bind(job.id.to_string())
     .bind(tenant.as_str())
@@ -86,6 +86,7 @@ pub(super) async fn insert_job(
     .bind(job.process)
     .bind(json(&job.inputs))
     .bind(job.address.as_str())
+    .bind(job.activates)
     .bind(now.as_microsecond())
     .fetch_one(connection)
     .await?;

@@ -137,10 +137,12 @@ impl Maps for Sqlite {
     }
 
     /// On a full disk the space set aside is given up, so that deleting can make room.
-    async fn delete_map(&self, tenant: &Tenant, id: Uuid) -> Result<bool, StoreError> {
+    async fn delete_map(&self, tenant: &Tenant, id: Uuid, if_match: Option<u64>) -> Result<bool, StoreError> {
         let _gate = self.blob_gate.write().await;
-        let blobs = match self.delete_map_rows(tenant, id).await {
-            Err(StoreError::NoSpace) if self.folder.release_reserve() => self.delete_map_rows(tenant, id).await?,
+        let blobs = match self.delete_map_rows(tenant, id, if_match).await {
+            Err(StoreError::NoSpace) if self.folder.release_reserve() => {
+                self.delete_map_rows(tenant, id, if_match).await?
+            }
             other => other?,
         };
         let Some(blobs) = blobs else { return Ok(false) };
@@ -157,7 +159,12 @@ impl Maps for Sqlite {
 }
 
 impl Sqlite {
-    async fn delete_map_rows(&self, tenant: &Tenant, id: Uuid) -> Result<Option<Vec<BlobId>>, StoreError> {
+    async fn delete_map_rows(
+        &self,
+        tenant: &Tenant,
+        id: Uuid,
+        if_match: Option<u64>,
+    ) -> Result<Option<Vec<BlobId>>, StoreError> {
         let mut transaction = self.write().await?;
         let rows = sqlx::query(
             "SELECT source AS blob FROM maps WHERE tenant = $1 AND id = $2 \
@@ -168,9 +175,10 @@ impl Sqlite {
         .fetch_all(&mut *transaction)
         .await?;
         let blobs = rows.iter().map(|row| row.blob("blob")).collect::<Result<Vec<_>, _>>()?;
-        let deleted = sqlx::query("DELETE FROM maps WHERE tenant = $1 AND id = $2")
+        let deleted = sqlx::query("DELETE FROM maps WHERE tenant = $1 AND id = $2 AND version = coalesce($3, version)")
             .bind(tenant.as_str())
             .bind(id.to_string())
+            .bind(if_match.map(u64::cast_signed))
             .execute(&mut *transaction)
             .await?;
         if deleted.rows_affected() == 0 {

@@ -67,6 +67,7 @@ static MIGRATIONS: LazyLock<Migrator> = LazyLock::new(|| {
         migration(3, "sites", include_str!("../../../migrations/sqlite/0003_sites.sql")),
         migration(4, "layouts", include_str!("../../../migrations/sqlite/0004_layouts.sql")),
         migration(5, "origins", include_str!("../../../migrations/sqlite/0005_origins.sql")),
+        migration(6, "proposals", include_str!("../../../migrations/sqlite/0006_proposals.sql")),
     ])
 });
 
