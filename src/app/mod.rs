@@ -6,6 +6,7 @@
 //! | `jobs` | analyses and the jobs that make them |
 //! | `rule_sets` | the vocabulary of labels |
 //! | `semantics`, `semantics_change` | the human decision on a map, its versions |
+//! | `face_labels` | the label of a single face |
 //! | `registries` | uploads aligned to an earlier map, the codes of a site's places |
 //! | `names`, `name_import` | what people call locations, places, aisles and rows |
 //! | `comparisons` | what changed between two maps, or two versions of labels |
@@ -26,6 +27,7 @@ mod context_cache;
 mod error;
 mod evaluations;
 mod exports;
+mod face_labels;
 mod file_context;
 mod grid;
 mod jobs;

@@ -93,10 +93,10 @@ fn answered_in_time() -> OpenApiRouter<Arc<App>> {
         .routes(routes!(ogc::queryables::queryables))
         .routes(routes!(ogc::queryables::schema))
         .routes(routes!(ogc::items::list))
-        .routes(routes!(ogc::items::get, ogc::item_names::update))
+        .routes(routes!(ogc::items::get, ogc::item_writes::update, ogc::item_writes::replace))
         .route(
             "/v1/maps/{mapId}/collections/{collectionId}/items/{featureId}",
-            axum::routing::options(ogc::item_names::options),
+            axum::routing::options(ogc::item_writes::options),
         )
         .routes(routes!(fleet::at::get))
         .routes(routes!(fleet::route::get))

@@ -197,7 +197,13 @@ async fn valid(site: &Site, operation: &str) -> (Sent, &'static [u16]) {
         "getQueryables" | "getSchema" => get(format!("{map}/collections/faces/{}", operation[3..].to_lowercase())),
         "getFeatures" => get(format!("{map}/collections/faces/items")),
         "getFeature" => get(format!("{map}/collections/vertices/items/0")),
-        "nameFeature" => {
+        "replaceFeature" => {
+            let path = format!("{map}/collections/faces/items/1");
+            let feature = Sent::new(Method::GET, path.clone()).to(&site.api).await.json();
+            let sent = Sent::new(Method::PUT, path).json(&feature).with("if-match", "*");
+            (sent.with("content-type", "application/geo+json"), &[200])
+        }
+        "updateFeature" => {
             let sent =
                 Sent::new(Method::PATCH, format!("{map}/collections/places/items/0")).json(&json!({"name": "Hall"}));
             (sent.with("if-match", "*"), &[200])
@@ -269,9 +275,10 @@ fn wrongs(site: &Site, operation: &str, good: &Sent) -> Vec<Sent> {
         "getFeature" => vec![own(&format!("{}/collections/vertices/items/999999", site.map))],
         "getExport" => vec![own(&format!("{}/exports/none.json", site.map))],
         "locatePose" => vec![own(&format!("{}/at?point=1000,0&crs=EPSG:3857", site.map))],
-        "nameFeature" => {
+        "updateFeature" | "replaceFeature" => {
             let path = format!("{}/collections/locations/items", site.map);
-            let code = |id: &str, code: &str| own(&format!("{path}/{id}")).json(&json!({"code": code}));
+            let members = |code: &str| json!({"properties": {"code": code}});
+            let code = |id: &str, code: &str| own(&format!("{path}/{id}")).json(&members(code));
             vec![own(&format!("{}/collections/edges/items/1", site.map)), code("01-001", "01-003")]
         }
         "getRoute" => vec![own(&format!("{}/routes?from=face:1&to=face:9999", site.map))],

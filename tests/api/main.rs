@@ -12,6 +12,7 @@ mod clients;
 mod document;
 mod evaluations;
 mod exports;
+mod feature_writes;
 mod features;
 mod filters;
 mod graph_report;

@@ -123,7 +123,7 @@ async fn options_tells_what_may_be_written() {
     let api = Api::new().await;
     let map = api.hall().await;
     for (path, allow, patch) in [
-        ("rows/items/1", "GET,HEAD,PATCH", "application/merge-patch+json, application/json"),
+        ("rows/items/1", "GET,HEAD,PUT,PATCH", "application/merge-patch+json, application/geo+json, application/json"),
         ("edges/items/1", "GET,HEAD", ""),
     ] {
         let path = format!("{map}/collections/{path}");

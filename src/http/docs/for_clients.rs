@@ -8,7 +8,7 @@ use serde_json::{Map, Value, json};
 
 use crate::features::Collection;
 use crate::http::ogc::filter::may_have_parameter;
-use crate::http::ogc::item_names::is_writable;
+use crate::http::ogc::item_writes::is_writable;
 use crate::http::ogc::items_query::MAX_LIMIT;
 
 /// Where a path names a collection.
@@ -55,6 +55,7 @@ fn literal_paths(path: &str, item: Value) -> Vec<(String, Value)> {
         if let Some(operations) = item.as_object_mut() {
             if !is_writable(collection) {
                 operations.remove("patch");
+                operations.remove("put");
             }
             operations.values_mut().for_each(|operation| say_collection(operation, collection));
         }
@@ -97,9 +98,10 @@ mod tests {
         let paths = document["paths"].as_object().expect("paths");
         assert_eq!(paths.len(), Collection::ALL.len());
         let faces = &paths["/collections/faces/items"];
+        let edges = &paths["/collections/edges/items"];
         assert_eq!(faces["get"]["operationId"], "getFeaturesOfFaces");
         assert_eq!(faces["get"]["parameters"], json!([{"$ref": "#/components/parameters/limit"}]));
-        assert!(faces.get("patch").is_none() && paths["/collections/places/items"].get("patch").is_some());
+        assert!(edges.get("patch").is_none() && faces.get("patch").is_some());
         let limit = &document["components"]["parameters"]["limit"];
         assert_eq!(
             (&limit["schema"]["maximum"], &limit["style"], &limit["explode"]),

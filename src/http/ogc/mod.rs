@@ -2,8 +2,9 @@
 
 pub mod collections;
 pub mod conformance;
+mod feature_body;
 pub mod filter;
-pub mod item_names;
+pub mod item_writes;
 pub mod items;
 mod items_answer;
 mod items_format;

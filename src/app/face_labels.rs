@@ -1,0 +1,39 @@
+//! The label of a single face, stronger than that of its category.
+
+use std::sync::Arc;
+
+use super::context::read_rule_set;
+use super::{App, AppError, Caller, MapContext, NewSemantics};
+
+impl App {
+    /// Gives a face a label of its own, or takes it away (`None`): a new version of the labels, as long as the map has those
+    /// that were `seen`. What changes nothing makes no version. Answers the map as it is now.
+    pub async fn label_face(
+        &self,
+        caller: &Caller,
+        seen: &Arc<MapContext>,
+        face: u32,
+        label: Option<String>,
+    ) -> Result<Arc<MapContext>, AppError> {
+        let rule_set = read_rule_set(&seen.semantics.draft)?;
+        if let Some(label) = label.as_ref().filter(|label| rule_set.find(label).is_none()) {
+            let known: Vec<&str> = rule_set.labels().iter().map(|label| label.id.as_str()).collect();
+            let of = &seen.semantics.rule_set;
+            let short: String = label.chars().take(40).collect();
+            let detail = format!("the rule set {of} has no label {short:?}: it has {}", known.join(", "));
+            return Err(AppError::invalid("/label", detail));
+        }
+        let mut assignment = seen.semantics.assignment.clone();
+        match label {
+            Some(label) => assignment.overrides.insert(face, label),
+            None => assignment.overrides.remove(&face),
+        };
+        if assignment == seen.semantics.assignment {
+            return Ok(Arc::clone(seen));
+        }
+        let map = seen.record.id;
+        let new = NewSemantics { rule_set: None, assignment, layout: None };
+        self.put_semantics(caller, map, new, Some(seen.semantics.version)).await?;
+        self.context(caller, map).await
+    }
+}
