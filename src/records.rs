@@ -257,6 +257,8 @@ impl JobRecord {
 pub struct JobFilter {
     /// In one of these states; all when empty.
     pub states: Vec<JobState>,
+    /// Of one of these processes; of all when empty.
+    pub processes: Vec<String>,
     /// Of this map.
     pub map: Option<Uuid>,
     /// At most this many.

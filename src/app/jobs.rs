@@ -86,19 +86,26 @@ impl App {
         if before.state.is_final() {
             return Err(AppError::Conflict(format!("the job is {} already", before.state.name())));
         }
-        let mut changes = self.signals.changes();
-        let asked =
-            self.store.dismiss(caller.tenant(), id, now()).await?.ok_or_else(|| AppError::not_found("job", id))?;
+        self.store.dismiss(caller.tenant(), id, now()).await?.ok_or_else(|| AppError::not_found("job", id))?;
         self.signals.changed();
-        let ended = async {
+        self.job_within(caller, id, DISMISSAL).await
+    }
+
+    /// The job once it is over, or as it is after a time.
+    pub async fn job_within(&self, caller: &Caller, id: Uuid, patience: Duration) -> Result<JobRecord, AppError> {
+        let mut changes = self.signals.changes();
+        let over = async {
             loop {
                 let job = self.job(caller, id).await?;
-                if job.state.is_final() || changes.changed().await.is_err() {
+                if job.state.is_final() || self.is_stopping() || changes.changed().await.is_err() {
                     return Ok(job);
                 }
             }
         };
-        tokio::time::timeout(DISMISSAL, ended).await.unwrap_or(Ok(asked))
+        match tokio::time::timeout(patience, over).await {
+            Ok(job) => job,
+            Err(_) => self.job(caller, id).await,
+        }
     }
 
     /// Counts of the jobs of all tenants by state, for the metrics.

@@ -45,6 +45,7 @@ mod service;
 #[cfg(test)]
 mod tests;
 
+pub use crate::jobs::processes::{ANALYSIS, ProcessDescription};
 pub use crate::records::{
     AnalysisRecord, AnalysisTicket, JobFilter, JobRecord, JobState, MapPatch, MapRecord, NewMap, RuleSetRecord,
     SemanticsOrigin, SemanticsRecord, StageReport,

@@ -49,7 +49,9 @@ fn routes(upload_bytes: usize) -> OpenApiRouter<Arc<App>> {
     let upload_limit =
         ServiceBuilder::new().layer(RequestBodyLimitLayer::new(upload_bytes)).layer(DefaultBodyLimit::disable());
     // A large upload takes as long as its pace allows: no clock runs for its answer.
-    let uploads = OpenApiRouter::new().routes(routes!(maps::map::create).layer(upload_limit));
+    let uploads = OpenApiRouter::new()
+        .routes(routes!(maps::map::create).layer(upload_limit.clone()))
+        .routes(routes!(ogc::processes::execute).layer(upload_limit));
     OpenApiRouter::with_openapi(docs::openapi::head())
         .merge(answered_in_time().layer(from_fn(guard::in_time)))
         .merge(uploads)
@@ -105,6 +107,9 @@ fn answered_in_time() -> OpenApiRouter<Arc<App>> {
         .routes(routes!(fleet::exports::get))
         .routes(routes!(fleet::graph_report::get))
         .routes(routes!(fleet::graph_report::picture))
+        .routes(routes!(ogc::processes::list))
+        .routes(routes!(ogc::processes::get))
+        .routes(routes!(ogc::processes::of_job))
         .routes(routes!(ogc::jobs::list))
         .routes(routes!(ogc::jobs::get, ogc::jobs::dismiss))
         .routes(routes!(ogc::jobs::events))

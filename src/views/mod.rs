@@ -22,6 +22,7 @@ pub mod name;
 pub mod names;
 pub mod occupancy_grid;
 pub mod options;
+pub mod process;
 pub mod registry;
 pub mod remarks;
 pub mod rule_set;

@@ -131,6 +131,13 @@ async fn valid(site: &Site, operation: &str) -> (Sent, &'static [u16]) {
         "listJobs" => get("/v1/jobs".into()),
         "getJob" => get(format!("/v1/jobs/{}", site.over)),
         "watchJob" => get(format!("/v1/jobs/{}/events", site.over)),
+        "getJobResults" => get(format!("/v1/jobs/{}/results", site.over)),
+        "listProcesses" => get("/v1/processes".into()),
+        "getProcess" => get("/v1/processes/semantic-map".into()),
+        "execute" => {
+            let body = json!({"inputs": {"mapId": map.trim_start_matches("/v1/maps/")}});
+            (Sent::new(Method::POST, "/v1/processes/semantic-map/execution").json(&body), &[200])
+        }
         "dismissJob" => (Sent::new(Method::DELETE, format!("/v1/jobs/{}", site.job().await)), &[200]),
         "listMaps" => get("/v1/maps".into()),
         "createMap" => {
@@ -266,6 +273,15 @@ fn wrongs(site: &Site, operation: &str, good: &Sent) -> Vec<Sent> {
     let own = |path: &str| sent().at(path.to_owned());
     wrongs.extend(match operation {
         "getProblemType" => vec![own("/problems/none")],
+        "getProcess" => vec![own("/v1/processes/none")],
+        "execute" => {
+            let new = json!({"inputs": {"mapId": site.map.trim_start_matches("/v1/maps/"), "options": {"seed": 11}}});
+            vec![
+                own("/v1/processes/none/execution"),
+                sent().json(&new).with("prefer", "respond-async"),
+                sent().with("content-length", TOO_LONG_BYTES.to_string()),
+            ]
+        }
         "getRuleSet" | "replaceRuleSet" | "deleteRuleSet" => {
             vec![own("/v1/rule-sets/none"), own("/v1/rule-sets/office")]
         }

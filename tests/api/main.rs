@@ -22,6 +22,7 @@ mod names;
 mod ogc_formats;
 mod ogc_part_1;
 mod ogc_part_2;
+mod processes;
 mod protocol;
 mod routes;
 mod semantics;

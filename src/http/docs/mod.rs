@@ -57,6 +57,8 @@ pub async fn landing(base: Base, accept: Accept) -> Response {
             base.link("service-doc", "/docs/", HTML).titled("The API reference"),
             base.link("status", "/health/ready", JSON).titled("Readiness"),
             base.link("data", "/v1/maps", JSON).titled("The maps"),
+            base.link("http://www.opengis.net/def/rel/ogc/1.0/processes", "/v1/processes", JSON)
+                .titled("The processes"),
             base.link("http://www.opengis.net/def/rel/ogc/1.0/job-list", "/v1/jobs", JSON).titled("The jobs"),
             base.link("related", "/v1/rule-sets", JSON).titled("The rule sets"),
         ],

@@ -9,6 +9,7 @@ pub mod datetime;
 pub mod form;
 pub mod format;
 pub mod negotiation;
+pub mod prefer;
 
 use std::error::Error;
 

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use axum::Json;
 use axum::extract::{Request, State};
-use axum::http::{HeaderMap, HeaderValue, StatusCode, header};
+use axum::http::{HeaderValue, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use serde::Deserialize;
 use utoipa::{IntoParams, ToSchema};
@@ -14,6 +14,7 @@ use crate::app::{App, Caller, MapPatch, MapRecord};
 use crate::http::docs::refusals::{NoSpace, NotFound, NotSameSite};
 use crate::http::extract::conditional::{EntityTag, IfMatch, IfNoneMatch};
 use crate::http::extract::negotiation::Accept;
+use crate::http::extract::prefer::Prefer;
 use crate::http::extract::{JsonBody, MapPath, Paging, Path, Query, present};
 use crate::http::links::{Base, GEO_JSON, HTML, JSON, OPENAPI_3_0, header as link_header};
 use crate::http::ogc::jobs;
@@ -102,7 +103,7 @@ pub async fn create(
     Query(query): Query<UploadQuery>,
     request: Request,
 ) -> Result<Response, Problem> {
-    let prefers_async = prefers_async(request.headers());
+    let prefers_async = Prefer::of(request.headers()).is_async;
     let mut map = upload::read(request, &app, query.name, &app.config().limits).await?;
     map.previous = query.previous.map(|id| id.0).or(map.previous);
     let (job, is_new) = app.create_map(&caller, map).await?;
@@ -114,12 +115,6 @@ pub async fn create(
         response.headers_mut().insert("preference-applied", HeaderValue::from_static("respond-async"));
     }
     Ok(response)
-}
-
-/// Whether the client asks to be answered before the work is done (RFC 7240, 4.1), as it is anyway.
-fn prefers_async(headers: &HeaderMap) -> bool {
-    let preferences = headers.get_all("prefer").iter().filter_map(|value| value.to_str().ok());
-    preferences.flat_map(|value| value.split(',')).any(|one| one.trim().eq_ignore_ascii_case("respond-async"))
 }
 
 /// List maps

@@ -17,7 +17,7 @@ use utoipa::{IntoParams, ToSchema};
 use crate::app::{App, AppError, Caller, JobFilter, JobRecord, JobState};
 use crate::http::docs::refusals::{Conflict, NotFound};
 use crate::http::extract::{ListLimit, Path, Query};
-use crate::http::links::{Base, JSON, header as link_header};
+use crate::http::links::{Base, JSON, encode, header as link_header};
 use crate::http::paging::cut;
 use crate::http::problem::Problem;
 use crate::views::id::Id;
@@ -39,8 +39,7 @@ fn view(base: &Base, job: JobRecord) -> JobView {
         base.link("related", &format!("/v1/maps/{}", job.map), JSON).titled("The map"),
     ];
     if job.state == JobState::Successful {
-        let path = format!("/v1/maps/{}/collections", job.map);
-        links.push(base.link("http://www.opengis.net/def/rel/ogc/1.0/results", &path, JSON));
+        links.push(base.link("http://www.opengis.net/def/rel/ogc/1.0/results", &format!("{path}/results"), JSON));
     }
     JobView::new(job, links)
 }
@@ -69,6 +68,10 @@ pub struct JobQuery {
     /// States, separated by commas.
     #[param(value_type = Option<Vec<JobStatus>>, style = Form, explode = false, min_items = 1)]
     status: Option<States>,
+    /// Ids of processes, separated by commas.
+    #[serde(rename = "processID")]
+    #[param(rename = "processID", example = "semantic-map")]
+    process_id: Option<String>,
     /// Type of the jobs: all are `process`.
     #[serde(rename = "type")]
     #[param(inline, rename = "type")]
@@ -134,10 +137,16 @@ pub async fn list(
 ) -> Result<Response, Problem> {
     let limit = query.limit.0;
     let (states, text) = query.status.map(|status| (status.states, status.text)).unwrap_or_default();
-    let filter = JobFilter { states, map: None, limit: limit + 1, after: query.after.map(|id| id.0) };
+    let processes: Vec<String> = query.process_id.iter().flat_map(|ids| ids.split(',')).map(str::to_owned).collect();
+    let of_processes = query.process_id.map(|ids| format!("&processID={}", encode(&ids))).unwrap_or_default();
+    let after = query.after.map(|id| id.0);
+    let filter = JobFilter { states, processes, map: None, limit: limit + 1, after };
     let (jobs, more) = cut(app.jobs(&caller, filter).await?, limit);
     let status = if text.is_empty() { String::new() } else { format!("&status={text}") };
-    let next = jobs.last().filter(|_| more).map(|last| format!("/v1/jobs?limit={limit}{status}&after={}", last.id));
+    let next = jobs
+        .last()
+        .filter(|_| more)
+        .map(|last| format!("/v1/jobs?limit={limit}{status}{of_processes}&after={}", last.id));
     let next = next.map(|path| base.link("next", &path, JSON));
     let headers: HeaderMap = next.iter().map(|link| (header::LINK, link_header(link))).collect();
     let links = std::iter::once(base.link("self", "/v1/jobs", JSON)).chain(next).collect();

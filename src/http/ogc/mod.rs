@@ -1,7 +1,8 @@
-//! The resources of the OGC API standards: collections and their features, jobs.
+//! The resources of the OGC API standards: collections and their features, processes and jobs.
 
 pub mod collections;
 pub mod conformance;
+mod execution_body;
 mod feature_body;
 pub mod filter;
 pub mod item_writes;
@@ -10,4 +11,5 @@ mod items_answer;
 mod items_format;
 pub mod items_query;
 pub mod jobs;
+pub mod processes;
 pub mod queryables;

@@ -12,7 +12,8 @@ use crate::ingest::{self, Limits};
 use crate::store::queue::JobResult;
 use crate::store::{Blob, BlobId, NewAnalysis, NewJob, ResultAddress};
 
-const DESCRIPTION: ProcessDescription = ProcessDescription {
+/// What the analysis is.
+pub const ANALYSIS: ProcessDescription = ProcessDescription {
     id: "semantic-map",
     title: "Analysis of a map",
     description: "Reads the map, finds its place categories, orientations, rows, rooms and faces. The first result of \
@@ -42,15 +43,15 @@ impl AnalysisProcess {
     /// the job `activates` it, and is a proposal otherwise.
     #[must_use]
     pub fn job(map: Uuid, source: &BlobId, options: &AnalysisOptions, activates: bool) -> NewJob {
-        let (process, inputs) = (DESCRIPTION.id, json!({"options": options}));
-        let address = ResultAddress::of(source, process, DESCRIPTION.version, &inputs);
+        let (process, inputs) = (ANALYSIS.id, json!({"options": options}));
+        let address = ResultAddress::of(source, process, ANALYSIS.version, &inputs);
         NewJob { id: Uuid::now_v7(), map, process, inputs, address, activates }
     }
 }
 
 impl Process for AnalysisProcess {
     fn description(&self) -> &ProcessDescription {
-        &DESCRIPTION
+        &ANALYSIS
     }
 
     fn compute(&self, work: &Work<'_>, watch: &Watch<'_>) -> Result<JobResult, ComputeError> {

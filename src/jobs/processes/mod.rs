@@ -11,7 +11,7 @@ use std::sync::Arc;
 
 use crate::ingest::Limits;
 
-pub use analysis::{AnalysisInputs, AnalysisProcess};
+pub use analysis::{ANALYSIS, AnalysisInputs, AnalysisProcess};
 pub use process::{ComputeError, Parameter, Process, ProcessDescription, Work};
 
 /// The processes of a service, by id.

@@ -49,6 +49,7 @@ impl Jobs for Sqlite {
         let rows = sqlx::query(
             "SELECT * FROM jobs WHERE tenant = $5 AND ($1 IS NULL OR id < $1) AND ($2 IS NULL OR map = $2) \
                  AND ($3 = '[]' OR state IN (SELECT value FROM json_each($3))) \
+                 AND ($6 = '[]' OR process IN (SELECT value FROM json_each($6))) \
              ORDER BY id DESC LIMIT $4",
         )
         .bind(filter.after.map(|id| id.to_string()))
@@ -56,6 +57,7 @@ impl Jobs for Sqlite {
         .bind(json(&filter.states))
         .bind(filter.limit)
         .bind(tenant.as_str())
+        .bind(json(&filter.processes))
         .fetch_all(&self.readers)
         .await?;
         rows.iter().map(job_record).collect()
