@@ -31,7 +31,7 @@ impl App {
         draft: RuleSetDraft,
     ) -> Result<RuleSetRecord, AppError> {
         check_id(id)?;
-        let checked = draft.check()?;
+        let checked = checked(draft)?;
         let in_use = || AppError::Conflict(format!("there is a rule set {id} already"));
         if find_built_in(id).is_some() {
             return Err(in_use());
@@ -48,7 +48,7 @@ impl App {
         if_match: Option<u64>,
     ) -> Result<RuleSetRecord, AppError> {
         let version = self.writable(caller, id, if_match).await?;
-        let checked = draft.check()?;
+        let checked = checked(draft)?;
         match self.store.put_rule_set(caller.tenant(), id, checked.draft(), version).await? {
             None => Err(AppError::not_found("rule set", id)),
             Some(Err(current)) => Err(AppError::PreconditionFailed { current }),
@@ -73,6 +73,18 @@ impl App {
         }
         if_match.ok_or(AppError::PreconditionRequired)
     }
+}
+
+/// A rule set that somebody writes: valid, and without rules that never apply. Those that were stored before rules were
+/// looked at stay readable.
+fn checked(draft: RuleSetDraft) -> Result<RuleSet, AppError> {
+    let unreachable = draft.unreachable_rules();
+    let problems = match draft.check() {
+        Ok(rule_set) if unreachable.is_empty() => return Ok(rule_set),
+        Ok(_) => unreachable,
+        Err(problems) => problems.into_iter().chain(unreachable).collect(),
+    };
+    Err(problems.into())
 }
 
 fn built_in() -> impl Iterator<Item = RuleSetRecord> {

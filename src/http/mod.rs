@@ -114,6 +114,7 @@ fn answered_in_time() -> OpenApiRouter<Arc<App>> {
         .routes(routes!(ogc::jobs::get, ogc::jobs::dismiss))
         .routes(routes!(ogc::jobs::events))
         .routes(routes!(maps::rule_sets::list, maps::rule_sets::create))
+        .routes(routes!(maps::cogency_matrix::get))
         .routes(routes!(maps::rule_sets::get, maps::rule_sets::replace, maps::rule_sets::delete))
 }
 

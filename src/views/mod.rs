@@ -5,6 +5,7 @@
 pub mod alignment;
 pub mod analysis;
 pub mod category;
+pub mod cogency_matrix;
 pub mod comparison;
 pub mod diagnostics;
 pub mod evaluation;

@@ -234,6 +234,7 @@ async fn valid(site: &Site, operation: &str) -> (Sent, &'static [u16]) {
         "listRuleSets" => get("/v1/rule-sets".into()),
         "createRuleSet" => (Sent::new(Method::POST, "/v1/rule-sets").json(&rule_set("new")), &[201]),
         "getRuleSet" => get("/v1/rule-sets/office".into()),
+        "getCogencyMatrix" => get("/v1/rule-sets/office/matrix".into()),
         "replaceRuleSet" => {
             let (path, tag) = site.rule_set("replaced").await;
             (Sent::new(Method::PUT, path).json(&rule_set("replaced")).with("if-match", tag), &[200])
@@ -274,6 +275,7 @@ fn wrongs(site: &Site, operation: &str, good: &Sent) -> Vec<Sent> {
     wrongs.extend(match operation {
         "getProblemType" => vec![own("/problems/none")],
         "getProcess" => vec![own("/v1/processes/none")],
+        "getCogencyMatrix" => vec![own("/v1/rule-sets/none/matrix")],
         "execute" => {
             let new = json!({"inputs": {"mapId": site.map.trim_start_matches("/v1/maps/"), "options": {"seed": 11}}});
             vec![

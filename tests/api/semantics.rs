@@ -78,12 +78,31 @@ async fn a_rule_set_that_makes_no_sense_is_refused_piece_by_piece() {
             json!({"id": "x", "labels": [label("a", &[])], "cogency": [{"when": ["a", "a"], "then": "maybe"}]}),
             "/cogency/0/then",
         ),
+        (
+            json!({"id": "x", "labels": [label("a", &[])], "cogency": [
+                {"when": ["*", "a"], "then": "cogent"}, {"when": ["a", "a"], "then": "invalid"}]}),
+            "/cogency/1",
+        ),
         (json!({"id": "x", "labels": [label("a", &[])], "colour": 1}), "/colour"),
     ];
     for (body, pointer) in cases {
         let problem = api.send_json(Method::POST, "/v1/rule-sets", &[], &body).await.problem(422, "invalid");
         assert_eq!(problem["errors"][0]["pointer"], pointer, "{problem}");
     }
+}
+
+#[tokio::test]
+async fn the_cogency_of_every_pair_of_labels_is_a_table() {
+    let api = Api::new().await;
+    let matrix = api.get("/v1/rule-sets/warehouse/matrix").await.json();
+    let ids: Vec<&Value> = matrix["labels"].as_array().into_iter().flatten().map(|label| &label["id"]).collect();
+    assert_eq!(ids, ["co", "ju", "pc", "un"]);
+    assert_eq!(matrix["cogency"][0], json!(["invalid", "invalid", "storage-access", "cogent"]));
+    let table = api.get("/v1/rule-sets/warehouse/matrix?f=csv").await.text();
+    assert!(table.starts_with("label,co,ju,pc,un\r\nco,invalid,invalid,storage-access,cogent\r\n"), "{table}");
+    let page = api.get("/v1/rule-sets/warehouse/matrix?f=html").await;
+    assert!(page.header("content-type").starts_with("text/html"));
+    assert!(page.text().contains(">pallet cell</th><td>storage-access</td>"), "{}", page.text());
 }
 
 #[tokio::test]

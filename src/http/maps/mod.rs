@@ -1,6 +1,7 @@
 //! What hangs on a map: its record and upload, analyses, pictures, semantics and evaluation; and the rule sets.
 
 pub mod analyses;
+pub mod cogency_matrix;
 pub mod comparisons;
 pub mod evaluations;
 pub mod map;

@@ -20,6 +20,8 @@ use crate::views::rule_set::{RuleSetBody, RuleSetList, RuleSetView};
 fn view(base: &Base, record: RuleSetRecord) -> RuleSetView {
     let links = vec![
         base.link("self", &format!("/v1/rule-sets/{}", record.id), JSON),
+        base.link("related", &format!("/v1/rule-sets/{}/matrix", record.id), JSON)
+            .titled("Cogency of every pair of labels"),
         base.link("collection", "/v1/rule-sets", JSON),
     ];
     RuleSetView::new(record, links)
@@ -32,8 +34,13 @@ fn answer(base: &Base, record: RuleSetRecord) -> Response {
 
 /// The tag of a rule set. Versions count anew when a rule set is deleted and made again, so the content is in it too.
 fn tag(record: &RuleSetRecord) -> EntityTag {
+    tag_of("rule-set", record)
+}
+
+/// The tag of what is made of a rule set.
+pub fn tag_of(kind: &str, record: &RuleSetRecord) -> EntityTag {
     let draft = serde_json::to_string(&record.draft).expect("labels and rules are plain data");
-    EntityTag::of_content(&["rule-set", &record.version.to_string(), &draft])
+    EntityTag::of_content(&[kind, &record.version.to_string(), &draft])
 }
 
 /// `/v1/rule-sets/{ruleSetId}`
@@ -43,7 +50,7 @@ fn tag(record: &RuleSetRecord) -> EntityTag {
 pub struct RuleSetPath {
     /// The rule set: `site`, `warehouse` and `office` are built in.
     #[param(example = "site")]
-    rule_set_id: String,
+    pub rule_set_id: String,
 }
 
 /// List rule sets

@@ -56,6 +56,13 @@ impl CogencyRule {
     /// The pattern that matches any label.
     pub const ANY: &str = "*";
 
+    /// Whether it matches every pair of labels that another rule matches.
+    pub(super) fn covers(&self, other: &Self) -> bool {
+        let covers = |pattern: &String, id: &String| pattern == Self::ANY || pattern == id;
+        let ([first, second], [one, two]) = (&self.when, &other.when);
+        (covers(first, one) && covers(second, two)) || (covers(first, two) && covers(second, one))
+    }
+
     pub(super) fn matches(&self, first: &Label, second: &Label) -> bool {
         let names = |pattern: &String, label: &Label| pattern == Self::ANY || *pattern == label.id;
         let [one, other] = &self.when;

@@ -57,6 +57,19 @@ impl RuleSetDraft {
         problems.0
     }
 
+    /// The rules that never apply, because an earlier one matches every pair that they match. Such a draft is valid: its
+    /// cogency is what it says, though hardly what was meant.
+    #[must_use]
+    pub fn unreachable_rules(&self) -> Vec<RuleSetProblem> {
+        let rules = self.cogency.as_deref().unwrap_or_default();
+        let unreachable = |(index, rule): (usize, &CogencyRule)| {
+            let earlier = rules[..index].iter().position(|earlier| earlier.covers(rule))?;
+            let message = format!("never applies: rule {earlier} comes first and matches whatever it matches");
+            Some(RuleSetProblem { pointer: format!("/cogency/{index}"), message })
+        };
+        rules.iter().enumerate().take(MAX_RULES).filter_map(unreachable).collect()
+    }
+
     /// The first label without functionality.
     pub(super) fn unidentified(&self) -> Option<LabelId> {
         let index = self.labels.iter().position(|label| label.functionality.is_empty());
@@ -155,6 +168,20 @@ mod tests {
                 /labels/3/connectsTo/1: no label has the id "shelf"
                 /cogency/0/when/1: no label has the id "bin"; * stands for any"#]],
         );
+    }
+
+    #[test]
+    fn a_rule_behind_a_wider_one_never_applies() {
+        let rule = |one: &str, other: &str| CogencyRule { when: [one.into(), other.into()], then: Cogency::Cogent };
+        let unreachable = |rules: Vec<CogencyRule>| {
+            let draft = RuleSetDraft { cogency: Some(rules), ..RuleSet::warehouse().draft().clone() };
+            draft.unreachable_rules().iter().map(ToString::to_string).collect::<Vec<_>>().join("\n")
+        };
+        assert_eq!(unreachable(vec![rule("co", "pc"), rule("co", "*"), rule("ju", "pc"), rule("*", "*")]), "");
+        expect!["/cogency/2: never applies: rule 0 comes first and matches whatever it matches"]
+            .assert_eq(&unreachable(vec![rule("*", "pc"), rule("co", "ju"), rule("pc", "ju")]));
+        expect!["/cogency/1: never applies: rule 0 comes first and matches whatever it matches"]
+            .assert_eq(&unreachable(vec![rule("co", "pc"), rule("pc", "co")]));
     }
 
     #[test]
