@@ -30,6 +30,8 @@ pub struct Config {
     pub max_job_bytes: u64,
     /// Analysed maps kept in memory.
     pub cached_maps: usize,
+    /// Memory for answers that are given again as they are, bytes; 0 for none.
+    pub cached_answer_bytes: usize,
     /// Whether what a proxy says about the client's address is believed.
     pub trust_proxy: bool,
     /// How long running jobs may go on after a request to stop, before they are put back.
@@ -53,6 +55,8 @@ impl Config {
             min_free_bytes: 256 << 20,
             max_job_bytes: 8 << 30,
             cached_maps: 8,
+            // A layer of 7,000 faces has 2 MB, a third of a megabyte compressed.
+            cached_answer_bytes: 64 << 20,
             trust_proxy: false,
             shutdown_grace: Duration::from_secs(25),
         }

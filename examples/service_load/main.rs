@@ -2,7 +2,7 @@
 //!
 //! `cargo run --release --example service_load` draws a part of a warehouse of the paper's size (about 7,000 faces), has
 //! it analysed by `stillage serve` in a process of its own, and asks the same questions of both processes by turns over
-//! loopback. CPU is user and system time of the whole serving process, which the client does not share.
+//! loopback. A second service on the same store, without memory for answers, shows what it saves. CPU is user and system time of the whole serving process, which the client does not share.
 
 #![allow(clippy::print_stdout, clippy::panic, reason = "a program that prints a table, and stops where it cannot")]
 
@@ -13,6 +13,7 @@ mod site;
 mod trivial;
 mod upload;
 
+use std::path::Path;
 use std::process::ExitCode;
 
 use client::{Answer, Load};
@@ -46,33 +47,54 @@ fn main() -> ExitCode {
 fn measure() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let data = folder.path().join("data").display().to_string();
-    let service = Serving::start(&["serve", "--listen", "127.0.0.1:0", "--data", &data]);
+    let start = |mebibytes| {
+        let memory = ["--cached-answer-mib", mebibytes];
+        Serving::start(&[&["serve", "--listen", "127.0.0.1:0", "--data", &data], memory.as_slice()].concat())
+    };
+    let service = start("64");
     let map = upload::analysed_map(&service);
     let items = format!("/v1/maps/{map}/collections/faces/items");
     let whole = client::get(service.address, &format!("{items}?limit=10000"), "");
     let faces = whole.text().matches("\"type\":\"Feature\"").count();
     println!("{faces} faces, {} bytes as GeoJSON, {CONNECTIONS} connections, {ROUNDS} rounds\n", whole.body.len());
-    println!("| question | bytes | service, us CPU | trivial, us CPU | ratio | service, req/s | p50 ms | p99 ms |");
-    println!("| --- | --- | --- | --- | --- | --- | --- | --- |");
-    for question in questions(&items, service.address) {
-        let answer = client::get(service.address, &question.path, &question.headers);
-        let trivial = trivial::start(&answer, folder.path());
-        let (mut ours, mut theirs) = (Load::default(), Load::default());
-        for _ in 0..ROUNDS {
-            ours.add(&client::load(&service, &question.path, &question.headers, question.times));
-            theirs.add(&client::load(&trivial, &question.path, &question.headers, question.times));
-        }
-        let (own, other) = (ours.cpu_per_request(), theirs.cpu_per_request());
+    let questions = questions(&items, service.address);
+    let beside = questions.iter().map(|question| beside_trivial(question, &service, folder.path()));
+    let beside: Vec<(usize, Load, Load)> = beside.collect();
+    // One process at a time has the folder.
+    drop(service);
+    let service = start("0");
+    println!("| question | bytes | us CPU, made anew | again | trivial | ratio | again, req/s | p50 ms | p99 ms |");
+    println!("| --- | --- | --- | --- | --- | --- | --- | --- | --- |");
+    for (question, (bytes, again, trivial)) in questions.iter().zip(beside) {
+        let anew = question.load(&service).cpu_per_request();
+        let (own, other) = (again.cpu_per_request(), trivial.cpu_per_request());
         println!(
-            "| {} | {} | {own:.1} | {other:.1} | {:.2} | {:.0} | {:.2} | {:.2} |",
+            "| {} | {bytes} | {anew:.1} | {own:.1} | {other:.1} | {:.2} | {:.0} | {:.2} | {:.2} |",
             question.name,
-            answer.body.len(),
             own / other,
-            ours.per_second(),
-            ours.quantile(0.5),
-            ours.quantile(0.99),
+            again.per_second(),
+            again.quantile(0.5),
+            again.quantile(0.99),
         );
     }
+}
+
+impl Question {
+    fn load(&self, serving: &Serving) -> Load {
+        client::load(serving, &self.path, &self.headers, self.times)
+    }
+}
+
+/// Bytes of the answer, the load of the service and that of the trivial handler.
+fn beside_trivial(question: &Question, service: &Serving, folder: &Path) -> (usize, Load, Load) {
+    let answer = client::get(service.address, &question.path, &question.headers);
+    let trivial = trivial::start(&answer, folder);
+    let (mut ours, mut theirs) = (Load::default(), Load::default());
+    for _ in 0..ROUNDS {
+        ours.add(&question.load(service));
+        theirs.add(&question.load(&trivial));
+    }
+    (answer.body.len(), ours, theirs)
 }
 
 fn questions(items: &str, service: std::net::SocketAddr) -> Vec<Question> {

@@ -1,8 +1,7 @@
 //! The analysed map in memory: built once, shared by all who ask, replaced when something about the map changes.
 //!
-//! A context is kept with the [`MapState`](crate::store::MapState) it answers for: version of the record, analysis,
-//! version of the semantics. Each question reads the state from the store first, so that it sees every change, another
-//! process's too.
+//! A context is kept with the [`MapState`] it answers for: version of the record, analysis,
+//! version of the semantics. Each question asks for the state first, so that it sees every change.
 
 use std::sync::Arc;
 
@@ -19,16 +18,29 @@ use super::{AnalysisRecord, App, AppError, Caller, MapRecord, SemanticsOrigin, S
 use crate::blocking::off_the_runtime;
 use crate::features::MapNames;
 use crate::ingest::{self, Limits, MapSource};
-use crate::store::{Blob, Snapshot};
+use crate::store::{Blob, MapState, Snapshot};
 
 impl App {
     /// The analysed map, from memory or the store. However many ask at once, it is built once.
     pub async fn context(&self, caller: &Caller, map: Uuid) -> Result<Arc<MapContext>, AppError> {
-        let state = self.store.map_state(caller.tenant(), map).await?.ok_or_else(|| AppError::not_found("map", map))?;
+        let state = self.map_state(caller, map).await?.ok_or_else(|| AppError::not_found("map", map))?;
         let entry = self.contexts.entry(map, state);
         let built = entry.context.get_or_try_init(|| self.build_context(caller, map, entry.previous.clone())).await;
         self.contexts.settle(&entry, built.is_ok());
         built.cloned()
+    }
+
+    /// The state of a map, if there is one: from memory where nothing was written since it was read.
+    pub async fn map_state(&self, caller: &Caller, map: Uuid) -> Result<Option<MapState>, AppError> {
+        let writes = self.store.writes();
+        if let Some(state) = writes.and_then(|writes| self.states.get(writes, caller.tenant(), map)) {
+            return Ok(Some(state));
+        }
+        let state = self.store.map_state(caller.tenant(), map).await?;
+        if let (Some(writes), Some(state)) = (writes, state) {
+            self.states.put(writes, caller.tenant(), map, state);
+        }
+        Ok(state)
     }
 
     async fn build_context(

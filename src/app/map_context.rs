@@ -14,6 +14,7 @@ use uuid::Uuid;
 use super::routers::RouterCache;
 use crate::features::{self, AnalysedMap, Collection, Feature, MapNames};
 use crate::records::{MapRecord, SemanticsRecord};
+use crate::store::MapState;
 
 /// An analysed map in memory, ready to answer. Shared, immutable; replaced when the semantics change.
 #[derive(Debug)]
@@ -55,6 +56,12 @@ pub struct MapContext {
 pub struct FeatureCache([OnceLock<Vec<Feature>>; Collection::ALL.len()]);
 
 impl MapContext {
+    /// The state of the map that this answers for.
+    #[must_use]
+    pub const fn state(&self) -> MapState {
+        MapState { version: self.record.version, analysis: Some(self.analysis_id), semantics: self.semantics.version }
+    }
+
     /// The map as [`crate::features`] reads it.
     #[must_use]
     pub fn view(&self) -> AnalysedMap<'_> {

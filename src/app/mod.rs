@@ -11,7 +11,7 @@
 //! | `names`, `name_import` | what people call locations, places, aisles and rows |
 //! | `comparisons` | what changed between two maps, or two versions of labels |
 //! | `grid` | the cells of a map, before any analysis |
-//! | `context`, `map_context`, `context_cache` | the analysed map in memory, with its collections |
+//! | `context`, `map_context`, `context_cache`, `map_states` | the analysed map in memory, with its collections |
 //! | `routers`, `latest` | its routers and navigation graphs, the latest kept |
 //! | `exports` | its files for other programs |
 //! | `service` | what the use cases share, start and stop |
@@ -33,6 +33,7 @@ mod grid;
 mod jobs;
 mod latest;
 mod map_context;
+mod map_states;
 mod maps;
 mod name_import;
 mod names;

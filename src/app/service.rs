@@ -8,6 +8,7 @@ use tokio::sync::{Semaphore, watch};
 
 use super::context_cache::ContextCache;
 use super::error::AppError;
+use super::map_states::MapStates;
 use crate::config::Config;
 use crate::jobs::processes::{AnalysisProcess, Processes};
 use crate::jobs::{Signals, Worker};
@@ -27,6 +28,7 @@ pub struct App {
     worker: Arc<Worker>,
     pub(super) signals: Arc<Signals>,
     pub(super) contexts: ContextCache,
+    pub(super) states: MapStates,
     /// Bounds how many uploads and contexts are decoded at the same time, and with that their memory.
     pub(super) decoders: Semaphore,
     is_stopping: AtomicBool,
@@ -47,7 +49,16 @@ impl App {
         let worker = Worker::start(&config, Arc::clone(&store), processes, Arc::clone(&signals));
         let contexts = ContextCache::new(config.cached_maps);
         let decoders = Semaphore::new(config.compute_threads.max(1));
-        Arc::new(Self { config, store, worker, signals, contexts, decoders, is_stopping: AtomicBool::new(false) })
+        Arc::new(Self {
+            config,
+            store,
+            worker,
+            signals,
+            contexts,
+            states: MapStates::default(),
+            decoders,
+            is_stopping: AtomicBool::new(false),
+        })
     }
 
     /// The configuration it runs with.

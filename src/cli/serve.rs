@@ -57,6 +57,9 @@ pub(super) struct ServeArgs {
     /// Analysed maps kept in memory.
     #[arg(long, env = "STILLAGE_CACHED_MAPS", default_value_t = 8, value_name = "N")]
     pub(super) cached_maps: usize,
+    /// Memory for answers that are given again as they are, MiB; 0 for none.
+    #[arg(long, env = "STILLAGE_CACHED_ANSWER_MIB", default_value_t = 64, value_name = "MIB")]
+    pub(super) cached_answer_mib: usize,
     /// Connections at the same time; further ones wait.
     #[arg(long, env = "STILLAGE_MAX_CONNECTIONS", default_value_t = 1_024, value_name = "N")]
     pub(super) max_connections: usize,
@@ -138,6 +141,7 @@ impl ServeArgs {
             min_free_bytes: self.min_free_mib.saturating_mul(1 << 20),
             max_job_bytes: self.max_job_mib.saturating_mul(1 << 20),
             cached_maps: self.cached_maps,
+            cached_answer_bytes: self.cached_answer_mib.saturating_mul(1 << 20),
             trust_proxy: self.trust_proxy,
             shutdown_grace: Duration::from_secs(self.shutdown_grace_s),
             ..defaults

@@ -7,6 +7,7 @@
 #![allow(unused_qualifications, reason = "the macro of utoipa repeats the types of arguments")]
 
 mod admin;
+mod answers;
 mod docs;
 mod extract;
 pub(crate) mod fleet;
@@ -132,16 +133,16 @@ fn document<S: Clone + Send + Sync + 'static>(routes: OpenApiRouter<S>) -> (Rout
 
 /// The routes of the service, with all that lies around them.
 ///
-/// From the outside in: id, log line and metrics of the request; headers for browsers; entity tags by coding, around
-/// the compression; bodies of problems; panics; checks of host and origin, around the address that proxies tell; pace and
-/// coding of bodies; formats; unknown parameters; `Accept`.
+/// From the outside in: id, log line and metrics of the request; answers that are given again; the last slash of the address;
+/// its route; headers for browsers; entity tags by coding, around the compression; bodies of problems; panics; checks of host
+/// and origin, around the address that proxies tell; pace and coding of bodies; formats; unknown parameters; `Accept`.
 pub fn router(app: Arc<App>) -> Router {
     let upload_bytes = app.config().limits.max_bytes + maps::upload::FORM_OVERHEAD_BYTES;
     let (router, document) = document(routes(upload_bytes));
     let known = Arc::new(guard::KnownParameters::of(&document));
     let metrics = guard::observe::Metrics::new();
     let layers = ServiceBuilder::new()
-        .layer(from_fn_with_state(metrics.clone(), guard::observe::observe))
+        .layer(from_fn(guard::observe::tell_route))
         .layer(from_fn(browser_headers))
         .layer(from_fn(extract::conditional::tag_encodings))
         .layer(CompressionLayer::new())
@@ -156,11 +157,15 @@ pub fn router(app: Arc<App>) -> Router {
         .layer(from_fn_with_state(known, guard::known_parameters))
         .layer(from_fn(extract::negotiation::negotiate))
         .layer(DefaultBodyLimit::max(BODY_BYTES))
-        .layer(Extension(metrics))
+        .layer(Extension(metrics.clone()))
         .layer(Extension(docs::Documents::of(&docs::openapi::value(&document))));
-    let router = router.merge(docs::reference_page()).layer(layers).with_state(app);
+    let router = router.merge(docs::reference_page()).layer(layers).with_state(Arc::clone(&app));
     // Addresses are mended before they are looked up in the list of routes.
-    Router::new().fallback_service(MapRequest::new(router, guard::without_last_slash as fn(Request) -> Request))
+    let router = MapRequest::new(router, guard::without_last_slash as fn(Request) -> Request);
+    Router::new()
+        .fallback_service(router)
+        .layer(from_fn_with_state(answers::Again::new(app), answers::again))
+        .layer(from_fn_with_state(metrics, guard::observe::observe))
 }
 
 /// Middleware: nothing is sniffed, framed or loaded from elsewhere.

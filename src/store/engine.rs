@@ -15,6 +15,10 @@ pub trait Store:
     /// The blobs.
     fn blobs(&self) -> &dyn Blobs;
 
+    /// How many writes there were, where none is under way: what was read of the database between two calls that answer the
+    /// same number is as it was. `None` while somebody writes.
+    fn writes(&self) -> Option<u64>;
+
     /// Whether there is room for uploads and results.
     ///
     /// # Errors

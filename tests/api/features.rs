@@ -1,9 +1,10 @@
 //! The collections of a map and their features.
 
+use axum::body::Body;
 use axum::http::Method;
 use serde_json::{Value, json};
 
-use crate::client::{Api, HALL, METADATA, pgm, upload};
+use crate::client::{Api, HALL, METADATA, pgm, request, upload};
 
 const CRS84: &str = "http://www.opengis.net/def/crs/OGC/1.3/CRS84";
 const EPSG_3857: &str = "http://www.opengis.net/def/crs/EPSG/0/3857";
@@ -189,6 +190,59 @@ async fn items_are_cached_and_compressed() {
     assert_eq!(again.status, 304);
     api.send_json(Method::PATCH, &map, &[], &json!({"georeference": {"lon": 12.86, "lat": 56.66}})).await;
     assert_eq!(api.get_with(&path, &[("if-none-match", &tag)]).await.status, 200, "the map has moved");
+}
+
+/// How often the metrics say that the faces were answered with a status.
+async fn answered(api: &Api, status: u16) -> usize {
+    let route = "route=\"/v1/maps/{mapId}/collections/{collectionId}/items\"";
+    let (status, text) = (format!("status=\"{status}\""), api.get("/metrics").await.text());
+    let line = text
+        .lines()
+        .find(|line| line.starts_with("http_requests_total") && line.contains(route) && line.contains(&status));
+    line.and_then(|line| line.rsplit(' ').next()?.parse().ok()).unwrap_or_default()
+}
+
+#[tokio::test]
+async fn an_answer_given_again_is_the_same_and_counted() {
+    let api = Api::new().await;
+    let map = api.hall().await;
+    let path = format!("{map}/collections/faces/items");
+    for coding in ["", "gzip", "zstd"] {
+        let headers = [("accept-encoding", coding)];
+        let (first, again) = (api.get_with(&path, &headers).await, api.get_with(&path, &headers).await);
+        assert_eq!(first.body, again.body, "{coding}");
+        for name in ["content-type", "content-encoding", "content-crs", "etag", "vary", "access-control-allow-origin"] {
+            assert_eq!(first.header(name), again.header(name), "{coding} {name}");
+        }
+        assert_ne!(first.header("x-request-id"), again.header("x-request-id"));
+        let known = [("accept-encoding", coding), ("if-none-match", first.header("etag"))];
+        let unchanged = api.get_with(&path, &known).await;
+        assert_eq!((unchanged.status.as_u16(), unchanged.header("etag")), (304, first.header("etag")));
+        assert_eq!(unchanged.headers.get_all("vary").iter().count(), first.headers.get_all("vary").iter().count());
+        assert_eq!((unchanged.header("content-type"), unchanged.header("content-encoding")), ("", ""));
+    }
+    assert_eq!((answered(&api, 200).await, answered(&api, 304).await), (6, 3));
+}
+
+#[tokio::test]
+async fn an_answer_is_made_anew_once_its_map_has_changed() {
+    let api = Api::new().await;
+    let map = api.hall().await;
+    let path = format!("{map}/collections/faces/items");
+    let before = api.get(&path).await;
+    api.all_labelled(&map, "un").await;
+    let after = api.get(&path).await;
+    assert_ne!((before.header("etag"), &before.body), (after.header("etag"), &after.body));
+    api.send(request(Method::DELETE, &map, &[], Body::empty())).await;
+    api.get(&path).await.problem(404, "not-found");
+}
+
+#[tokio::test]
+async fn without_memory_for_answers_all_are_made_anew() {
+    let api = Api::with(|config| config.cached_answer_bytes = 0).await;
+    let path = format!("{}/collections/faces/items", api.hall().await);
+    let (first, again) = (api.get(&path).await, api.get(&path).await);
+    assert_eq!((first.header("etag"), first.body.clone()), (again.header("etag"), again.body.clone()));
 }
 
 #[tokio::test]

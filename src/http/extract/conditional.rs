@@ -10,23 +10,40 @@ use axum::http::request::Parts;
 use axum::http::{HeaderMap, HeaderName, HeaderValue, StatusCode, header};
 use axum::middleware::Next;
 use axum::response::{IntoResponse, Response};
+use uuid::Uuid;
 
 use crate::app::MapContext;
 use crate::blocking::off_the_runtime;
 use crate::http::problem::{Problem, ProblemType};
+use crate::store::MapState;
 
 /// The codings of the compression layer.
 const CODINGS: [&str; 2] = ["gzip", "zstd"];
 
-/// A strong entity tag, without its quotes.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct EntityTag(String);
+/// A strong entity tag.
+#[derive(Debug, Clone)]
+pub struct EntityTag {
+    /// Without its quotes.
+    text: String,
+    /// The map in some state from which the content follows, by the address and what `Vary` names and by nothing else. An
+    /// answer with such a tag has it among its extensions, too.
+    moment: Option<MapMoment>,
+}
+
+/// A map in some state.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct MapMoment {
+    /// The map.
+    pub map: Uuid,
+    /// Its state.
+    pub state: MapState,
+}
 
 impl EntityTag {
     /// The tag of a resource that counts its versions.
     #[must_use]
     pub fn of_version(version: u64) -> Self {
-        Self(version.to_string())
+        Self { text: version.to_string(), moment: None }
     }
 
     /// The tag of content that follows from these parts, and from the version of the service.
@@ -36,20 +53,27 @@ impl EntityTag {
         for part in parts.iter().chain(&[env!("CARGO_PKG_VERSION")]) {
             hasher.update(&(part.len() as u64).to_le_bytes()).update(part.as_bytes());
         }
-        Self(hasher.finalize().to_hex()[..32].to_owned())
+        Self { text: hasher.finalize().to_hex()[..32].to_owned(), moment: None }
     }
 
     /// The tag as the value of an `ETag` header.
     #[must_use]
     pub fn header(&self) -> HeaderValue {
-        HeaderValue::try_from(format!("\"{}\"", self.0)).expect("tags are hexadecimal")
+        HeaderValue::try_from(format!("\"{}\"", self.text)).expect("tags are hexadecimal")
     }
 
     /// The tag of what an analysed map answers.
     #[must_use]
     pub fn of_map(kind: &str, context: &MapContext) -> Self {
         let versions = [context.record.version, context.semantics.version].map(|version| version.to_string());
-        Self::of_content(&[kind, &context.analysis_id.to_string(), &versions[0], &versions[1]])
+        let tag = Self::of_content(&[kind, &context.analysis_id.to_string(), &versions[0], &versions[1]]);
+        Self { moment: Some(MapMoment { map: context.record.id, state: context.state() }), ..tag }
+    }
+
+    /// The map in some state from which the content follows, and nothing else but the request.
+    #[must_use]
+    pub const fn moment(&self) -> Option<MapMoment> {
+        self.moment
     }
 
     /// An answer with this tag, or 304 without a body where the client has it already.
@@ -72,27 +96,32 @@ impl EntityTag {
         }
     }
 
-    fn not_modified(&self, if_none_match: &IfNoneMatch) -> Option<Response> {
+    /// 304 where the client has what this tag stands for.
+    pub fn not_modified(&self, if_none_match: &IfNoneMatch) -> Option<Response> {
         let known = if_none_match.matched(self)?;
-        Some(tagged(known, StatusCode::NOT_MODIFIED.into_response()))
+        Some(self.tagged(known, StatusCode::NOT_MODIFIED.into_response()))
     }
 
     /// An answer with this tag.
     pub fn on(&self, response: Response) -> Response {
-        tagged(self.header(), response)
+        self.tagged(self.header(), response)
     }
-}
 
-fn tagged(tag: HeaderValue, mut response: Response) -> Response {
-    response.headers_mut().insert(header::ETAG, tag);
-    response.headers_mut().insert(header::CACHE_CONTROL, HeaderValue::from_static("no-cache"));
-    response
+    fn tagged(&self, tag: HeaderValue, mut response: Response) -> Response {
+        response.headers_mut().insert(header::ETAG, tag);
+        response.headers_mut().insert(header::CACHE_CONTROL, HeaderValue::from_static("no-cache"));
+        if self.moment.is_some() {
+            response.extensions_mut().insert(self.clone());
+        }
+        response
+    }
 }
 
 /// One tag of a request.
 #[derive(Debug, Clone, PartialEq, Eq)]
 struct RequestTag {
-    tag: EntityTag,
+    /// Without quotes and coding.
+    plain: String,
     weak: bool,
     /// As it was sent.
     text: String,
@@ -127,7 +156,7 @@ impl RequestTag {
         let opaque = quoted.strip_prefix('"')?.strip_suffix('"')?;
         let plain =
             opaque.rsplit_once('-').filter(|(_, coding)| CODINGS.contains(coding)).map_or(opaque, |pair| pair.0);
-        Some(Self { tag: EntityTag(plain.to_owned()), weak, text: text.to_owned() })
+        Some(Self { plain: plain.to_owned(), weak, text: text.to_owned() })
     }
 }
 
@@ -136,18 +165,23 @@ impl RequestTag {
 pub struct IfNoneMatch(Tags);
 
 impl IfNoneMatch {
+    /// The header of a request.
+    pub fn read(headers: &HeaderMap) -> Self {
+        Self(Tags::read(headers, header::IF_NONE_MATCH))
+    }
+
     /// Whether the client has what this tag stands for.
     pub fn has(&self, current: &EntityTag) -> bool {
         self.matched(current).is_some()
     }
 
     /// The tag that the client has, as it sent it (weak comparison).
-    fn matched(&self, current: &EntityTag) -> Option<HeaderValue> {
+    pub fn matched(&self, current: &EntityTag) -> Option<HeaderValue> {
         match &self.0 {
             Tags::Absent => None,
             Tags::Any => Some(current.header()),
             Tags::Listed(tags) => {
-                let found = tags.iter().find(|request| request.tag == *current)?;
+                let found = tags.iter().find(|request| request.plain == current.text)?;
                 HeaderValue::try_from(found.text.trim_start_matches("W/")).ok()
             }
         }
@@ -158,7 +192,7 @@ impl<S: Sync> FromRequestParts<S> for IfNoneMatch {
     type Rejection = Infallible;
 
     async fn from_request_parts(parts: &mut Parts, _: &S) -> Result<Self, Infallible> {
-        Ok(Self(Tags::read(&parts.headers, header::IF_NONE_MATCH)))
+        Ok(Self::read(&parts.headers))
     }
 }
 
@@ -176,11 +210,12 @@ impl IfMatch {
         match &self.0 {
             Tags::Absent => Ok(None),
             Tags::Any => Ok(Some(version)),
-            Tags::Listed(tags) if tags.iter().any(|request| !request.weak && request.tag == *current) => {
+            Tags::Listed(tags) if tags.iter().any(|request| !request.weak && request.plain == current.text) => {
                 Ok(Some(version))
             }
             Tags::Listed(_) => {
-                let detail = format!("the resource is at \"{}\", not at what If-Match names: read it again", current.0);
+                let detail =
+                    format!("the resource is at \"{}\", not at what If-Match names: read it again", current.text);
                 Err(Problem::new(ProblemType::PreconditionFailed, detail))
             }
         }
@@ -195,9 +230,13 @@ impl<S: Sync> FromRequestParts<S> for IfMatch {
     }
 }
 
-/// Middleware around the compression: tells the codings of an answer apart by their strong tags.
+/// Middleware around the compression: tells the codings of an answer apart by their strong tags. A 304 names what the answer
+/// varies by, as the answer does (RFC 9110, 15.4.5).
 pub async fn tag_encodings(request: Request, next: Next) -> Response {
     let mut response = next.run(request).await;
+    if response.status() == StatusCode::NOT_MODIFIED {
+        response.headers_mut().append(header::VARY, HeaderValue::from_static("accept-encoding"));
+    }
     let headers = response.headers();
     let coding = headers.get(header::CONTENT_ENCODING).and_then(|value| value.to_str().ok());
     let opaque = headers.get(header::ETAG).and_then(|value| value.to_str().ok()?.strip_suffix('"'));
@@ -249,6 +288,6 @@ mod tests {
 
     #[test]
     fn content_tags_tell_parts_apart() {
-        assert_ne!(EntityTag::of_content(&["a", "bc"]), EntityTag::of_content(&["ab", "c"]));
+        assert_ne!(EntityTag::of_content(&["a", "bc"]).text, EntityTag::of_content(&["ab", "c"]).text);
     }
 }

@@ -4,7 +4,7 @@ use std::convert::Infallible;
 
 use axum::extract::{FromRequestParts, Request};
 use axum::http::request::Parts;
-use axum::http::{HeaderMap, HeaderValue, Method, header};
+use axum::http::{HeaderMap, HeaderValue, Method, StatusCode, header};
 use axum::middleware::Next;
 use axum::response::{IntoResponse, Response};
 
@@ -105,7 +105,8 @@ pub async fn negotiate(request: Request, next: Next) -> Response {
     let is_read = matches!(*request.method(), Method::GET | Method::HEAD);
     let accept = Accept::read(request.headers());
     let mut response = next.run(request).await;
-    if !is_read || !response.status().is_success() {
+    let status = response.status();
+    if !is_read || !(status.is_success() || status == StatusCode::NOT_MODIFIED) {
         return response;
     }
     let media_type = response.headers().get(header::CONTENT_TYPE).and_then(|value| value.to_str().ok());

@@ -68,25 +68,30 @@ impl std::fmt::Debug for Metrics {
 }
 
 /// Middleware: gives the request its id, logs it and counts it.
-pub async fn observe(
-    State(metrics): State<Metrics>,
-    path: Option<MatchedPath>,
-    request: Request,
-    next: Next,
-) -> Response {
+pub async fn observe(State(metrics): State<Metrics>, request: Request, next: Next) -> Response {
     let began = Instant::now();
     let id = request_id(&request);
     let method = request.method().clone();
-    let route = path.as_ref().map_or("unmatched", MatchedPath::as_str);
     let span =
         tracing::info_span!("request", %method, path = request.uri().path(), id = id.to_str().unwrap_or_default());
     let mut response = next.run(request).instrument(span.clone()).await;
     let (status, seconds) = (response.status().as_u16(), began.elapsed().as_secs_f64());
     span.in_scope(|| tracing::debug!(status, seconds, "answered"));
+    let path = response.extensions_mut().remove::<MatchedPath>();
+    let route = path.as_ref().map_or("unmatched", MatchedPath::as_str);
     // Methods are free text: only those of the standard become labels.
     let label = if method.as_str().len() <= 7 { method.as_str() } else { "other" };
     metrics.count_request(route, label, status, seconds);
     response.headers_mut().insert(REQUEST_ID, id);
+    response
+}
+
+/// Middleware: the answer tells its route to [`observe`], which lies around the list of routes.
+pub async fn tell_route(path: Option<MatchedPath>, request: Request, next: Next) -> Response {
+    let mut response = next.run(request).await;
+    if let Some(path) = path {
+        response.extensions_mut().insert(path);
+    }
     response
 }
 

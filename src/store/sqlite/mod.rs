@@ -27,6 +27,7 @@ mod semantics;
 pub(crate) mod tests;
 
 use std::sync::LazyLock;
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
 
 use async_trait::async_trait;
@@ -78,6 +79,8 @@ pub struct Sqlite {
     blobs: LocalBlobs,
     writer: SqlitePool,
     readers: SqlitePool,
+    /// Transactions begun on the writer's connection.
+    writes: AtomicU64,
     min_free_bytes: u64,
     /// Held for reading from the writing of a blob until its row is committed, for writing while blobs are removed.
     blob_gate: RwLock<()>,
@@ -95,8 +98,15 @@ impl Sqlite {
         let writer = connect_writer(&folder).await?;
         migrate(&writer, &folder).await?;
         let readers = connect_readers(&folder).await?;
-        let store =
-            Self { folder, blobs, writer, readers, min_free_bytes: config.min_free_bytes, blob_gate: RwLock::new(()) };
+        let store = Self {
+            folder,
+            blobs,
+            writer,
+            readers,
+            writes: AtomicU64::new(0),
+            min_free_bytes: config.min_free_bytes,
+            blob_gate: RwLock::new(()),
+        };
         if let Err(error) = store.folder.restore_reserve() {
             tracing::warn!(%error, "no space could be set aside for a full disk");
         }
@@ -105,7 +115,9 @@ impl Sqlite {
 
     /// Begins a write. The transaction is rolled back when it is dropped.
     async fn write(&self) -> Result<Transaction<'static, sqlx::Sqlite>, StoreError> {
-        Ok(self.writer.begin_with("BEGIN IMMEDIATE").await?)
+        let transaction = self.writer.begin_with("BEGIN IMMEDIATE").await?;
+        self.writes.fetch_add(1, Ordering::SeqCst);
+        Ok(transaction)
     }
 
     /// Begins a read of one committed state.
@@ -134,6 +146,13 @@ impl Sqlite {
 impl Store for Sqlite {
     fn blobs(&self) -> &dyn Blobs {
         &self.blobs
+    }
+
+    fn writes(&self) -> Option<u64> {
+        let writes = self.writes.load(Ordering::SeqCst);
+        // The one connection that writes comes back once its transaction has ended, also where whoever began it is gone.
+        // No other process writes into the locked folder.
+        (self.writer.num_idle() == 1).then_some(writes)
     }
 
     fn check_space(&self) -> Result<(), StoreError> {

@@ -1,0 +1,75 @@
+//! The middleware that gives answers again.
+
+use std::sync::Arc;
+
+use axum::body::{Body, to_bytes};
+use axum::extract::{Request, State};
+use axum::http::{HeaderValue, StatusCode, header};
+use axum::middleware::Next;
+use axum::response::{IntoResponse, Response};
+use tokio::runtime::Handle;
+
+use super::answer_cache::AnswerCache;
+use super::question::Question;
+use super::remembered::Remembered;
+use crate::app::{App, Caller};
+use crate::blocking::off_the_runtime;
+use crate::http::extract::conditional::{EntityTag, IfNoneMatch};
+
+/// What the middleware works with.
+#[derive(Debug, Clone)]
+pub struct Again {
+    app: Arc<App>,
+    answers: Arc<AnswerCache>,
+}
+
+impl Again {
+    /// No answers yet.
+    pub fn new(app: Arc<App>) -> Self {
+        let answers = Arc::new(AnswerCache::new(app.config().cached_answer_bytes));
+        Self { app, answers }
+    }
+
+    /// The answer that was kept for a question, if its map is still in the state it was made of.
+    async fn find(&self, question: &Question, caller: &Caller) -> Option<Arc<Remembered>> {
+        let remembered = self.answers.find(question)?;
+        let moment = remembered.tag.moment()?;
+        let state = self.app.map_state(caller, moment.map).await.ok()?;
+        (state == Some(moment.state)).then_some(remembered)
+    }
+}
+
+/// Middleware: an answer that was given before is given again. It lies around the compression, so that an answer is
+/// compressed once for each coding.
+pub async fn again(State(again): State<Again>, caller: Caller, request: Request, next: Next) -> Response {
+    let Some(question) = Question::of(&request) else { return next.run(request).await };
+    let if_none_match = IfNoneMatch::read(request.headers());
+    if let Some(answer) = again.find(&question, &caller).await.and_then(|remembered| remembered.answer(&if_none_match))
+    {
+        return answer;
+    }
+    let response = next.run(request).await;
+    let is_kept = matches!(response.status(), StatusCode::OK | StatusCode::NOT_MODIFIED);
+    match response.extensions().get::<EntityTag>().cloned() {
+        Some(tag) if is_kept => kept(&again.answers, question, tag, response).await,
+        _ => response,
+    }
+}
+
+async fn kept(answers: &AnswerCache, question: Question, tag: EntityTag, response: Response) -> Response {
+    let (mut parts, body) = response.into_parts();
+    // Reading the body is what compresses it, which takes longer than a moment.
+    let runtime = Handle::current();
+    let body = match off_the_runtime(move || runtime.block_on(to_bytes(body, usize::MAX))).await {
+        Ok(body) => body,
+        Err(error) => {
+            tracing::error!(%error, "an answer could not be written");
+            return StatusCode::INTERNAL_SERVER_ERROR.into_response();
+        }
+    };
+    if parts.status == StatusCode::OK {
+        parts.headers.insert(header::CONTENT_LENGTH, HeaderValue::from(body.len()));
+    }
+    answers.keep(question, Remembered::of(tag, &parts, &body));
+    Response::from_parts(parts, Body::from(body))
+}
