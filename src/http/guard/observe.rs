@@ -1,7 +1,8 @@
 //! What operators see: an id and a log line for every request, and the metrics.
 
-use std::sync::Arc;
+use std::collections::HashMap;
 use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, PoisonError, RwLock};
 use std::time::Instant;
 
 use axum::Extension;
@@ -9,6 +10,7 @@ use axum::extract::{MatchedPath, Request, State};
 use axum::http::{HeaderName, HeaderValue, header};
 use axum::middleware::Next;
 use axum::response::{IntoResponse, Response};
+use metrics::{Counter, Histogram};
 use metrics_exporter_prometheus::{Matcher, PrometheusBuilder, PrometheusHandle, PrometheusRecorder};
 use tracing::Instrument;
 use uuid::Uuid;
@@ -29,6 +31,14 @@ pub struct Metrics {
     recorder: Arc<PrometheusRecorder>,
     handle: PrometheusHandle,
     requests: Arc<AtomicU64>,
+    /// By method, status and route: to look them up in the recorder takes longer than to answer from memory.
+    measures: Arc<RwLock<HashMap<String, Measures>>>,
+}
+
+/// What is counted of the requests with the same labels.
+struct Measures {
+    seconds: Histogram,
+    requests: Counter,
 }
 
 impl Metrics {
@@ -44,20 +54,38 @@ impl Metrics {
             metrics::describe_histogram!("http_request_duration_seconds", "Time to the head of the answer.");
             metrics::describe_gauge!("jobs", "Jobs by state.");
         });
-        Self { recorder: Arc::new(recorder), handle, requests: Arc::default() }
+        Self { recorder: Arc::new(recorder), handle, requests: Arc::default(), measures: Arc::default() }
     }
 
     fn count_request(&self, route: &str, method: &str, status: u16, seconds: f64) {
-        let labels = [("route", route.to_owned()), ("method", method.to_owned())];
-        metrics::with_local_recorder(&*self.recorder, || {
-            metrics::histogram!("http_request_duration_seconds", &labels).record(seconds);
-            let [route, method] = labels;
-            let labels = [route, method, ("status", status.to_string())];
-            metrics::counter!("http_requests_total", &labels).increment(1);
-        });
+        let labels = format!("{method} {status} {route}");
+        if let Some(measures) = self.measures.read().unwrap_or_else(PoisonError::into_inner).get(&labels) {
+            measures.count(seconds);
+        } else {
+            let measures = self.measures(route, method, status);
+            measures.count(seconds);
+            self.measures.write().unwrap_or_else(PoisonError::into_inner).insert(labels, measures);
+        }
         if self.requests.fetch_add(1, Ordering::Relaxed) % UPKEEP_PERIOD == UPKEEP_PERIOD - 1 {
             self.handle.run_upkeep();
         }
+    }
+
+    fn measures(&self, route: &str, method: &str, status: u16) -> Measures {
+        let labels = [("route", route.to_owned()), ("method", method.to_owned())];
+        metrics::with_local_recorder(&*self.recorder, || {
+            let seconds = metrics::histogram!("http_request_duration_seconds", &labels);
+            let [route, method] = labels;
+            let labels = [route, method, ("status", status.to_string())];
+            Measures { seconds, requests: metrics::counter!("http_requests_total", &labels) }
+        })
+    }
+}
+
+impl Measures {
+    fn count(&self, seconds: f64) {
+        self.seconds.record(seconds);
+        self.requests.increment(1);
     }
 }
 

@@ -162,6 +162,21 @@ async fn a_transaction_that_ended_behind_the_driver_does_not_block_the_writer() 
 }
 
 #[tokio::test]
+async fn a_write_is_counted_and_while_it_lasts_nothing_read_is_known_to_stay() {
+    let fixture = Fixture::new();
+    let store = fixture.open().await;
+    let before = store.writes().expect("nobody writes");
+    let transaction = store.write().await.unwrap();
+    assert_eq!(store.writes(), None);
+    drop(transaction);
+    // The connection comes back by itself.
+    while store.writes().is_none() {
+        tokio::time::sleep(Duration::from_millis(1)).await;
+    }
+    assert_eq!(store.writes(), Some(before + 1));
+}
+
+#[tokio::test]
 async fn what_an_interrupted_write_left_goes_at_the_next_start() {
     let fixture = Fixture::new();
     let store = fixture.open().await;
