@@ -1,9 +1,10 @@
 //! The label of a single face, stronger than that of its category.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::context::read_rule_set;
-use super::{App, AppError, Caller, MapContext, NewSemantics};
+use super::{App, AppError, Caller, MapContext, SemanticsChange};
 
 impl App {
     /// Gives a face a label of its own, or takes it away (`None`): a new version of the labels, as long as the map has those
@@ -23,17 +24,12 @@ impl App {
             let detail = format!("the rule set {of} has no label {short:?}: it has {}", known.join(", "));
             return Err(AppError::invalid("/label", detail));
         }
-        let mut assignment = seen.semantics.assignment.clone();
-        match label {
-            Some(label) => assignment.overrides.insert(face, label),
-            None => assignment.overrides.remove(&face),
-        };
-        if assignment == seen.semantics.assignment {
+        if seen.semantics.assignment.overrides.get(&face) == label.as_ref() {
             return Ok(Arc::clone(seen));
         }
         let map = seen.record.id;
-        let new = NewSemantics { rule_set: None, assignment, layout: None };
-        self.put_semantics(caller, map, new, Some(seen.semantics.version)).await?;
+        let change = SemanticsChange { overrides: BTreeMap::from([(face, label)]), ..SemanticsChange::default() };
+        self.change_semantics(caller, map, change, Some(seen.semantics.version)).await?;
         self.context(caller, map).await
     }
 }

@@ -109,7 +109,7 @@ pub async fn execute(
     path.check()?;
     let execution = body.read()?;
     let asked = match &execution.analysed {
-        Analysed::Stored(map, options) => app.create_analysis(&caller, *map, options.clone()).await,
+        Analysed::Stored(map, options) => app.create_analysis(&caller, *map, options.clone(), false).await,
         Analysed::Sent(map) => {
             app.create_map(&caller, map.clone()).await.map(|(job, _)| AnalysisTicket::Job(Box::new(job)))
         }
