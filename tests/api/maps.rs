@@ -174,7 +174,7 @@ async fn another_analysis_is_a_proposal_until_somebody_activates_it() {
         list.as_array().expect("a list").iter().map(one).collect::<Vec<_>>()
     };
     assert_eq!(list().await, [(Some(1), Some(true))], "the first one is in force at once");
-    let labels = json!({"assignment": {"0": "wp"}});
+    let labels = json!({"assignment": {"0": "ro"}});
     let labelled = api.send_json(Method::PATCH, &format!("{map}/semantics"), &[("if-match", "*")], &labels).await;
     assert_eq!(labelled.status, 200, "{}", labelled.text());
     let faces = api.get(&format!("{map}/collections/faces/items")).await;
@@ -195,7 +195,7 @@ async fn another_analysis_is_a_proposal_until_somebody_activates_it() {
 
     analyse("?activate=true", json!({"seed": 1})).await;
     assert_eq!(list().await, [(Some(2), Some(false)), (Some(1), Some(true))]);
-    assert_eq!(api.get(&format!("{map}/semantics")).await.json()["assignment"]["0"], "wp", "with its labels");
+    assert_eq!(api.get(&format!("{map}/semantics")).await.json()["assignment"]["0"], "ro", "with its labels");
     analyse("?activate=true", json!({"seed": 3})).await;
     assert_eq!(list().await, [(Some(3), Some(true)), (Some(2), Some(false)), (Some(1), Some(false))]);
     analyse("?activate=perhaps", json!({"seed": 3})).await.problem(400, "bad-parameter");

@@ -27,10 +27,10 @@ async fn what_a_put_does_not_name_stays() {
     let map = api.hall().await;
     let suggested = api.get(&format!("{map}/semantics")).await.json();
     let overrides = json!([{"face": 1, "label": "ju"}]);
-    let first = change(&api, &map, Method::PUT, &json!({"assignment": {"0": "wp"}, "overrides": overrides})).await;
+    let first = change(&api, &map, Method::PUT, &json!({"assignment": {"0": "ro"}, "overrides": overrides})).await;
     assert_eq!(first.status, 200, "{}", first.text());
     let mut expected = suggested["assignment"].clone();
-    expected["0"] = "wp".into();
+    expected["0"] = "ro".into();
     assert_eq!(first.json()["assignment"], expected, "the others keep their labels");
 
     let second = change(&api, &map, Method::PUT, &json!({"assignment": {"1": "co"}})).await.json();
@@ -46,7 +46,7 @@ async fn a_patch_changes_one_category_one_face_or_one_member_of_the_layout() {
     let map = api.hall().await;
     let path = format!("{map}/semantics");
     let suggested = api.get(&path).await.json();
-    let patch = json!({"assignment": {"0": "wp"}, "overrides": {"1": "ju", "2": "co"},
+    let patch = json!({"assignment": {"0": "ro"}, "overrides": {"1": "ju", "2": "co"},
         "layout": {"codeTemplate": "{aisle:03}-{bay:03}", "vehicleRadiusM": 0.4}});
     api.send_json(Method::PATCH, &path, &[], &patch).await.problem(428, "precondition-required");
     let first = change(&api, &map, Method::PATCH, &patch).await;
@@ -116,7 +116,7 @@ async fn an_earlier_version_is_restored_as_a_new_one() {
     let map = api.hall().await;
     let versions = format!("{map}/semantics/versions");
     let suggested = api.get(&format!("{map}/semantics")).await.json();
-    let first = change(&api, &map, Method::PATCH, &json!({"assignment": {"0": "wp"}, "overrides": {"1": "ju"}})).await;
+    let first = change(&api, &map, Method::PATCH, &json!({"assignment": {"0": "ro"}, "overrides": {"1": "ju"}})).await;
     change(&api, &map, Method::PATCH, &json!({"overrides": null})).await;
 
     let read = api.get(&format!("{versions}/1")).await;
