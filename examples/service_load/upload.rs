@@ -22,7 +22,7 @@ pub fn analysed_map(service: &Serving) -> String {
     let address = format!("http://{}/v1/maps", service.address);
     let created = ureq::post(&address).send(form).and_then(|mut answer| answer.body_mut().read_json::<Value>());
     let created = created.expect("the map is taken");
-    let map = created["id"].as_str().or(created["map"]["id"].as_str()).expect("the map has an id").to_owned();
+    let map = created["mapId"].as_str().expect("the job names its map").to_owned();
     loop {
         let state = ureq::get(format!("{address}/{map}/collections/faces/items?limit=1")).call();
         match state {
