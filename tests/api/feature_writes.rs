@@ -69,7 +69,7 @@ async fn what_cannot_be_written_of_a_face_is_refused() {
 }
 
 /// QGIS asks with `OPTIONS` whether it may change attributes (`PUT`) and send single ones (`PATCH`), then sends those in
-/// `properties`, without `If-Match` (`qgsoapifprovider.cpp` and `qgsoapifpatchfeaturerequest.cpp` of QGIS 3.44).
+/// `properties`, without `If-Match` (`qgsoapifprovider.cpp` and `qgsoapifpatchfeaturerequest.cpp` of QGIS).
 #[tokio::test]
 async fn an_attribute_is_edited_as_qgis_does() {
     let api = Api::new().await;

@@ -214,7 +214,7 @@ mod tests {
     #[test]
     fn a_patch_tells_what_it_names_from_what_it_takes_away() {
         let body = |text: &str| serde_json::from_str::<SemanticsPatchBody>(text).expect("is a patch");
-        assert!(matches!(body("{}").overrides, None));
+        assert!(body("{}").overrides.is_none());
         assert!(matches!(body(r#"{"overrides": null}"#).overrides, Some(None)));
         let by_face = body(r#"{"overrides": {"12": "ju", "13": null}}"#).overrides;
         assert!(matches!(by_face, Some(Some(OverridesPatch::ByFace(labels))) if labels["13"].is_none()));
