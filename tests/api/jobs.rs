@@ -1,5 +1,7 @@
 //! Jobs: lists, dismissal, events.
 
+use std::time::Duration;
+
 use axum::body::Body;
 use axum::http::Method;
 use serde_json::Value;
@@ -93,7 +95,12 @@ async fn the_events_of_a_job_end_when_its_map_is_deleted() {
     let map = api.get(&job).await.json()["mapId"].as_str().expect("an id").to_owned();
     let delete = request(Method::DELETE, &format!("/v1/maps/{map}"), &[], Body::empty());
     let events_path = format!("{job}/events");
-    let (stream, deleted) = tokio::join!(api.get(&events_path), api.send(delete));
+    // The stream is open before the map goes.
+    let later = async {
+        tokio::time::sleep(Duration::from_millis(500)).await;
+        api.send(delete).await
+    };
+    let (stream, deleted) = tokio::join!(api.get(&events_path), later);
     assert_eq!(deleted.status, 204);
     let states: Vec<String> = events(&stream).into_iter().map(|event| event.1).collect();
     assert_eq!(states, ["accepted", "dismissed"]);

@@ -58,7 +58,7 @@ async fn no_route_says_why() {
         assert_eq!(problem["errors"][0]["parameter"], parameter);
     }
     api.get(&format!("{map}/routes")).await.problem(400, "bad-parameter");
-    let unidentified = json!({"ruleSet": "warehouse", "assignment": {}});
+    let unidentified = json!({"ruleSet": "warehouse", "assignment": api.all_labelled(&map, "un").await});
     api.send_json(Method::PUT, &format!("{map}/semantics"), &[("if-match", "*")], &unidentified).await;
     api.get(&format!("{routes}&from=-1,3.5&to=12,0")).await.problem(404, "route-not-drivable");
 }

@@ -23,7 +23,7 @@ pub struct AnswerCache {
 struct Kept {
     answers: HashMap<Question, (u64, Arc<Remembered>)>,
     bytes: usize,
-    /// Looks so far: the time by which the oldest are told.
+    /// Looks and answers so far: the time by which the oldest are told.
     looks: u64,
 }
 
@@ -55,6 +55,7 @@ impl AnswerCache {
             kept.forget_down_to((self.capacity - self.capacity / FREED_PART).saturating_sub(bytes));
         }
         kept.bytes += bytes;
+        kept.looks += 1;
         let now = kept.looks;
         kept.answers.insert(question, (now, Arc::new(answer)));
     }
