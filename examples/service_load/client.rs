@@ -86,7 +86,7 @@ pub fn load(serving: &Serving, path: &str, headers: &str, times: usize) -> Load 
         let threads: Vec<_> = (0..CONNECTIONS).map(|_| scope.spawn(ask)).collect();
         threads.into_iter().flat_map(|thread| thread.join().expect("no thread panics")).collect()
     });
-    Load { cpu: serving.cpu() - cpu, wall: began.elapsed(), times }
+    Load { cpu: serving.cpu().saturating_sub(cpu), wall: began.elapsed(), times }
 }
 
 fn request(address: SocketAddr, path: &str, headers: &str) -> Vec<u8> {
