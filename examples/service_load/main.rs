@@ -1,6 +1,6 @@
 //! What a request costs the service, beside a trivial axum handler that answers the same bytes, in the same run.
 //!
-//! `cargo run --release --example service_load` draws a part of a warehouse of the paper's size (about 7,000 faces), has
+//! `cargo run --release --example service_load` draws a part of a warehouse of the paper's size (9,745 faces), has
 //! it analysed by `stillage serve` in a process of its own, and asks the same questions of both processes by turns over
 //! loopback. A second service on the same store, without memory for answers, shows what it saves. CPU is user and system time of the whole serving process, which the client does not share.
 
