@@ -99,7 +99,7 @@ fn add_bends(router: &Router, course: &[Point], piece: Range<usize>, bends: &mut
 
 /// The cells around a face, with a border of one cell that is no ground.
 struct Window {
-    /// Column and row of its first cell in the grid, plus one.
+    /// Column and row in the grid of its first cell inside the border.
     low: [usize; 2],
     width: usize,
     /// By cell: steps of clearance where a vehicle fits on the face, else 0.
