@@ -36,6 +36,11 @@ pub(crate) struct Drift {
     pub(crate) heading: f64,
 }
 
+impl Drift {
+    /// The robot knows where it is.
+    pub(crate) const NONE: Self = Self { position: 0.0, heading: 0.0 };
+}
+
 /// Drives the routes, leaving out what is blocked or shut.
 pub(crate) fn drive(
     routes: &[[Point; 2]],

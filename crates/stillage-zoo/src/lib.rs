@@ -72,11 +72,20 @@ pub struct Options {
     pub field_of_view: Option<u32>,
     /// Share of the pallets that show a load instead of legs, 0 to 1.
     pub boxes: Option<f64>,
+    /// The robot knows exactly where it is: the map is not bent.
+    pub exact_poses: bool,
 }
 
 impl Default for Options {
     fn default() -> Self {
-        Self { resolution: 0.05, speckle: 0.0, rotation_deg: None, field_of_view: None, boxes: None }
+        Self {
+            resolution: 0.05,
+            speckle: 0.0,
+            rotation_deg: None,
+            field_of_view: None,
+            boxes: None,
+            exact_poses: false,
+        }
     }
 }
 
@@ -103,6 +112,7 @@ pub fn generate(kind: Kind, seed: u64, options: &Options) -> Sample {
     };
     let scanner = Scanner { field_of_view: options.field_of_view.unwrap_or(scanner.field_of_view), ..scanner };
     let drift = Drift { position: random.within(0.005..0.035), heading: random.within(0.02..0.08_f64).to_radians() };
+    let drift = if options.exact_poses { Drift::NONE } else { drift };
     let lattice = Lattice::around(&site.floor, MARGIN, options.resolution);
     let obstacles = Obstacles::new(lattice.halved(), &site.floor, &site.solids);
     let scans = drive::drive(&site.routes, &obstacles, shut.as_ref(), drift, &mut random);

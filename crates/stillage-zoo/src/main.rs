@@ -31,10 +31,10 @@ struct Arguments {
     #[arg(long, conflicts_with = "kind")]
     all: bool,
     /// Style of a drawing.
-    #[arg(long, conflicts_with_all = ["kind", "all", "speckle", "fov", "boxes"])]
+    #[arg(long, conflicts_with_all = ["kind", "all", "speckle", "fov", "boxes", "exact_poses"])]
     style: Option<DrawingStyle>,
     /// Drawings in all styles, each in its folder OUT/<style>_<seed>.
-    #[arg(long, conflicts_with_all = ["kind", "all", "style", "speckle", "fov", "boxes"])]
+    #[arg(long, conflicts_with_all = ["kind", "all", "style", "speckle", "fov", "boxes", "exact_poses"])]
     all_styles: bool,
     /// Seed of one map.
     #[arg(long, default_value_t = 1)]
@@ -57,6 +57,9 @@ struct Arguments {
     /// Share of the pallets that show a load instead of legs; drawn when absent.
     #[arg(long)]
     boxes: Option<f64>,
+    /// The robot knows exactly where it is: the map is not bent.
+    #[arg(long)]
+    exact_poses: bool,
     /// What a drawing shows beyond the walls: unknown, black or white; drawn when absent.
     #[arg(long, conflicts_with_all = ["kind", "all"])]
     outside: Option<Outside>,
@@ -112,6 +115,7 @@ fn sites(arguments: &Arguments) -> Result<Vec<String>, String> {
         rotation_deg: arguments.rotation,
         field_of_view: arguments.fov,
         boxes: arguments.boxes,
+        exact_poses: arguments.exact_poses,
     };
     check(&options)?;
     let kinds = arguments.kind.map_or_else(|| Kind::ALL.to_vec(), |kind| vec![kind]);

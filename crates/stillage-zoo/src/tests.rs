@@ -127,8 +127,8 @@ fn speckle_turns_its_share_of_the_cells_and_leaves_the_truth() {
 
 #[test]
 fn options_are_obeyed() {
-    let options =
-        Options { resolution: 0.2, rotation_deg: Some(0.0), field_of_view: Some(270), boxes: Some(1.0), speckle: 0.0 };
+    let (rotation_deg, field_of_view, boxes) = (Some(0.0), Some(270), Some(1.0));
+    let options = Options { resolution: 0.2, rotation_deg, field_of_view, boxes, ..Options::default() };
     let sample = generate(Kind::Mixed, 2, &options);
     assert_eq!((sample.meta.fov, sample.meta.sensor, sample.meta.rotation_deg), (270, "articles", 0.0));
     let angle = sample.truth.features.iter().find_map(|feature| match feature.properties {

@@ -1,5 +1,6 @@
 //! Halls that are scanned twice, with other goods, another turn and other cells, are found to be one site; two halls are
-//! not. `cargo test --release -p stillage-zoo --test rescans -- --nocapture` prints the figures; `RESCAN_SEEDS=1..4`
+//! not. They are found to the centimetre by robots that know where they are, and as well as their maps agree by robots
+//! that do not. `cargo test --release -p stillage-zoo --test rescans -- --nocapture` prints the figures; `RESCAN_SEEDS=1..4`
 //! takes other seeds and every kind. Codes stay with their places from one scan to the other.
 
 use std::ops::Range;
@@ -16,6 +17,9 @@ use stillage_zoo::{Kind, Options, Properties, Sample, generate};
 
 /// Residuals that a re-scan may have: metres, degrees.
 const MOST: (f64, f64) = (0.05, 0.1);
+/// The same where the poses of the robot are off by up to 0.035 m and 0.08 degrees (standard deviations): both maps are
+/// bent, each in its own way, and no motion of one on the other undoes that.
+const MOST_OF_BENT_MAPS: (f64, f64) = (0.1, 0.2);
 
 fn grid(sample: &Sample) -> OccupancyGrid {
     let (width, height) = sample.size();
@@ -72,6 +76,17 @@ fn seeds_and_kinds() -> (Range<u64>, &'static [Kind]) {
 
 #[test]
 fn a_hall_is_found_again_with_other_goods_and_another_hall_is_not() {
+    find_again(false, MOST_OF_BENT_MAPS);
+}
+
+#[test]
+fn a_hall_is_found_to_the_centimetre_where_the_robot_knows_its_poses() {
+    find_again(true, MOST);
+}
+
+/// Finds halls again, and does not take one for another; `most` is how far off they may be, metres and degrees.
+#[allow(clippy::print_stdout, reason = "the figures of --nocapture")]
+fn find_again(exact_poses: bool, most: (f64, f64)) {
     let (seeds, kinds) = seeds_and_kinds();
     let mut before: Option<OccupancyGrid> = None;
     let mut misses = Vec::new();
@@ -79,7 +94,7 @@ fn a_hall_is_found_again_with_other_goods_and_another_hall_is_not() {
         let turn = 47.3 + 37.0 * seed as f64;
         let made = |rotation_deg, boxes, resolution| {
             let (rotation_deg, boxes) = (Some(rotation_deg), Some(boxes));
-            generate(kind, seed, &Options { rotation_deg, boxes, resolution, ..Options::default() })
+            generate(kind, seed, &Options { rotation_deg, boxes, resolution, exact_poses, ..Options::default() })
         };
         let (old, new) = (made(10.0, 0.8, 0.05), made(10.0 - turn, 0.4, if seed % 2 == 0 { 0.05 } else { 0.08 }));
         let (old_grid, new_grid) = (grid(&old), grid(&new));
@@ -91,7 +106,7 @@ fn a_hall_is_found_again_with_other_goods_and_another_hall_is_not() {
                 let metres = error(&found, &new, &old);
                 let turned = (found.motion.turn.to_degrees() - turn + 180.0).rem_euclid(360.0) - 180.0;
                 println!("    {metres:.3} m, {turned:.3} degrees off");
-                if metres > MOST.0 || turned.abs() > MOST.1 {
+                if metres > most.0 || turned.abs() > most.1 {
                     misses.push(format!("{kind} {seed}: {metres:.3} m, {turned:.3} degrees off"));
                 }
             }
