@@ -6,9 +6,11 @@
 //! | [`Assignment`] | the label of each category of an analysis |
 //! | [`suggest`] | proposes a label for each category |
 //! | [`apply()`] | an analysis, a rule set and an assignment give a [`SemanticMap`] |
+//! | [`carry()`] | labels that people gave to one analysis, on another analysis of the same map |
 
 mod apply;
 mod assignment;
+mod carry;
 mod cogency;
 mod draft;
 mod evidence;
@@ -23,6 +25,7 @@ mod view;
 
 pub use apply::apply;
 pub use assignment::{Assignment, AssignmentProblem};
+pub use carry::{AnalysisGround, CarriedLabels, LabelSubject, LostLabel, carry};
 pub use cogency::{Cogency, CogencyRule, Connectivity};
 pub use draft::{RuleSetDraft, RuleSetProblem};
 pub use evidence::CategoryEvidence;

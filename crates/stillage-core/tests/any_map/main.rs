@@ -17,7 +17,7 @@ use rayon::ThreadPool;
 use stillage_core::arrangement::{CellFaces, FaceId};
 use stillage_core::layout::{self, CodeTemplate, LayoutSpec, Location};
 use stillage_core::routing::{Preferences, Router, Waypoint};
-use stillage_core::semantics::{self, Assignment, RuleSet, SemanticMap};
+use stillage_core::semantics::{self, AnalysisGround, Assignment, LabelSubject, LostLabel, RuleSet, SemanticMap};
 use stillage_core::watch::Observer;
 use stillage_core::{
     Analysis, AnalysisSpec, OccupancyGrid, SiteCells, SiteMap, Stage, StopFlag, Stopped, Watch, analyze,
@@ -138,6 +138,32 @@ fn check_meaning(grid: &OccupancyGrid, analysis: &Analysis) -> Result<(), TestCa
     Ok(())
 }
 
+/// Whatever a person decided, carrying it to the same analysis changes the label of no face that holds a cell.
+fn check_carrying(grid: &OccupancyGrid, analysis: &Analysis) -> Result<(), TestCaseError> {
+    let rules = RuleSet::default();
+    let mut decision = Assignment::suggested(&semantics::suggest(analysis, &rules), &rules);
+    let label = |number: u32| rules.labels()[number as usize % rules.labels().len()].id.clone();
+    for (category, decided) in decision.assignment.iter_mut().filter(|(category, _)| *category % 2 == 0) {
+        *decided = label(u32::from(*category));
+    }
+    decision.overrides = analysis.subdivision.faces().step_by(3).map(|face| (face.0, label(face.0 / 3))).collect();
+    let cells = CellFaces::rasterize(&analysis.subdivision, grid.width(), grid.height(), grid.resolution());
+    let ground = AnalysisGround { analysis, cells: &cells };
+    let carried = semantics::carry(ground, &decision, ground, &rules);
+    let [before, after] = [&decision, &carried.assignment]
+        .map(|labels| semantics::apply(analysis, &rules, labels).expect("labels that exist").labels);
+    for face in analysis.subdivision.faces().map(FaceId::index) {
+        let known = &analysis.faces[face];
+        prop_assert!(known.cells == 0 || before[face] == after[face], "face {} is {:?}", face, known);
+    }
+    let is_small = |lost: &LostLabel| match lost.subject {
+        LabelSubject::Face(face) => analysis.faces[face as usize].cells == 0,
+        LabelSubject::Category(_) => false,
+    };
+    prop_assert!(carried.lost.iter().all(is_small), "{:?}", carried.lost);
+    Ok(())
+}
+
 /// Stops an analysis at the end of some report of progress.
 struct StopAfter {
     reports: std::sync::atomic::AtomicUsize,
@@ -170,6 +196,7 @@ proptest! {
         let analysis = analyzed(&grid, &spec, 1);
         check_faces(&grid, &analysis)?;
         check_meaning(&grid, &analysis)?;
+        check_carrying(&grid, &analysis)?;
         // Written out, since what is not a number equals nothing.
         prop_assert_eq!(format!("{analysis:?}"), format!("{:?}", analyzed(&grid, &spec, 3)));
     }
