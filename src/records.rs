@@ -10,7 +10,7 @@ use stillage_core::alignment::SiteAlignment;
 use stillage_core::analysis::Diagnostic;
 use stillage_core::geometry::RigidMotion;
 use stillage_core::layout::LayoutOptions;
-use stillage_core::semantics::{Assignment, RuleSetDraft};
+use stillage_core::semantics::{Assignment, LabelSubject, RuleSetDraft};
 use uuid::Uuid;
 
 use crate::coordinates::{Georeference, PointPair, Survey};
@@ -297,8 +297,35 @@ pub struct SemanticsRecord {
     pub version: u64,
     /// Who decided.
     pub origin: SemanticsOrigin,
+    /// What became of the decisions on another analysis, where it was carried over from them.
+    pub carried: Option<CarryRecord>,
     /// When it was made.
     pub created: Timestamp,
+}
+
+/// What became of the decisions of a version when they were carried over to another analysis.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub struct CarryRecord {
+    /// The version, which a person made.
+    pub from: u64,
+    /// Decisions that hold on the other analysis, too.
+    pub kept: usize,
+    /// The others.
+    pub lost: Vec<LostDecision>,
+}
+
+/// A decision that could not be carried over.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub struct LostDecision {
+    /// What had the label on the analysis it was decided on.
+    #[serde(flatten)]
+    pub subject: LabelSubject,
+    /// Id of the label.
+    pub label: String,
+    /// A point inside, in metres of the map frame.
+    pub at: [f64; 2],
 }
 
 /// Who decided.
@@ -309,22 +336,28 @@ pub enum SemanticsOrigin {
     Suggested,
     /// A person.
     Assigned,
+    /// A person, on another analysis of the map.
+    Carried,
 }
 
 impl SemanticsOrigin {
+    /// All of them.
+    const ALL: [Self; 3] = [Self::Suggested, Self::Assigned, Self::Carried];
+
     /// The name in the database.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
             Self::Suggested => "suggested",
             Self::Assigned => "assigned",
+            Self::Carried => "carried",
         }
     }
 
     /// The origin with a name.
     #[must_use]
     pub fn find(name: &str) -> Option<Self> {
-        [Self::Suggested, Self::Assigned].into_iter().find(|origin| origin.name() == name)
+        Self::ALL.into_iter().find(|origin| origin.name() == name)
     }
 }
 

@@ -51,17 +51,21 @@ impl App {
     ) -> Result<Arc<MapContext>, AppError> {
         let snapshot =
             self.store.snapshot(caller.tenant(), map).await?.ok_or_else(|| AppError::not_found("map", map))?;
-        let Snapshot { record, source, analysis, semantics, layout, job } = snapshot;
+        let Snapshot { record, source, analysis, semantics, layout, decided_before, job } = snapshot;
         let (analysis, blob) = analysis.ok_or(AppError::NotAnalysed { map, job })?;
         let _permit = self.decoders.acquire().await.map_err(|_| AppError::Unavailable)?;
-        let geometry = if let Some(previous) = previous.filter(|previous| previous.analysis_id == analysis.id) {
-            GeometricLevel::of(&previous)
+        let geometry = if let Some(previous) = previous.as_ref().filter(|known| known.analysis_id == analysis.id) {
+            GeometricLevel::of(previous)
         } else {
             let (source, blob) = (self.store.blobs().get(&source).await?, self.store.blobs().get(&blob).await?);
             let (limits, record) = (self.config.limits, analysis.clone());
             off_the_runtime(move || GeometricLevel::read(&source, &blob, &record, &limits)).await?
         };
         let (id, created) = (analysis.id, analysis.created);
+        let semantics = match decided_before {
+            Some(before) => self.carry(caller, (map, id), &geometry, before, semantics, previous).await?,
+            None => semantics,
+        };
         let context = off_the_runtime(move || geometry.read_under(record, (id, created), semantics, layout)).await?;
         let (site, codes) = self.carried_registry(caller, &context).await?;
         Ok(Arc::new(off_the_runtime(move || context.with_codes(&site.registry, codes)).await))
@@ -69,6 +73,7 @@ impl App {
 }
 
 /// The part of a context that no human decision changes.
+#[derive(Clone)]
 pub(super) struct GeometricLevel {
     pub(super) grid: Arc<OccupancyGrid>,
     pub(super) analysis: Arc<Analysis>,
@@ -150,6 +155,7 @@ fn suggested_semantics(
         layout,
         version: 0,
         origin: SemanticsOrigin::Suggested,
+        carried: None,
         created,
     }
 }

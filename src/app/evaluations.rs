@@ -14,7 +14,7 @@ impl App {
         let context = self.context(caller, map).await?;
         let _permit = self.decoders.acquire().await.map_err(|_| AppError::Unavailable)?;
         off_the_runtime(move || {
-            let assigned = (context.semantics.origin == SemanticsOrigin::Assigned).then_some(&context.semantic);
+            let assigned = (context.semantics.origin != SemanticsOrigin::Suggested).then_some(&context.semantic);
             let rule_set = &context.semantic.rule_set;
             evaluation::evaluate(&context.analysis, rule_set, assigned, &truth, &Watch::unwatched())
                 .map_err(AppError::from)

@@ -62,6 +62,7 @@ impl MapContext {
             layout: LayoutOptions::default(),
             version: 0,
             origin: SemanticsOrigin::Suggested,
+            carried: None,
             created: Timestamp::UNIX_EPOCH,
         };
         let level = GeometricLevel { grid: Arc::new(grid), analysis: Arc::new(analysis), cells: Arc::new(cells) };

@@ -21,8 +21,8 @@ impl App {
     /// Analyses again with other options; identical options answer the existing analysis. It is a proposal beside the one
     /// in force, which still answers, until it is activated: with [`Self::activate_analysis`], or at once.
     ///
-    /// Human decisions belong to the analysis whose categories they name: a new analysis begins with its suggestion, and
-    /// going back to an earlier one brings its decisions back.
+    /// Human decisions belong to the analysis whose categories they name. When another one comes into force on which nobody
+    /// decided, they are carried over to it; going back to an earlier one brings its decisions back.
     pub async fn create_analysis(
         &self,
         caller: &Caller,
@@ -50,7 +50,7 @@ impl App {
         }
     }
 
-    /// Puts an analysis in force.
+    /// Puts an analysis in force, and carries over what people decided before.
     pub async fn activate_analysis(
         &self,
         caller: &Caller,
@@ -60,7 +60,11 @@ impl App {
         let missing = || AppError::not_found("analysis by this version of the algorithms", analysis);
         let found = self.analyses(caller, map).await?.into_iter().find(|record| record.id == analysis);
         let record = found.ok_or_else(missing)?;
-        if self.store.activate(caller.tenant(), map, analysis, now()).await? { Ok(record) } else { Err(missing()) }
+        if !self.store.activate(caller.tenant(), map, analysis, now()).await? {
+            return Err(missing());
+        }
+        self.context(caller, map).await?;
+        Ok(record)
     }
 
     /// The analyses of a map, newest first.

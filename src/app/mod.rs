@@ -6,6 +6,7 @@
 //! | `jobs` | analyses and the jobs that make them |
 //! | `rule_sets` | the vocabulary of labels |
 //! | `semantics`, `semantics_change` | the human decision on a map, its versions |
+//! | `carrying` | the labels of another analysis, carried over to the one in force |
 //! | `face_labels` | the label of a single face |
 //! | `registries` | uploads aligned to an earlier map, the codes of a site's places |
 //! | `names`, `name_import` | what people call locations, places, aisles and rows |
@@ -21,6 +22,7 @@
 //! takes none. Nothing here knows HTTP; nothing here holds SQL.
 
 mod caller;
+mod carrying;
 mod comparisons;
 mod context;
 mod context_cache;

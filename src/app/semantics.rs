@@ -1,10 +1,10 @@
 //! The human decision on a map.
 //!
 //! Until somebody decides, the suggestion is in force, as version 0. A decision is a new immutable version; it keeps the
-//! rule set as it was. An earlier version, 0 too, is restored as a new one. It belongs to the analysis whose categories it names: when another analysis comes into force, its
-//! own newest decision is (or its suggestion, version 0 again). Versions of decisions count on over all analyses of a
-//! map. A decision holds how locations are cut and numbered, too; the suggestion has the layout of the newest decision
-//! on the map, or on an earlier map of the site.
+//! rule set as it was. An earlier version, 0 too, is restored as a new one. It belongs to the analysis whose categories it
+//! names: when another analysis comes into force, its own newest decision is, or what is carried over to it (`carrying`).
+//! Versions of decisions count on over all analyses of a map. A decision holds how locations are cut and numbered, too; the
+//! suggestion has the layout of the newest decision on the map, or on an earlier map of the site.
 
 use std::sync::Arc;
 
@@ -66,7 +66,12 @@ impl App {
             draft: wanted.draft,
             assignment: wanted.assignment,
             layout: wanted.layout,
-            origin: wanted.origin,
+            // What was carried over is decided by whoever restores it.
+            origin: match wanted.origin {
+                SemanticsOrigin::Suggested => SemanticsOrigin::Suggested,
+                SemanticsOrigin::Assigned | SemanticsOrigin::Carried => SemanticsOrigin::Assigned,
+            },
+            carried: None,
         };
         self.decide(caller, &context, row).await
     }
@@ -153,8 +158,8 @@ impl App {
         })
         .await?;
         let (map, analysis, replaces) = (context.record.id, context.analysis_id, context.semantics.version);
-        let origin = SemanticsOrigin::Assigned;
-        Ok(NewSemanticsRow { map, analysis, replaces, rule_set, draft, assignment, layout, origin })
+        let (origin, carried) = (SemanticsOrigin::Assigned, None);
+        Ok(NewSemanticsRow { map, analysis, replaces, rule_set, draft, assignment, layout, origin, carried })
     }
 }
 

@@ -7,7 +7,7 @@ use stillage_core::semantics::{Assignment, RuleSetDraft};
 use uuid::Uuid;
 
 use super::StoreError;
-use crate::records::{SemanticsOrigin, SemanticsRecord, Tenant};
+use crate::records::{CarryRecord, SemanticsOrigin, SemanticsRecord, Tenant};
 
 /// A decision to be stored.
 #[derive(Debug, Clone)]
@@ -28,6 +28,17 @@ pub struct NewSemanticsRow {
     pub layout: LayoutOptions,
     /// Suggested where a person went back to the suggestion.
     pub origin: SemanticsOrigin,
+    /// What was carried over, where the origin says so.
+    pub carried: Option<CarryRecord>,
+}
+
+impl NewSemanticsRow {
+    /// The decision as if it were stored, in place of the version that it replaces.
+    #[must_use]
+    pub fn unsaved(self, created: Timestamp) -> SemanticsRecord {
+        let Self { map: _, analysis, replaces: version, rule_set, draft, assignment, layout, origin, carried } = self;
+        SemanticsRecord { analysis, rule_set, draft, assignment, layout, version, origin, carried, created }
+    }
 }
 
 /// What is kept of human decisions.

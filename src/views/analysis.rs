@@ -6,11 +6,12 @@ use stillage_core::AnalysisOptions;
 use utoipa::ToSchema;
 use uuid::Uuid;
 
+use super::carried::CarriedView;
 use super::id::Id;
 use super::link::Link;
 use super::options::AnalysisOptionsView;
 use super::remarks::{DiagnosticView, StageView};
-use crate::records::AnalysisRecord;
+use crate::records::{AnalysisRecord, SemanticsRecord};
 
 /// A finished analysis.
 #[derive(Debug, Serialize, ToSchema)]
@@ -26,6 +27,9 @@ pub struct AnalysisView {
     /// The options, with every default filled in.
     #[schema(value_type = AnalysisOptionsView)]
     options: AnalysisOptions,
+    /// What became of the labels of the analysis that answered before, when they were last carried over to this one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    carried: Option<CarriedView>,
     /// What each stage cost.
     stages: Vec<StageView>,
     /// Remarks on the result.
@@ -33,10 +37,13 @@ pub struct AnalysisView {
 }
 
 impl AnalysisView {
-    /// An analysis of a map whose analysis in force has the id `in_force`.
+    /// An analysis of a map whose analysis in force has the id `in_force`, and whose labels have these versions, newest
+    /// first.
     #[must_use]
-    pub fn new(record: AnalysisRecord, in_force: Option<Uuid>) -> Self {
+    pub fn new(record: AnalysisRecord, in_force: Option<Uuid>, versions: &[SemanticsRecord]) -> Self {
+        let mut on_it = versions.iter().filter(|version| version.analysis == record.id);
         Self {
+            carried: on_it.find_map(|version| version.carried.clone()).map(CarriedView::from),
             in_force: in_force == Some(record.id),
             id: Id(record.id),
             map_id: Id(record.map),

@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 use stillage_core::geometry::RigidMotion;
 use utoipa::ToSchema;
 
+use super::carried::CarriedView;
 use super::layout::LayoutView;
 use super::link::Link;
 use crate::records::{SemanticsOrigin, SemanticsRecord};
@@ -27,6 +28,8 @@ pub struct SemanticsView {
     /// 0 is the suggestion; assigned versions count from 1.
     version: u64,
     origin: OriginView,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    carried: Option<CarriedView>,
     #[schema(value_type = String, format = DateTime)]
     created: Timestamp,
 }
@@ -43,7 +46,7 @@ pub struct OverrideView {
     pub label: String,
 }
 
-/// Who decided: nobody (the suggestion is in force), or a person.
+/// Who decided: nobody (the suggestion is in force), or a person, maybe on another analysis of the map.
 #[derive(Debug, Serialize, ToSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum OriginView {
@@ -51,6 +54,8 @@ pub enum OriginView {
     Suggested,
     /// A person.
     Assigned,
+    /// A person, on another analysis of the map.
+    Carried,
 }
 
 impl SemanticsView {
@@ -67,13 +72,15 @@ impl SemanticsView {
             origin: match record.origin {
                 SemanticsOrigin::Suggested => OriginView::Suggested,
                 SemanticsOrigin::Assigned => OriginView::Assigned,
+                SemanticsOrigin::Carried => OriginView::Carried,
             },
+            carried: record.carried.map(CarriedView::from),
             created: record.created,
         }
     }
 }
 
-/// New labels of a map. What a read adds (`version`, `origin`, `created`) may be sent back and is ignored.
+/// New labels of a map. What a read adds (`version`, `origin`, `carried`, `created`) may be sent back and is ignored.
 #[derive(Debug, Deserialize, ToSchema)]
 #[schema(as = NewSemantics)]
 #[serde(deny_unknown_fields, rename_all = "camelCase")]
@@ -99,6 +106,9 @@ pub struct SemanticsBody {
     #[serde(default, rename = "origin")]
     #[schema(read_only, value_type = serde_json::Value)]
     _origin: IgnoredAny,
+    #[serde(default, rename = "carried")]
+    #[schema(read_only, value_type = serde_json::Value)]
+    _carried: IgnoredAny,
     #[serde(default, rename = "created")]
     #[schema(read_only, value_type = serde_json::Value)]
     _created: IgnoredAny,

@@ -1,5 +1,7 @@
 //! What a person decided stays decided: changes name what changes, and versions can be had again.
 
+use std::collections::BTreeMap;
+
 use axum::body::Body;
 use axum::http::Method;
 use serde_json::{Value, json};
@@ -139,4 +141,105 @@ async fn an_earlier_version_is_restored_as_a_new_one() {
     api.send(request(Method::POST, &path, &[], Body::empty())).await.problem(428, "precondition-required");
     let stale = [("if-match", restored.header("etag"))];
     api.send(request(Method::POST, &path, &stale, Body::empty())).await.problem(412, "precondition-failed");
+}
+
+/// Label by the middle of each face.
+async fn labels_by_place(api: &Api, map: &str) -> BTreeMap<String, String> {
+    let faces = api.get(&format!("{map}/collections/faces/items?limit=1000")).await.json();
+    let faces = faces["features"].as_array().expect("faces").iter();
+    let label = |face: &Value| (face["geometry"].to_string(), face["properties"]["label"].to_string());
+    faces.map(label).collect()
+}
+
+/// Analyses again with other options; the path of the proposal.
+async fn propose(api: &Api, map: &str, options: &Value) -> String {
+    let asked = api.send_json(Method::POST, &format!("{map}/analyses"), &[], options).await;
+    assert_eq!(asked.status, 202, "{}", asked.text());
+    api.app.run_until_empty().await.expect("the queue can be worked on");
+    let list = api.get(&format!("{map}/analyses")).await.json();
+    format!("{map}/analyses/{}", list["analyses"][0]["id"].as_str().expect("an id"))
+}
+
+async fn activate(api: &Api, analysis: &str) -> Value {
+    let answer = api.send(request(Method::POST, &format!("{analysis}/activate"), &[], Body::empty())).await;
+    assert_eq!(answer.status, 200, "{}", answer.text());
+    answer.json()
+}
+
+#[tokio::test]
+async fn labels_are_carried_over_to_another_analysis() {
+    let api = Api::new().await;
+    let map = api.hall().await;
+    let list = api.get(&format!("{map}/analyses")).await.json();
+    let first = format!("{map}/analyses/{}", list["analyses"][0]["id"].as_str().expect("an id"));
+    let same_faces = propose(&api, &map, &json!({"seed": 7})).await;
+    let suggestion = activate(&api, &same_faces).await;
+    assert_eq!(suggestion.get("carried"), None, "nobody decided");
+    assert_eq!(api.get(&format!("{map}/semantics")).await.json()["version"], 0);
+
+    activate(&api, &first).await;
+    let decided =
+        change(&api, &map, Method::PATCH, &json!({"assignment": {"0": "ro"}, "overrides": {"3": "ju"}})).await;
+    assert_eq!(decided.status, 200, "{}", decided.text());
+    let labels = labels_by_place(&api, &map).await;
+    let analysis = activate(&api, &same_faces).await;
+    assert_eq!(analysis["carried"], json!({"from": 1, "kept": 2, "lost": []}));
+    let semantics = api.get(&format!("{map}/semantics")).await.json();
+    assert_eq!((&semantics["version"], &semantics["origin"]), (&json!(2), &json!("carried")));
+    assert_eq!(semantics["carried"], analysis["carried"]);
+    assert_eq!(labels_by_place(&api, &map).await, labels, "every face has the label that it had");
+    let list = api.get(&format!("{map}/analyses")).await.json();
+    assert_eq!(list["analyses"][0]["carried"], analysis["carried"]);
+
+    // What is read may be sent back, and a person's own decision is not replaced any more.
+    let own = change(&api, &map, Method::PUT, &semantics).await;
+    assert_eq!((&own.json()["version"], &own.json()["origin"]), (&json!(3), &json!("assigned")));
+    activate(&api, &first).await;
+    change(&api, &map, Method::PATCH, &json!({"overrides": {"3": "co"}})).await;
+    activate(&api, &same_faces).await;
+    assert_eq!(decided_overrides(&api, &map).await, own.json()["overrides"]);
+}
+
+async fn decided_overrides(api: &Api, map: &str) -> Value {
+    api.get(&format!("{map}/semantics")).await.json()["overrides"].take()
+}
+
+#[tokio::test]
+async fn what_other_faces_cannot_hold_is_told_as_lost() {
+    let api = Api::new().await;
+    let map = api.hall().await;
+    let faces = api.get(&format!("{map}/collections/faces/items?limit=1000")).await.json();
+    let faces = faces["features"].as_array().expect("faces");
+    let smallest = faces.iter().min_by_key(|face| (face["properties"]["areaM2"].as_f64().unwrap_or(0.0) * 1e4) as u64);
+    let smallest = smallest.expect("a face")["id"].to_string();
+    let patch = json!({"overrides": {smallest.as_str(): "ju"}});
+    assert_eq!(change(&api, &map, Method::PATCH, &patch).await.status, 200);
+    // One face for the whole map.
+    let whole = propose(&api, &map, &json!({"decomposition": {"method": "paper", "minPeak": 0.9}})).await;
+    let carried = activate(&api, &whole).await["carried"].take();
+
+    assert_eq!((&carried["kept"], carried["lost"].as_array().map(Vec::len)), (&json!(0), Some(1)), "{carried}");
+    let lost = &carried["lost"][0];
+    assert_eq!((lost["face"].to_string(), &lost["label"]), (smallest, &json!("ju")));
+    let at = format!("point={},{}&crs=EPSG:3857", lost["at"][0], lost["at"][1]);
+    assert_eq!(api.get(&format!("{map}/at?{at}")).await.status, 200, "it lies in the map");
+}
+
+#[tokio::test]
+async fn a_decision_is_carried_anew_when_it_changed() {
+    let api = Api::new().await;
+    let map = api.hall().await;
+    let list = api.get(&format!("{map}/analyses")).await.json();
+    let first = format!("{map}/analyses/{}", list["analyses"][0]["id"].as_str().expect("an id"));
+    change(&api, &map, Method::PATCH, &json!({"overrides": {"3": "ju"}})).await;
+    let second = propose(&api, &map, &json!({"seed": 7})).await;
+    activate(&api, &second).await;
+    activate(&api, &first).await;
+    assert_eq!(api.get(&format!("{map}/semantics")).await.json()["version"], 1, "the first one has its own decision");
+    assert_eq!(activate(&api, &second).await["carried"]["from"], 1);
+    assert_eq!(api.get(&format!("{map}/semantics")).await.json()["version"], 2, "it is not carried twice");
+    activate(&api, &first).await;
+    change(&api, &map, Method::PATCH, &json!({"overrides": {"3": "co"}})).await;
+    assert_eq!(activate(&api, &second).await["carried"]["from"], 3);
+    assert_eq!(decided_overrides(&api, &map).await, json!([{"face": 3, "label": "co"}]));
 }

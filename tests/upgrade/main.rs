@@ -109,6 +109,9 @@ async fn jobs_are_there_and_those_not_done_are_done() {
     let mut options = AnalysisOptions::default();
     options.decomposition.vehicle_width_m = VehicleWidth::Fixed(1.7);
     assert_eq!((&hall.analysis.options, hall.cells.faces.as_slice().len()), (&options, 240));
+    let labels = &hall.semantics;
+    let from = labels.carried.as_ref().map(|carried| carried.from);
+    assert_eq!((labels.version, labels.rule_set.as_str(), from), (3, "clinic", Some(2)), "the labels of the old one");
     let seeds: Vec<u64> =
         app.analyses(&me, before[5].map).await.unwrap().iter().map(|made| made.options.seed).collect();
     assert_eq!(seeds, [1, 9, 1], "the old ones are there");
@@ -120,7 +123,7 @@ async fn jobs_are_there_and_those_not_done_are_done() {
 async fn idempotency_keys_are_remembered() {
     let folder = old_folder();
     let store = store::open(&config(&folder)).await.expect("the folder is upgraded");
-    assert_eq!(store.schema_version().await.expect("it answers"), 6);
+    assert_eq!(store.schema_version().await.expect("it answers"), 7);
     let jobs = store.jobs(&Tenant::local(), &JobFilter { limit: 99, ..JobFilter::default() }).await.expect("jobs");
     for (key, job) in [("upload-1", &jobs[4]), ("upload-2", &jobs[0])] {
         let key = IdempotencyKey { key: key.into(), content: String::new() };

@@ -143,7 +143,7 @@ async fn a_decision_changes_the_answer_and_nothing_is_read_again() {
 }
 
 #[tokio::test]
-async fn other_options_bring_their_own_suggestion_and_the_old_ones_the_old_decision() {
+async fn a_decision_is_carried_over_to_other_options_and_the_old_ones_have_it_still() {
     let service = service().await;
     let map = analysed(&service).await;
     let change = SemanticsChange { rule_set: Some("office".into()), ..SemanticsChange::default() };
@@ -154,7 +154,10 @@ async fn other_options_bring_their_own_suggestion_and_the_old_ones_the_old_decis
         panic!("it is new")
     };
     service.run_until_empty().await.unwrap();
-    assert_eq!(service.semantics(&me(), map).await.unwrap().version, 0);
+    let carried = service.semantics(&me(), map).await.unwrap();
+    assert_eq!((carried.version, carried.rule_set.as_str(), carried.origin), (2, "office", SemanticsOrigin::Carried));
+    assert_eq!(carried.carried.as_ref().map(|carried| carried.from), Some(1));
+    assert_eq!(service.context(&me(), map).await.unwrap().semantics, carried, "once");
 
     let again = service.create_analysis(&me(), map, AnalysisOptions::default(), true).await.unwrap();
     assert!(matches!(again, AnalysisTicket::Existing(_)));

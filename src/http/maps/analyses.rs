@@ -8,7 +8,7 @@ use axum::response::{IntoResponse, Response};
 use serde::Deserialize;
 use utoipa::IntoParams;
 
-use crate::app::{AnalysisTicket, App, Caller};
+use crate::app::{AnalysisRecord, AnalysisTicket, App, Caller};
 use crate::http::docs::refusals::{NoSpace, NotAnalysed, NotFound};
 use crate::http::extract::conditional::{EntityTag, IfNoneMatch};
 use crate::http::extract::{JsonBody, MapPath, Path, Query};
@@ -35,8 +35,9 @@ pub async fn list(
     Path(path): Path<MapPath>,
 ) -> Result<Json<AnalysisList>, Problem> {
     let in_force = app.map(&caller, path.map_id.0).await?.analysis;
+    let versions = app.semantics_versions(&caller, path.map_id.0).await?;
     let analyses = app.analyses(&caller, path.map_id.0).await?.into_iter();
-    let analyses = analyses.map(|record| AnalysisView::new(record, in_force)).collect();
+    let analyses = analyses.map(|record| AnalysisView::new(record, in_force, &versions)).collect();
     let links = vec![base.link("self", &format!("/v1/maps/{}/analyses", path.map_id), JSON)];
     Ok(Json(AnalysisList { analyses, links }))
 }
@@ -86,18 +87,16 @@ pub async fn create(
     // The use case names the options as a part of an upload; here they are the whole body.
     let in_body = |pointer: &str| pointer.strip_prefix("/options").unwrap_or(pointer).to_owned();
     Ok(match ticket.map_err(|error| Problem::from(error).map_pointers(in_body))? {
-        AnalysisTicket::Existing(record) => {
-            let in_force = app.map(&caller, path.map_id.0).await?.analysis;
-            Json(AnalysisView::new(*record, in_force)).into_response()
-        }
+        AnalysisTicket::Existing(record) => Json(document(&app, &caller, *record).await?).into_response(),
         AnalysisTicket::Job(job) => jobs::accepted(&base, *job),
     })
 }
 
 /// Activate an analysis
 ///
-/// It answers from now on, with the labels that people gave to its categories, or its suggestion. The way back is to activate
-/// the one before.
+/// It answers from now on, with the labels that people gave to it. Where nobody did, those of the analysis before are carried
+/// over by the ground that they lie on, and `carried` says what could not be; where nobody decided on that one either, its
+/// suggestion stands. The way back is to activate the one before.
 #[utoipa::path(post, path = "/v1/maps/{mapId}/analyses/{analysisId}/activate", tag = "maps",
     operation_id = "activateAnalysis", params(AnalysisPath),
     responses((status = 200, description = "The analysis, in force", body = AnalysisView),
@@ -108,8 +107,14 @@ pub async fn activate(
     Path(path): Path<AnalysisPath>,
 ) -> Result<Json<AnalysisView>, Problem> {
     let record = app.activate_analysis(&caller, path.map_id.0, path.analysis_id.0).await?;
-    let in_force = app.map(&caller, path.map_id.0).await?.analysis;
-    Ok(Json(AnalysisView::new(record, in_force)))
+    Ok(Json(document(&app, &caller, record).await?))
+}
+
+/// The document of an analysis as it is now.
+async fn document(app: &App, caller: &Caller, record: AnalysisRecord) -> Result<AnalysisView, Problem> {
+    let in_force = app.map(caller, record.map).await?.analysis;
+    let versions = app.semantics_versions(caller, record.map).await?;
+    Ok(AnalysisView::new(record, in_force, &versions))
 }
 
 /// Signals and timings

@@ -5,7 +5,7 @@ use stillage_core::semantics::Assignment;
 use stillage_core::layout::LayoutOptions;
 
 use super::*;
-use crate::records::{MapPatch, SemanticsOrigin};
+use crate::records::{CarryRecord, MapPatch, SemanticsOrigin};
 
 pub async fn the_analysis_asked_for_last_answers(engine: &impl Engine) {
     let store = engine.store();
@@ -80,6 +80,7 @@ pub async fn decisions_are_bound_to_their_analysis_and_replace_what_they_saw(eng
             assignment: Assignment::default(),
             layout: layout.clone(),
             origin: SemanticsOrigin::Assigned,
+            carried: None,
         };
         let decided = store.insert_semantics(&local(), &row, now()).await.unwrap().expect("the map is there");
         decided.map(|record| record.version)
@@ -103,6 +104,51 @@ pub async fn decisions_are_bound_to_their_analysis_and_replace_what_they_saw(eng
     request(store, map, 1).await;
     let snapshot = store.snapshot(&local(), map).await.unwrap().unwrap();
     assert_eq!(snapshot.semantics.map(|record| record.version), Some(2), "back with its own decision");
+}
+
+pub async fn what_was_decided_before_is_found_for_the_analysis_in_force(engine: &impl Engine) {
+    let store = engine.store();
+    let map = upload(store, "map").await.map;
+    let snapshot = async || store.snapshot(&local(), map).await.unwrap().unwrap();
+    let in_force = async || snapshot().await.analysis.expect("it is analysed").0.id;
+    let before = async || snapshot().await.decided_before.map(|(record, blob)| (record.version, record.analysis, blob));
+    let put_in_force = async |seed| {
+        if !matches!(request(store, map, seed).await, Request::Existing(_)) {
+            finish(store, &claim(store, now()).await.expect("a job waits")).await.unwrap();
+        }
+        in_force().await
+    };
+    let decide = async |analysis, replaces, carried: Option<CarryRecord>| {
+        let row = NewSemanticsRow {
+            map,
+            analysis,
+            replaces,
+            rule_set: "warehouse".into(),
+            draft: draft(),
+            assignment: Assignment::default(),
+            layout: LayoutOptions::default(),
+            origin: if carried.is_some() { SemanticsOrigin::Carried } else { SemanticsOrigin::Assigned },
+            carried,
+        };
+        let decided = store.insert_semantics(&local(), &row, now()).await.unwrap().unwrap().expect("it is in force");
+        assert_eq!((&decided.carried, decided.origin), (&row.carried, row.origin));
+    };
+    let first = put_in_force(1).await;
+    let (_, blob) = snapshot().await.analysis.expect("it is analysed");
+    put_in_force(2).await;
+    assert_eq!(before().await, None, "nobody decided");
+    put_in_force(1).await;
+    decide(first, 0, None).await;
+    put_in_force(2).await;
+    let third = put_in_force(3).await;
+    assert_eq!(before().await, Some((1, first, blob.clone())), "nobody decided on the second one");
+    decide(third, 0, Some(CarryRecord { from: 1, kept: 4, lost: Vec::new() })).await;
+    put_in_force(4).await;
+    assert_eq!(before().await, Some((1, first, blob)), "what was carried is the first decision");
+    put_in_force(3).await;
+    decide(third, 2, None).await;
+    put_in_force(4).await;
+    assert_eq!(before().await.map(|(version, analysis, _)| (version, analysis)), Some((3, third)));
 }
 
 pub async fn the_state_of_a_map_changes_with_every_answer_about_it(engine: &impl Engine) {
@@ -130,6 +176,7 @@ pub async fn the_state_of_a_map_changes_with_every_answer_about_it(engine: &impl
         assignment: Assignment::default(),
         layout: LayoutOptions::default(),
         origin: SemanticsOrigin::Assigned,
+        carried: None,
     };
     store.insert_semantics(&local(), &row, now()).await.unwrap().unwrap().unwrap();
     assert_eq!(state().await.semantics, 1);

@@ -78,6 +78,7 @@ macro_rules! contract {
                     the_analysis_asked_for_last_answers
                     a_proposal_answers_once_it_is_activated
                     decisions_are_bound_to_their_analysis_and_replace_what_they_saw
+                    what_was_decided_before_is_found_for_the_analysis_in_force
                     the_state_of_a_map_changes_with_every_answer_about_it
                 }
                 registries {

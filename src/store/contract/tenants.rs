@@ -40,6 +40,7 @@ pub async fn what_belongs_to_another_tenant_is_not_there(engine: &impl Engine) {
         assignment: Assignment::default(),
         layout: LayoutOptions::default(),
         origin: SemanticsOrigin::Assigned,
+        carried: None,
     };
     assert_eq!(store.insert_semantics(&other, &row, now()).await.unwrap(), None);
     assert!(!store.delete_map(&other, job.map, None).await.unwrap());

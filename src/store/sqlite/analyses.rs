@@ -142,6 +142,16 @@ impl Analyses for Sqlite {
                 .bind(record.analysis.map(|id| id.to_string()))
                 .fetch_optional(&mut *transaction)
                 .await?;
+        let decided_before = sqlx::query(
+            "SELECT decided.*, analyses.blob FROM semantics_versions AS newest \
+                 JOIN semantics_versions AS decided ON decided.map = newest.map \
+                     AND decided.version = coalesce(json_extract(newest.carried, '$.from'), newest.version) \
+                 JOIN analyses ON analyses.id = decided.analysis \
+             WHERE newest.analysis = $1 ORDER BY newest.version DESC LIMIT 1",
+        )
+        .bind(row.uuid_if("decided_before")?.map(|id| id.to_string()))
+        .fetch_optional(&mut *transaction)
+        .await?;
         let layout = sqlx::query(
             "SELECT semantics_versions.layout FROM semantics_versions JOIN maps ON maps.id = semantics_versions.map \
              WHERE maps.site = $1 AND maps.id <= $2 ORDER BY maps.id DESC, semantics_versions.version DESC LIMIT 1",
@@ -160,6 +170,9 @@ impl Analyses for Sqlite {
                 .map(|row| Ok::<_, StoreError>((analysis_record(&row)?, row.blob("blob")?)))
                 .transpose()?,
             semantics: semantics.as_ref().map(semantics_record).transpose()?,
+            decided_before: decided_before
+                .map(|row| Ok::<_, StoreError>((semantics_record(&row)?, row.blob("blob")?)))
+                .transpose()?,
             layout: layout.map(|row| row.json("layout")).transpose()?.unwrap_or_default(),
             job: job.map(|row| row.uuid("id")).transpose()?,
             record,
@@ -216,7 +229,11 @@ async fn put_in_force(
 ) -> Result<(), StoreError> {
     sqlx::query(
         "UPDATE maps SET version = version + (analysis IS NOT $2), \
-             updated = CASE WHEN analysis IS NOT $2 THEN $4 ELSE updated END, analysis = $2, analysis_asked = $3 \
+             updated = CASE WHEN analysis IS NOT $2 THEN $4 ELSE updated END, \
+             decided_before = CASE WHEN analysis IS NOT $2 \
+                     AND EXISTS (SELECT 1 FROM semantics_versions WHERE semantics_versions.analysis = maps.analysis) \
+                 THEN analysis ELSE decided_before END, \
+             analysis = $2, analysis_asked = $3 \
          WHERE id = $1 AND (analysis_asked IS NULL OR analysis_asked < $3)",
     )
     .bind(map.to_string())

@@ -69,6 +69,7 @@ static MIGRATIONS: LazyLock<Migrator> = LazyLock::new(|| {
         migration(4, "layouts", include_str!("../../../migrations/sqlite/0004_layouts.sql")),
         migration(5, "origins", include_str!("../../../migrations/sqlite/0005_origins.sql")),
         migration(6, "proposals", include_str!("../../../migrations/sqlite/0006_proposals.sql")),
+        migration(7, "carried labels", include_str!("../../../migrations/sqlite/0007_carried_labels.sql")),
     ])
 });
 

@@ -162,6 +162,7 @@ pub(super) fn semantics_record(row: &SqliteRow) -> Result<SemanticsRecord, Store
         layout: row.json("layout")?,
         version: row.whole("version")?,
         origin: row.origin()?,
+        carried: row.json_if("carried")?,
         created: row.time("created")?,
     })
 }

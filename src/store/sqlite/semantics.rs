@@ -35,8 +35,8 @@ impl SemanticsVersions for Sqlite {
             return Ok(Some(Err(in_force)));
         }
         let row = sqlx::query(
-            "INSERT INTO semantics_versions (map, version, analysis, rule_set, draft, assignment, layout, origin, created) \
-             VALUES ($1, $2, $3, $4, $5, $6, $7, $8, $9) RETURNING *",
+            "INSERT INTO semantics_versions (map, version, analysis, rule_set, draft, assignment, layout, origin, carried, created) \
+             VALUES ($1, $2, $3, $4, $5, $6, $7, $8, $9, $10) RETURNING *",
         )
         .bind(new.map.to_string())
         .bind(row.try_get::<i64, _>("newest")? + 1)
@@ -46,6 +46,7 @@ impl SemanticsVersions for Sqlite {
         .bind(json(&new.assignment))
         .bind(json(&new.layout))
         .bind(new.origin.name())
+        .bind(new.carried.as_ref().map(json))
         .bind(now.as_microsecond())
         .fetch_one(&mut *transaction)
         .await?;
