@@ -34,6 +34,8 @@ pub struct Config {
     pub cached_answer_bytes: usize,
     /// Whether what a proxy says about the client's address is believed.
     pub trust_proxy: bool,
+    /// How long a deleted map is kept, so that it can be restored.
+    pub keep_deleted: Duration,
     /// How long running jobs may go on after a request to stop, before they are put back.
     pub shutdown_grace: Duration,
 }
@@ -58,6 +60,7 @@ impl Config {
             // A layer of 10,000 faces has 7 MB before it is compressed.
             cached_answer_bytes: 64 << 20,
             trust_proxy: false,
+            keep_deleted: Duration::from_hours(1),
             shutdown_grace: Duration::from_secs(25),
         }
     }

@@ -27,6 +27,12 @@ impl Tenant {
         Self::new("local")
     }
 
+    /// Nobody: whose the maps are that were deleted and may be restored. No caller is nobody.
+    #[must_use]
+    pub fn nobody() -> Self {
+        Self::new("")
+    }
+
     /// The tenant with this id.
     #[must_use]
     pub fn new(id: impl Into<String>) -> Self {

@@ -1,4 +1,4 @@
-//! Maps: upload, list, rename, georeference, delete.
+//! Maps: upload, list, rename, georeference.
 
 use uuid::Uuid;
 
@@ -95,18 +95,6 @@ impl App {
             Some(Err(current)) => Err(AppError::PreconditionFailed { current: current.version }),
             Some(Ok(record)) => Ok(record),
         }
-    }
-
-    /// Deletes everything of the map. Its jobs go with it: one that runs stops within a second. `if_match` is optional
-    /// here.
-    pub async fn delete_map(&self, caller: &Caller, id: Uuid, if_match: Option<u64>) -> Result<(), AppError> {
-        if !self.store.delete_map(caller.tenant(), id, if_match).await? {
-            let current = self.map(caller, id).await?.version;
-            return Err(AppError::PreconditionFailed { current });
-        }
-        self.contexts.remove(id);
-        self.signals.changed();
-        Ok(())
     }
 
     /// Refuses a job that would need more memory than one may: better than to be killed half way.

@@ -2,7 +2,8 @@
 //!
 //! | file | what it answers |
 //! | --- | --- |
-//! | `maps` | upload, list, rename, delete |
+//! | `maps` | upload, list, rename |
+//! | `deletion` | maps are deleted, and restored for a while after that |
 //! | `jobs` | analyses and the jobs that make them |
 //! | `rule_sets` | the vocabulary of labels |
 //! | `semantics`, `semantics_change` | the human decision on a map, its versions |
@@ -26,6 +27,7 @@ mod carrying;
 mod comparisons;
 mod context;
 mod context_cache;
+mod deletion;
 mod error;
 mod evaluations;
 mod exports;

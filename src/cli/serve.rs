@@ -57,6 +57,9 @@ pub(super) struct ServeArgs {
     /// Analysed maps kept in memory.
     #[arg(long, env = "STILLAGE_CACHED_MAPS", default_value_t = 8, value_name = "N")]
     pub(super) cached_maps: usize,
+    /// How long a deleted map can be restored, minutes; 0 deletes at once. Where the disk is short, no deleted map is kept.
+    #[arg(long, env = "STILLAGE_KEEP_DELETED_MINUTES", default_value_t = 60, value_name = "MINUTES")]
+    pub(super) keep_deleted_minutes: u32,
     /// Memory for answers that are given again as they are, MiB; 0 for none.
     #[arg(long, env = "STILLAGE_CACHED_ANSWER_MIB", default_value_t = 64, value_name = "MIB")]
     pub(super) cached_answer_mib: usize,
@@ -141,6 +144,7 @@ impl ServeArgs {
             min_free_bytes: self.min_free_mib.saturating_mul(1 << 20),
             max_job_bytes: self.max_job_mib.saturating_mul(1 << 20),
             cached_maps: self.cached_maps,
+            keep_deleted: Duration::from_mins(u64::from(self.keep_deleted_minutes)),
             cached_answer_bytes: self.cached_answer_mib.saturating_mul(1 << 20),
             trust_proxy: self.trust_proxy,
             shutdown_grace: Duration::from_secs(self.shutdown_grace_s),

@@ -11,6 +11,7 @@
 //! - A request to stop lets running jobs go on for the grace period, then puts them back without counting the attempt.
 
 mod compute;
+mod housekeeping;
 pub mod processes;
 mod retry;
 mod running;
@@ -20,6 +21,7 @@ mod signals;
 mod tests;
 mod worker;
 
+pub use housekeeping::{delete_hidden, kept_since};
 pub use retry::backoff;
 pub use signals::Signals;
 pub use worker::Worker;

@@ -16,6 +16,8 @@ use crate::store::queue::Terms;
 pub(super) struct Settings {
     pub(super) terms: Terms,
     pub(super) heartbeat: Duration,
+    /// How long deleted maps are kept.
+    pub(super) keep_deleted: Duration,
 }
 
 /// The store, the processes, and when to stop.

@@ -180,6 +180,22 @@ async fn a_running_job_is_cancelled_within_a_second() {
 }
 
 #[tokio::test(flavor = "multi_thread")]
+async fn a_job_of_a_hidden_map_stops_and_begins_anew_when_it_is_restored() {
+    let fixture = Fixture::new();
+    let service = service(&fixture, 1).await;
+    let job = upload(&service.store, "endless").await;
+    service.signals.queued();
+    service.wait_for(job.id, |job| job.state == JobState::Running).await;
+    service.store.hide_map(&local(), job.map, None, now()).await.unwrap();
+    let next = upload(&service.store, "fine").await;
+    service.signals.queued();
+    service.wait_for(next.id, |job| job.state == JobState::Successful).await;
+    service.store.restore_map(&local(), job.map, jiff::Timestamp::MIN, now()).await.unwrap().expect("it is hidden");
+    service.signals.queued();
+    service.wait_for(job.id, |job| job.state == JobState::Running).await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
 async fn a_job_of_a_deleted_map_stops() {
     let fixture = Fixture::new();
     let service = service(&fixture, 1).await;

@@ -6,6 +6,7 @@ use std::time::Duration;
 use tokio::task::JoinHandle;
 
 use super::compute::ComputePool;
+use super::housekeeping::delete_hidden;
 use super::processes::Processes;
 use super::retry::backoff;
 use super::running::Running;
@@ -33,6 +34,7 @@ impl Worker {
         let settings = Settings {
             terms: Terms { lease: config.lease, max_attempts: config.max_attempts, backoff },
             heartbeat: config.heartbeat,
+            keep_deleted: config.keep_deleted,
         };
         let worker = Arc::new(Self {
             shared: Shared::new(store, processes, signals, settings),
@@ -69,6 +71,9 @@ impl Worker {
                 Ok(true) => continue,
                 Ok(false) => {}
                 Err(error) => tracing::warn!(%error, "the queue could not be worked on; it will be tried again"),
+            }
+            if let Err(error) = delete_hidden(&*self.shared.store, self.shared.settings.keep_deleted).await {
+                tracing::warn!(%error, "deleted maps could not be removed; it will be tried again");
             }
             tokio::select! {
                 () = self.shared.signals.wait_for_a_job() => {}

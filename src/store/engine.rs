@@ -5,12 +5,23 @@ use std::time::Duration;
 
 use async_trait::async_trait;
 
-use super::{Analyses, Blobs, Jobs, Maps, Queue, Registries, RuleSets, SemanticsVersions, StoreError};
+use super::{Analyses, Blobs, HiddenMaps, Jobs, Maps, Queue, Registries, RuleSets, SemanticsVersions, StoreError};
 
 /// An open store.
 #[async_trait]
 pub trait Store:
-    Maps + Analyses + Queue + Jobs + SemanticsVersions + Registries + RuleSets + fmt::Debug + Send + Sync + 'static
+    Maps
+    + HiddenMaps
+    + Analyses
+    + Queue
+    + Jobs
+    + SemanticsVersions
+    + Registries
+    + RuleSets
+    + fmt::Debug
+    + Send
+    + Sync
+    + 'static
 {
     /// The blobs.
     fn blobs(&self) -> &dyn Blobs;

@@ -3,6 +3,7 @@
 //! | file | what it promises |
 //! | --- | --- |
 //! | `maps` | uploads with their first job, the record of a map, deletion |
+//! | `hidden_maps` | maps that were deleted and may be restored for a while |
 //! | `analyses` | finished results, the one in force for each map |
 //! | `queue` | the worker's side of a job: claim, heartbeat, result |
 //! | `jobs` | the client's side of a job: read, list, dismiss |
@@ -28,6 +29,7 @@ mod blobs;
 pub(crate) mod contract;
 mod engine;
 mod error;
+mod hidden_maps;
 mod jobs;
 mod maps;
 pub mod queue;
@@ -47,6 +49,7 @@ pub use analyses::{Analyses, MapState, NewAnalysis, Outdated, Request, Snapshot}
 pub use blobs::{Blob, BlobId, Blobs, LocalBlobs, Stored};
 pub use engine::Store;
 pub use error::StoreError;
+pub use hidden_maps::HiddenMaps;
 pub use jobs::{Jobs, NewJob};
 pub use maps::{IdempotencyKey, Maps, NewMapRow, Upload};
 pub use queue::Queue;

@@ -149,6 +149,11 @@ async fn valid(site: &Site, operation: &str) -> (Sent, &'static [u16]) {
         "getMap" => get(map.clone()),
         "updateMap" => (Sent::new(Method::PATCH, map).json(&json!({"name": "Hall"})).with("if-match", "*"), &[200]),
         "deleteMap" => (Sent::new(Method::DELETE, waiting_map(&site.api).await).with("if-match", "*"), &[204]),
+        "restoreMap" => {
+            let deleted = waiting_map(&site.api).await;
+            assert_eq!(Sent::new(Method::DELETE, &deleted).to(&site.api).await.status, 204);
+            (Sent::new(Method::POST, format!("{deleted}/restore")), &[200])
+        }
         "listAnalyses" => get(format!("{map}/analyses")),
         "createAnalysis" => (Sent::new(Method::POST, format!("{map}/analyses")).json(&json!({"seed": 7})), &[202, 200]),
         "activateAnalysis" => {

@@ -9,6 +9,7 @@
 
 mod client;
 mod clients;
+mod deletion;
 mod document;
 mod evaluations;
 mod exports;

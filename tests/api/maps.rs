@@ -91,17 +91,6 @@ async fn a_map_is_renamed_and_georeferenced_in_turn() {
 }
 
 #[tokio::test]
-async fn a_deleted_map_is_gone() {
-    let api = Api::new().await;
-    let map = api.hall().await;
-    assert_eq!(api.send(request(Method::DELETE, &map, &[], Body::empty())).await.status, 204);
-    for path in ["", "/collections", "/semantics", "/image.png", "/analyses"] {
-        api.get(&format!("{map}{path}")).await.problem(404, "not-found");
-    }
-    api.send(request(Method::DELETE, &map, &[], Body::empty())).await.problem(404, "not-found");
-}
-
-#[tokio::test]
 async fn a_map_that_is_not_analysed_says_where_to_look() {
     let api = Api::new().await;
     let answer = api.send(upload(&pgm(HALL), METADATA)).await;
@@ -142,19 +131,6 @@ async fn other_options_are_another_analysis_and_the_same_are_not() {
     assert_eq!(problem["errors"][1]["pointer"], "/regions/minShare");
     let problem = analyse(json!({"categorization": {"k": "x"}})).await.problem(422, "invalid");
     assert_eq!(problem["errors"][0]["pointer"], "/categorization/k");
-}
-
-#[tokio::test]
-async fn a_map_that_changed_since_it_was_read_is_not_deleted() {
-    let api = Api::new().await;
-    let map = api.hall().await;
-    let read = api.get(&map).await.header("etag").to_owned();
-    api.send_json(Method::PATCH, &map, &[], &json!({"name": "Hall"})).await;
-    let delete = async |tag: &str| api.send(request(Method::DELETE, &map, &[("if-match", tag)], Body::empty())).await;
-    delete(&read).await.problem(412, "precondition-failed");
-    let current = api.get(&map).await.header("etag").to_owned();
-    assert_eq!(delete(&current).await.status, 204);
-    api.get(&map).await.problem(404, "not-found");
 }
 
 #[tokio::test]

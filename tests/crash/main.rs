@@ -58,10 +58,32 @@ fn dies_with_a_result_in_its_hands() {
     dies_and_recovers("after-finish-commit");
 }
 
+/// Deleted maps are not kept.
+const AT_ONCE: [&str; 2] = ["--keep-deleted-minutes", "0"];
+
+#[test]
+fn a_deleted_map_can_be_restored_after_a_crash() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let mut server = Server::start(folder.path(), None, &[]).expect("it starts");
+    let mut ledger = Ledger::default();
+    ledger.accepted("kept", &server.upload(&map_message(0), "kept").expect("accepted"));
+    let map = server.maps().pop().expect("one map");
+    server.delete(&format!("/v1/maps/{map}"));
+    server.kill();
+
+    let server = Server::start(folder.path(), None, &[]).expect("the next process starts");
+    assert_eq!(server.maps(), Vec::<String>::new());
+    server.post(&format!("/v1/maps/{map}/restore"));
+    assert_eq!(server.maps(), [map]);
+    server.wait_until_idle(PATIENCE);
+    server.stop();
+    ledger.check_exactly(folder.path());
+}
+
 #[test]
 fn dies_while_it_deletes_a_map() {
     let folder = tempfile::tempdir().expect("a temporary folder");
-    let mut server = Server::start(folder.path(), Some("after-delete-commit"), &[]).expect("it starts");
+    let mut server = Server::start(folder.path(), Some("after-delete-commit"), &AT_ONCE).expect("it starts");
     server.upload(&map_message(0), "gone").expect("accepted");
     server.wait_until_idle(PATIENCE);
     let map = server.maps().pop().expect("one map");

@@ -72,6 +72,12 @@ impl Server {
         let _ = self.client.delete(format!("{}{path}", self.address)).call();
     }
 
+    /// Sends a POST without a body, which is answered 200.
+    pub fn post(&self, path: &str) {
+        let answer = self.client.post(format!("{}{path}", self.address)).send_empty().expect("it answers");
+        assert_eq!(answer.status().as_u16(), 200);
+    }
+
     /// Ids of the maps.
     pub fn maps(&self) -> Vec<String> {
         let maps = self.get("/v1/maps");

@@ -1,10 +1,10 @@
-//! Maps: upload, list, landing page, rename, georeference, delete.
+//! Maps: upload, list, landing page, rename, georeference.
 
 use std::sync::Arc;
 
 use axum::Json;
 use axum::extract::{Request, State};
-use axum::http::{HeaderValue, StatusCode, header};
+use axum::http::{HeaderValue, header};
 use axum::response::{IntoResponse, Response};
 use serde::Deserialize;
 use utoipa::{IntoParams, ToSchema};
@@ -29,7 +29,8 @@ use crate::views::map::{MapList, MapView};
 use crate::views::name::Name;
 use crate::views::occupancy_grid::OccupancyGridMessage;
 
-fn view(base: &Base, map: MapRecord) -> MapView {
+/// The document of a map.
+pub(super) fn view(base: &Base, map: MapRecord) -> MapView {
     let links = map_links(base, &map);
     MapView::new(map, links)
 }
@@ -204,23 +205,4 @@ pub async fn update(
     let map = app.update_map(&caller, id, patch, if_match).await?;
     let tag = [(header::ETAG, EntityTag::of_version(map.version).header())];
     Ok((tag, Json(view(&base, map))).into_response())
-}
-
-/// Delete a map
-///
-/// Dismisses its jobs and deletes everything of it. With `If-Match` only if nobody changed it since.
-#[utoipa::path(delete, path = "/v1/maps/{mapId}", tag = "maps", operation_id = "deleteMap",
-    params(MapPath, ("If-Match" = Option<String>, Header, description = "The ETag that was read")),
-    responses((status = 204, description = "Deleted"),
-        NotFound))]
-pub async fn delete(
-    State(app): State<Arc<App>>,
-    caller: Caller,
-    Path(path): Path<MapPath>,
-    if_match: IfMatch,
-) -> Result<StatusCode, Problem> {
-    let version = app.map(&caller, path.map_id.0).await?.version;
-    let if_match = if_match.against(&EntityTag::of_version(version), version)?;
-    app.delete_map(&caller, path.map_id.0, if_match).await?;
-    Ok(StatusCode::NO_CONTENT)
 }

@@ -3,6 +3,7 @@
 pub mod analyses;
 pub mod cogency_matrix;
 pub mod comparisons;
+pub mod deletion;
 pub mod evaluations;
 pub mod map;
 pub mod names;

@@ -5,6 +5,7 @@
 
 mod analyses;
 mod blobs;
+mod hidden_maps;
 mod maps;
 mod queue;
 mod registries;
@@ -73,6 +74,11 @@ macro_rules! contract {
                     an_idempotency_key_stands_for_one_upload
                     lists_are_newest_first_and_paged_by_the_last_seen
                     a_map_is_changed_only_from_the_version_that_was_read
+                }
+                hidden_maps {
+                    a_hidden_map_is_not_there_until_it_is_restored
+                    jobs_of_a_hidden_map_wait
+                    hidden_maps_are_deleted_by_their_age
                 }
                 analyses {
                     the_analysis_asked_for_last_answers

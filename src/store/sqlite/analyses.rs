@@ -98,7 +98,7 @@ impl Analyses for Sqlite {
     async fn outdated(&self) -> Result<Vec<Outdated>, StoreError> {
         let rows = sqlx::query(
             "SELECT maps.tenant, maps.id, analyses.options FROM maps JOIN analyses ON analyses.id = maps.analysis \
-             WHERE analyses.algorithm <> $1 ORDER BY maps.id",
+             WHERE analyses.algorithm <> $1 AND maps.hidden IS NULL ORDER BY maps.id",
         )
         .bind(ALGORITHM_VERSION)
         .fetch_all(&self.readers)
@@ -154,10 +154,11 @@ impl Analyses for Sqlite {
         .await?;
         let layout = sqlx::query(
             "SELECT semantics_versions.layout FROM semantics_versions JOIN maps ON maps.id = semantics_versions.map \
-             WHERE maps.site = $1 AND maps.id <= $2 ORDER BY maps.id DESC, semantics_versions.version DESC LIMIT 1",
+             WHERE maps.tenant = $3 AND maps.site = $1 AND maps.id <= $2 ORDER BY maps.id DESC, semantics_versions.version DESC LIMIT 1",
         )
         .bind(record.site.to_string())
         .bind(map.to_string())
+        .bind(tenant.as_str())
         .fetch_optional(&mut *transaction)
         .await?;
         let job = sqlx::query("SELECT id FROM jobs WHERE map = $1 ORDER BY id DESC LIMIT 1")

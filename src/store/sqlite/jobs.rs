@@ -64,8 +64,9 @@ impl Jobs for Sqlite {
     }
 
     async fn job_counts(&self) -> Result<Vec<(JobState, u64)>, StoreError> {
-        let rows =
-            sqlx::query("SELECT state, count(*) AS jobs FROM jobs GROUP BY state").fetch_all(&self.readers).await?;
+        let rows = sqlx::query("SELECT state, count(*) AS jobs FROM jobs WHERE tenant <> '' GROUP BY state")
+            .fetch_all(&self.readers)
+            .await?;
         let count = |row: &SqliteRow| Ok((row.state()?, row.whole("jobs")?));
         rows.iter().map(count).collect()
     }
@@ -97,7 +98,8 @@ pub(super) async fn insert_job(
 
 /// Whether as many jobs wait as may.
 pub(super) async fn is_queue_full(connection: &mut SqliteConnection, max_queued: u64) -> Result<bool, StoreError> {
-    let row =
-        sqlx::query("SELECT count(*) AS waiting FROM jobs WHERE state = 'accepted'").fetch_one(connection).await?;
+    let row = sqlx::query("SELECT count(*) AS waiting FROM jobs WHERE state = 'accepted' AND tenant <> ''")
+        .fetch_one(connection)
+        .await?;
     Ok(row.whole::<u64>("waiting")? >= max_queued)
 }

@@ -16,6 +16,7 @@
 
 mod analyses;
 mod folder;
+mod hidden_maps;
 mod jobs;
 mod maps;
 mod queue;
@@ -70,6 +71,7 @@ static MIGRATIONS: LazyLock<Migrator> = LazyLock::new(|| {
         migration(5, "origins", include_str!("../../../migrations/sqlite/0005_origins.sql")),
         migration(6, "proposals", include_str!("../../../migrations/sqlite/0006_proposals.sql")),
         migration(7, "carried labels", include_str!("../../../migrations/sqlite/0007_carried_labels.sql")),
+        migration(8, "hidden maps", include_str!("../../../migrations/sqlite/0008_hidden_maps.sql")),
     ])
 });
 

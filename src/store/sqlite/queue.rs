@@ -24,7 +24,7 @@ impl Queue for Sqlite {
         let row = sqlx::query(
             "UPDATE jobs SET state = 'running', attempt = attempt + 1, claim = claim + 1, lease_until = $2, \
                  started = coalesce(started, $1), updated = max(updated + 1, $1), message = '', progress = 0, stage = NULL, stages = '[]' \
-             WHERE id = (SELECT id FROM jobs WHERE state = 'accepted' AND run_at <= $1 ORDER BY id LIMIT 1) \
+             WHERE id = (SELECT id FROM jobs WHERE state = 'accepted' AND tenant <> '' AND run_at <= $1 ORDER BY id LIMIT 1) \
              RETURNING *, (SELECT source FROM maps WHERE maps.id = jobs.map) AS source",
         )
         .bind(now.as_microsecond())

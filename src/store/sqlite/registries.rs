@@ -16,7 +16,7 @@ impl Registries for Sqlite {
         let row = sqlx::query(
             "SELECT maps.site, registries.places, coalesce(registries.version, 0) AS version, \
                  NOT EXISTS (SELECT 1 FROM maps AS newer \
-                     WHERE newer.site = maps.site AND newer.id > maps.id AND newer.analysis IS NOT NULL) AS is_newest \
+                     WHERE newer.site = maps.site AND newer.tenant = maps.tenant AND newer.id > maps.id AND newer.analysis IS NOT NULL) AS is_newest \
              FROM maps LEFT JOIN registries ON registries.site = maps.site WHERE maps.tenant = $1 AND maps.id = $2",
         )
         .bind(tenant.as_str())

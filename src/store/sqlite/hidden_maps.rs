@@ -1,0 +1,114 @@
+//! Rows of maps that were deleted and may be restored.
+
+use async_trait::async_trait;
+use jiff::Timestamp;
+use sqlx::SqliteConnection;
+use uuid::Uuid;
+
+use super::Sqlite;
+use super::rows::{Columns, map_record};
+use crate::records::{MapRecord, Tenant};
+use crate::store::{HiddenMaps, Maps, StoreError};
+
+#[async_trait]
+impl HiddenMaps for Sqlite {
+    async fn hide_map(
+        &self,
+        tenant: &Tenant,
+        id: Uuid,
+        if_match: Option<u64>,
+        now: Timestamp,
+    ) -> Result<bool, StoreError> {
+        let mut transaction = self.write().await?;
+        let hidden = sqlx::query(
+            "UPDATE maps SET hidden = $4, hidden_from = tenant, tenant = '' \
+             WHERE tenant = $1 AND id = $2 AND version = coalesce($3, version)",
+        )
+        .bind(tenant.as_str())
+        .bind(id.to_string())
+        .bind(if_match.map(u64::cast_signed))
+        .bind(now.as_microsecond())
+        .execute(&mut *transaction)
+        .await?;
+        if hidden.rows_affected() == 0 {
+            return Ok(false);
+        }
+        put_jobs_back(&mut transaction, id, now).await?;
+        transaction.commit().await?;
+        Ok(true)
+    }
+
+    async fn hidden_since(&self, tenant: &Tenant, id: Uuid) -> Result<Option<Timestamp>, StoreError> {
+        let row = sqlx::query("SELECT hidden FROM maps WHERE hidden_from = $1 AND id = $2")
+            .bind(tenant.as_str())
+            .bind(id.to_string())
+            .fetch_optional(&self.readers)
+            .await?;
+        row.map(|row| row.time("hidden")).transpose()
+    }
+
+    async fn restore_map(
+        &self,
+        tenant: &Tenant,
+        id: Uuid,
+        hidden_after: Timestamp,
+        now: Timestamp,
+    ) -> Result<Option<MapRecord>, StoreError> {
+        let mut transaction = self.write().await?;
+        let row = sqlx::query(
+            "UPDATE maps SET tenant = hidden_from, hidden = NULL, hidden_from = NULL \
+             WHERE hidden_from = $1 AND id = $2 AND hidden > $3 RETURNING *",
+        )
+        .bind(tenant.as_str())
+        .bind(id.to_string())
+        .bind(hidden_after.as_microsecond())
+        .fetch_optional(&mut *transaction)
+        .await?;
+        let Some(row) = row else { return Ok(None) };
+        sqlx::query("UPDATE jobs SET tenant = $2, updated = max(updated + 1, $3) WHERE map = $1")
+            .bind(id.to_string())
+            .bind(tenant.as_str())
+            .bind(now.as_microsecond())
+            .execute(&mut *transaction)
+            .await?;
+        transaction.commit().await?;
+        Ok(Some(map_record(&row)?))
+    }
+
+    async fn delete_hidden(&self, hidden_until: Timestamp) -> Result<usize, StoreError> {
+        let rows = sqlx::query("SELECT id FROM maps WHERE hidden <= $1")
+            .bind(hidden_until.as_microsecond())
+            .fetch_all(&self.readers)
+            .await?;
+        let mut deleted = 0;
+        for row in rows {
+            // One that was restored in between belongs to somebody again.
+            deleted += usize::from(self.delete_map(&Tenant::nobody(), row.uuid("id")?, None).await?);
+        }
+        Ok(deleted)
+    }
+}
+
+/// Takes the jobs of a map out of the hands of workers and of everybody. One that was to be cancelled is.
+async fn put_jobs_back(connection: &mut SqliteConnection, map: Uuid, now: Timestamp) -> Result<(), StoreError> {
+    sqlx::query("DELETE FROM idempotency_keys WHERE job IN (SELECT id FROM jobs WHERE map = $1)")
+        .bind(map.to_string())
+        .execute(&mut *connection)
+        .await?;
+    sqlx::query(
+        "UPDATE jobs SET state = CASE WHEN cancel_requested THEN 'dismissed' ELSE 'accepted' END, \
+             finished = CASE WHEN cancel_requested THEN $2 END, message = 'put back because the map was deleted', \
+             attempt = attempt - 1, progress = 0, stage = NULL, stages = '[]', lease_until = NULL, run_at = 0 \
+         WHERE map = $1 AND state = 'running'",
+    )
+    .bind(map.to_string())
+    .bind(now.as_microsecond())
+    .execute(&mut *connection)
+    .await?;
+    sqlx::query("UPDATE jobs SET tenant = '', updated = max(updated + 1, $2) WHERE map = $1")
+        .bind(map.to_string())
+        .bind(now.as_microsecond())
+        .execute(&mut *connection)
+        .await?;
+    Ok(())
+}
