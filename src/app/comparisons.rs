@@ -111,7 +111,7 @@ fn align(first: &MapContext, second: &MapContext) -> Result<PairAlignment, AppEr
 }
 
 /// The label of every face but the unbounded one, number 0.
-fn face_labels(context: &MapContext) -> impl Iterator<Item = (u32, &str)> {
+pub(super) fn face_labels(context: &MapContext) -> impl Iterator<Item = (u32, &str)> {
     (1..context.analysis.faces.len() as u32).map(|face| (face, context.semantic.label(FaceId(face)).id.as_str()))
 }
 

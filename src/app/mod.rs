@@ -8,6 +8,7 @@
 //! | `rule_sets` | the vocabulary of labels |
 //! | `semantics`, `semantics_change` | the human decision on a map, its versions |
 //! | `carrying` | the labels of another analysis, carried over to the one in force |
+//! | `label_preview` | what a change of the labels would do |
 //! | `face_labels` | the label of a single face |
 //! | `registries` | uploads aligned to an earlier map, the codes of a site's places |
 //! | `names`, `name_import` | what people call locations, places, aisles and rows |
@@ -35,6 +36,7 @@ mod face_labels;
 mod file_context;
 mod grid;
 mod jobs;
+mod label_preview;
 mod latest;
 mod map_context;
 mod map_states;
@@ -60,6 +62,7 @@ pub use comparisons::{LabelComparison, MapComparison, PairAlignment};
 pub use error::{AppError, FieldProblem};
 pub use file_context::FileMap;
 pub use grid::GridSource;
+pub use label_preview::LabelPreview;
 pub use map_context::MapContext;
 pub use name_import::{NameChange, NameReport};
 pub use names::{Nameable, area_kind};

@@ -129,7 +129,7 @@ impl App {
     }
 
     /// A decision that can be applied to the analysis in force.
-    async fn checked_semantics(
+    pub(super) async fn checked_semantics(
         &self,
         caller: &Caller,
         context: &Arc<MapContext>,

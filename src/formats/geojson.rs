@@ -54,11 +54,21 @@ pub fn feature_collection<'a>(
     write_collection(features, members, |feature, out| write_feature(feature, transform, &[], out))
 }
 
-/// A `FeatureCollection` whose features are written in a way of their own.
-pub(super) fn write_collection<'a>(
-    features: impl IntoIterator<Item = &'a Feature>,
+/// A `FeatureCollection` of features that belong to no collection of the map.
+#[must_use]
+pub fn document_collection<'a>(
+    documents: impl IntoIterator<Item = GeoJsonFeature<'a>>,
+    transform: &Transform,
     members: Members<'_>,
-    write: impl Fn(&'a Feature, &mut Vec<u8>),
+) -> Vec<u8> {
+    write_collection(documents, members, |document, out| write_document(&document, transform, out))
+}
+
+/// A `FeatureCollection` whose features are written in a way of their own.
+pub(super) fn write_collection<T>(
+    features: impl IntoIterator<Item = T>,
+    members: Members<'_>,
+    write: impl Fn(T, &mut Vec<u8>),
 ) -> Vec<u8> {
     let mut out = b"{\"type\":\"FeatureCollection\"".to_vec();
     for (name, value) in members {

@@ -87,6 +87,7 @@ fn answered_in_time() -> OpenApiRouter<Arc<App>> {
         .routes(routes!(maps::pictures::semantic_svg))
         .routes(routes!(maps::semantics::categories))
         .routes(routes!(maps::semantics::get, maps::semantics::assign, maps::semantics::change))
+        .routes(routes!(maps::label_preview::create))
         .routes(routes!(maps::semantics::versions))
         .routes(routes!(maps::semantics::version))
         .routes(routes!(maps::semantics::restore))

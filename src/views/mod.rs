@@ -17,6 +17,7 @@ pub mod georeference;
 pub mod graph_report;
 pub mod id;
 pub mod job;
+pub mod label_preview;
 pub mod layout;
 pub mod link;
 pub mod map;

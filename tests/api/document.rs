@@ -198,6 +198,10 @@ async fn valid(site: &Site, operation: &str) -> (Sent, &'static [u16]) {
             let patch = json!({"assignment": {"0": "co"}});
             (Sent::new(Method::PATCH, format!("{map}/semantics")).json(&patch).with("if-match", "*"), &[200])
         }
+        "previewSemantics" => {
+            let patch = json!({"assignment": {"0": "co"}});
+            (Sent::new(Method::POST, format!("{map}/semantics/preview")).json(&patch), &[200])
+        }
         "getSemanticsVersion" => get(format!("{map}/semantics/versions/0")),
         "restoreSemantics" => {
             let path = format!("{map}/semantics/versions/0/restore");

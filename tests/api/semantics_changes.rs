@@ -243,3 +243,53 @@ async fn a_decision_is_carried_anew_when_it_changed() {
     assert_eq!(activate(&api, &second).await["carried"]["from"], 3);
     assert_eq!(decided_overrides(&api, &map).await, json!([{"face": 3, "label": "co"}]));
 }
+
+#[tokio::test]
+async fn a_preview_tells_what_would_change_and_changes_nothing() {
+    let api = Api::new().await;
+    let map = api.hall().await;
+    let path = format!("{map}/semantics");
+    let preview = async |query: &str, body: &Value| {
+        let answer = api.send_json(Method::POST, &format!("{path}/preview{query}"), &[], body).await;
+        assert_eq!(answer.status, 200, "{}", answer.text());
+        answer
+    };
+    let in_force = api.get(&path).await;
+    let same = preview("", &in_force.json()).await.json();
+    assert_eq!((&same["numberMatched"], &same["features"]), (&json!(0), &json!([])), "labels as they were read");
+
+    let faces = api.get(&format!("{map}/collections/faces/items?limit=1000&crs=EPSG:3857")).await.json();
+    let faces = faces["features"].as_array().expect("faces").clone();
+    let body = json!({"assignment": api.all_labelled(&map, "co").await, "overrides": {"1": "ju"}});
+    let answer = preview("?limit=2&crs=EPSG:3857", &body).await;
+    assert_eq!(answer.header("content-type"), "application/geo+json");
+    let made = answer.json();
+    let label = |face: &Value| face["properties"]["label"].clone();
+    let changed: Vec<&Value> = faces.iter().filter(|face| face["id"] == 1 || label(face) != "co").collect();
+    assert_eq!((made["numberMatched"].as_u64(), &made["numberReturned"]), (Some(changed.len() as u64), &json!(2)));
+    for (told, face) in made["features"].as_array().expect("features").iter().zip(&changed) {
+        assert_eq!((&told["id"], &told["geometry"]), (&face["id"], &face["geometry"]));
+        let now = if face["id"] == 1 { "ju" } else { "co" };
+        assert_eq!(told["properties"], json!({"label": now, "previousLabel": label(face)}));
+    }
+    let counts = &made["counts"];
+    let corridor = counts["labels"].as_array().expect("labels").iter().find(|counts| counts["label"] == "co");
+    let corridor = corridor.expect("there are corridors");
+    let before = faces.iter().filter(|face| label(face) == "co").count();
+    assert_eq!(corridor["faces"], json!({"before": before, "after": faces.len() - 1}));
+    let locations = api.get(&format!("{map}/collections/locations/items")).await.json()["numberMatched"].take();
+    let of_labels = counts["labels"].as_array().expect("labels").iter();
+    let sum: u64 = of_labels.filter_map(|counts| counts["locations"]["before"].as_u64()).sum();
+    assert_eq!(Some(sum), locations.as_u64());
+    let edges = api.get(&format!("{map}/collections/edges/items?cogency=invalid")).await.json();
+    assert_eq!(counts["edges"]["invalid"]["before"], edges["numberMatched"]);
+
+    assert_eq!(api.get(&path).await.header("etag"), in_force.header("etag"), "nothing is stored");
+    let made = change(&api, &map, Method::PATCH, &body).await;
+    assert_eq!(made.status, 200, "{}", made.text());
+    let after = api.get(&format!("{map}/collections/links/items?connectivity=connected")).await.json();
+    assert_eq!(counts["links"]["connected"]["after"], after["numberMatched"]);
+    let wrong = json!({"overrides": [{"face": 1, "label": "co"}, {"face": 99_999, "label": "co"}]});
+    let problem = api.send_json(Method::POST, &format!("{path}/preview"), &[], &wrong).await.problem(422, "invalid");
+    assert_eq!(problem["errors"][0]["pointer"], "/overrides/1");
+}

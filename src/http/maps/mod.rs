@@ -5,6 +5,7 @@ pub mod cogency_matrix;
 pub mod comparisons;
 pub mod deletion;
 pub mod evaluations;
+pub mod label_preview;
 pub mod map;
 pub mod names;
 pub mod pictures;

@@ -146,7 +146,7 @@ fn answer(context: &MapContext, record: SemanticsRecord) -> Response {
 }
 
 /// Lets a problem point into the list of overrides that was sent.
-fn in_list(faces: Vec<u32>) -> impl FnOnce(Problem) -> Problem {
+pub(super) fn in_list(faces: Vec<u32>) -> impl FnOnce(Problem) -> Problem {
     move |problem| problem.map_pointers(|pointer| list_pointer(pointer, &faces))
 }
 

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::fmt;
 
 use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
-use serde::de::{MapAccess, SeqAccess, Visitor};
+use serde::de::{IgnoredAny, MapAccess, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 use serde_json::{Map, Value};
 use stillage_core::Point;
@@ -17,7 +17,8 @@ use crate::http::problem::Problem;
 use crate::views::layout::LayoutView;
 use crate::views::semantics::{OverrideView, SemanticsBody};
 
-/// Changes to the labels of a map, as a JSON merge patch (RFC 7396): what is not named stays.
+/// Changes to the labels of a map, as a JSON merge patch (RFC 7396): what is not named stays. What a read adds (`version`,
+/// `origin`, `carried`, `created`) may be sent back and is ignored.
 #[derive(Debug, Deserialize, ToSchema)]
 #[schema(as = SemanticsPatch)]
 #[serde(deny_unknown_fields, rename_all = "camelCase")]
@@ -41,6 +42,18 @@ pub struct SemanticsPatchBody {
     #[schema(value_type = Option<LayoutView>)]
     #[allow(clippy::option_option, reason = "a merge patch tells absent from null")]
     layout: Option<Option<Map<String, Value>>>,
+    #[serde(default, rename = "version")]
+    #[schema(read_only, value_type = serde_json::Value)]
+    _version: IgnoredAny,
+    #[serde(default, rename = "origin")]
+    #[schema(read_only, value_type = serde_json::Value)]
+    _origin: IgnoredAny,
+    #[serde(default, rename = "carried")]
+    #[schema(read_only, value_type = serde_json::Value)]
+    _carried: IgnoredAny,
+    #[serde(default, rename = "created")]
+    #[schema(read_only, value_type = serde_json::Value)]
+    _created: IgnoredAny,
 }
 
 impl SemanticsPatchBody {
