@@ -2,6 +2,7 @@
 
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::{SocketAddr, TcpStream};
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
 use crate::CONNECTIONS;
@@ -66,18 +67,20 @@ pub fn get(address: SocketAddr, path: &str, headers: &str) -> Answer {
     Connection::open(address).ask(&request(address, path, headers))
 }
 
-/// Asks as often as told, but not longer than a round may take.
-pub fn load(serving: &Serving, path: &str, headers: &str, times: usize) -> Load {
-    let request = request(serving.address, path, headers);
+/// Asks for these paths by turns as often as told, but not longer than a round may take.
+pub fn load(serving: &Serving, paths: &[String], headers: &str, times: usize) -> Load {
+    let requests: Vec<Vec<u8>> = paths.iter().map(|path| request(serving.address, path, headers)).collect();
     // What is made at the first question is there when the time begins to count.
-    Connection::open(serving.address).ask(&request);
+    Connection::open(serving.address).ask(&requests[0]);
     let (cpu, began) = (serving.cpu(), Instant::now());
+    let turn = AtomicUsize::new(0);
     let ask = || {
         let mut connection = Connection::open(serving.address);
         let mut times_taken = Vec::with_capacity(times / CONNECTIONS);
         while times_taken.len() < times / CONNECTIONS && began.elapsed() < LONGEST_ROUND {
+            let request = &requests[turn.fetch_add(1, Ordering::Relaxed) % requests.len()];
             let asked = Instant::now();
-            connection.ask(&request);
+            connection.ask(request);
             times_taken.push(asked.elapsed());
         }
         times_taken

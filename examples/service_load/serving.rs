@@ -33,6 +33,15 @@ impl Serving {
         // `USER_HZ` is 100 on every Linux.
         Duration::from_millis(ticks * 10)
     }
+
+    /// Its memory that lies in RAM, mebibytes.
+    pub fn memory(&self) -> f64 {
+        let path = format!("/proc/{}/status", self.process.id());
+        let text = std::fs::read_to_string(path).expect("Linux tells the memory of processes");
+        let line = text.lines().find_map(|line| line.strip_prefix("VmRSS:")).expect("it lists what lies in RAM");
+        let kibibytes: f64 = line.trim().trim_end_matches(" kB").parse().expect("kibibytes");
+        kibibytes / 1_024.0
+    }
 }
 
 impl Drop for Serving {

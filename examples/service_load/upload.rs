@@ -9,14 +9,16 @@ use ureq::unversioned::multipart::{Form, Part};
 use crate::serving::Serving;
 use crate::site;
 
-/// Rows of the drawing from its lower edge: they hold 9,745 faces.
-const ROWS: usize = 3_400;
+/// Rows of the drawing from its lower edge that hold 9,745 faces, fewer than the most of a page.
+pub const PART: usize = 3_400;
+/// All its rows: a site of the paper's size.
+pub const WHOLE: usize = site::SIZE[1];
 /// A pause between two looks at the job.
 const PAUSE: Duration = Duration::from_millis(500);
 
-/// Uploads the drawing, waits for its analysis, and gives the id of the map.
-pub fn analysed_map(service: &Serving) -> String {
-    let (image, description) = (pgm(), description());
+/// Uploads so many rows of the drawing, waits for their analysis, and gives the id of the map.
+pub fn analysed_map(service: &Serving, rows: usize) -> String {
+    let (image, description) = (pgm(rows), description());
     let image = Part::bytes(&image).file_name("site.pgm");
     let form = Form::new().part("image", image).text("metadata", &description);
     let address = format!("http://{}/v1/maps", service.address);
@@ -38,11 +40,11 @@ fn description() -> String {
     format!("image: site.pgm\nresolution: {}\n{rest}", site::RESOLUTION)
 }
 
-/// The drawing as an image, its upper row first.
-fn pgm() -> Vec<u8> {
+/// Rows of the drawing as an image, the upper one first.
+fn pgm(rows: usize) -> Vec<u8> {
     let columns = site::SIZE[0];
-    let grid = site::warehouse([0..columns, 0..ROWS]);
-    let mut bytes = format!("P5\n{columns} {ROWS}\n255\n").into_bytes();
+    let grid = site::warehouse([0..columns, 0..rows]);
+    let mut bytes = format!("P5\n{columns} {rows}\n255\n").into_bytes();
     let grey = |cell: &Occupancy| match cell {
         Occupancy::Free => 254,
         Occupancy::Occupied => 0,
