@@ -136,9 +136,9 @@ fn document<S: Clone + Send + Sync + 'static>(routes: OpenApiRouter<S>) -> (Rout
 /// The routes of the service, with all that lies around them.
 ///
 /// From the outside in: id, log line and metrics of the request; answers that are given again; the last slash of the address;
-/// its route; headers for browsers; entity tags by coding, around the compression; bodies of problems; what a deleted map answers;
-/// panics; checks of host
-/// and origin, around the address that proxies tell; pace and coding of bodies; formats; unknown parameters; `Accept`.
+/// its route; headers for browsers; entity tags by coding, around the compression; the address that proxies tell; bodies of
+/// problems; what a deleted map answers; panics; checks of host and origin; pace and coding of bodies; formats; unknown
+/// parameters; `Accept`.
 pub fn router(app: Arc<App>) -> Router {
     let upload_bytes = app.config().limits.max_bytes + maps::upload::FORM_OVERHEAD_BYTES;
     let (router, document) = document(routes(upload_bytes));
@@ -149,11 +149,11 @@ pub fn router(app: Arc<App>) -> Router {
         .layer(from_fn(browser_headers))
         .layer(from_fn(extract::conditional::tag_encodings))
         .layer(CompressionLayer::new())
+        .layer(from_fn_with_state(app.config().trust_proxy, public_address::resolve))
         .layer(from_fn(problem::render))
         .layer(from_fn_with_state(Arc::clone(&app), maps::deletion::tell_restorable))
         .layer(CatchPanicLayer::custom(problem::of_panic))
         .layer(from_fn(guard::one_host))
-        .layer(from_fn_with_state(app.config().trust_proxy, public_address::resolve))
         .layer(from_fn(guard::other_origins))
         .layer(from_fn(guard::at_pace))
         .layer(from_fn(extract::coding::decoded))

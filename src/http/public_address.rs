@@ -30,6 +30,12 @@ impl PublicAddress {
         self.authority.as_ref().map(|authority| format!("{scheme}://{authority}{}", self.prefix)).unwrap_or_default()
     }
 
+    /// The path of a resource as the client sees it.
+    #[must_use]
+    pub fn path(&self, path: &str) -> String {
+        format!("{}{path}", self.prefix)
+    }
+
     /// Whether an `Origin` is this address: pages of the service have it.
     #[must_use]
     pub fn is_origin(&self, origin: &str) -> bool {
@@ -106,15 +112,14 @@ fn text<'a>(headers: &'a HeaderMap, name: &str) -> Option<&'a str> {
     headers.get(name).and_then(|value| value.to_str().ok())
 }
 
-/// Middleware: finds the address, for links and for the check of origins, and puts the prefix before `Location`.
+/// Middleware: finds the address, for links, for problems and for the check of origins, and puts the prefix before
+/// `Location`.
 pub async fn resolve(State(trust_proxy): State<bool>, mut request: Request, next: Next) -> Response {
     let address = PublicAddress::of(request.headers(), request.uri(), trust_proxy);
-    let prefix = address.prefix.clone();
-    request.extensions_mut().insert(address);
+    request.extensions_mut().insert(address.clone());
     let mut response = next.run(request).await;
-    if let Some(location) =
-        text(response.headers(), "location").filter(|path| !prefix.is_empty() && path.starts_with('/'))
-        && let Ok(location) = HeaderValue::try_from(prefix + location)
+    if let Some(location) = text(response.headers(), "location").filter(|path| path.starts_with('/'))
+        && let Ok(location) = HeaderValue::try_from(address.path(location))
     {
         response.headers_mut().insert(header::LOCATION, location);
     }

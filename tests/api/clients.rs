@@ -165,6 +165,13 @@ async fn links_and_origins_follow_a_proxy_that_is_trusted() {
     let answer = trusting.send(post(&own_page, MESSAGE)).await;
     assert_eq!(answer.status, 202, "{}", answer.text());
     assert!(answer.header("location").starts_with("/stillage/v1/jobs/"), "{}", answer.header("location"));
+    let missing = trusting.get_with("/v1/nothing", &forwarded).await.problem(404, "not-found");
+    assert_eq!(missing["instance"], "/stillage/v1/nothing");
+    for document in ["/openapi.json", "/openapi-3.0.json"] {
+        let through_proxy = trusting.get_with(document, &forwarded).await.json();
+        assert_eq!(through_proxy["servers"][0]["url"], "/stillage/", "{document}");
+        assert_eq!(trusting.get(document).await.json()["servers"][0]["url"], "/", "{document}");
+    }
     let other_page = [forwarded.as_slice(), &[("origin", "https://example.org")]].concat();
     trusting.send(post(&other_page, MESSAGE)).await.problem(403, "cross-origin-write");
 

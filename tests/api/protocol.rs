@@ -52,6 +52,25 @@ async fn options_and_head_work() {
 }
 
 #[tokio::test]
+async fn the_head_of_an_answer_is_the_same_before_and_after_the_answer() {
+    let api = Api::new().await;
+    let faces = format!("{}/collections/faces/items", api.hall().await);
+    for coding in ["identity", "gzip"] {
+        let headers = [("accept-encoding", coding)];
+        let head = async || api.send(request(Method::HEAD, &faces, &headers, Body::empty())).await;
+        let before = head().await;
+        let whole = api.get_with(&faces, &headers).await;
+        for head in [before, head().await] {
+            assert!(head.body.is_empty());
+            assert_eq!(head.header("content-length"), whole.body.len().to_string(), "{coding}");
+            for name in ["etag", "content-type", "content-encoding", "content-crs", "vary", "link"] {
+                assert_eq!(head.header(name), whole.header(name), "{coding}: {name}");
+            }
+        }
+    }
+}
+
+#[tokio::test]
 async fn an_unknown_parameter_is_never_ignored() {
     let api = Api::new().await;
     for path in ["/?x=1", "/v1/maps?bogus=1", "/v1/jobs?limit=1&Limit=2", "/health/live?x"] {
@@ -117,7 +136,7 @@ async fn pages_of_other_sites_read_and_do_not_write() {
     let api = Api::new().await;
     let answer = api.get_with("/", &[("origin", "https://example.org")]).await;
     assert_eq!(answer.header("access-control-allow-origin"), "*");
-    for name in ["etag", "location", "link", "content-crs", "retry-after"] {
+    for name in ["etag", "location", "link", "content-crs", "preference-applied", "retry-after"] {
         assert!(answer.header("access-control-expose-headers").contains(name), "{name}");
     }
     let preflight = [("origin", "https://example.org"), ("access-control-request-method", "POST")];

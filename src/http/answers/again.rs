@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use axum::body::{Body, to_bytes};
 use axum::extract::{Request, State};
-use axum::http::{HeaderValue, StatusCode, header};
+use axum::http::{HeaderValue, Method, StatusCode, header};
 use axum::middleware::Next;
 use axum::response::{IntoResponse, Response};
 use tokio::runtime::Handle;
@@ -40,12 +40,18 @@ impl Again {
 }
 
 /// Middleware: an answer that was given before is given again. It lies around the compression, so that an answer is
-/// compressed once for each coding.
-pub async fn again(State(again): State<Again>, caller: Caller, request: Request, next: Next) -> Response {
+/// compressed once for each coding. `HEAD` gets the head of what `GET` gets, length and coding too (RFC 9110, 9.3.2).
+pub async fn again(State(again): State<Again>, caller: Caller, mut request: Request, next: Next) -> Response {
     let Some(question) = Question::of(&request) else { return next.run(request).await };
+    let is_head = *request.method() == Method::HEAD;
+    *request.method_mut() = Method::GET;
+    let answer = answer(&again, question, &caller, request, next).await;
+    if is_head { answer.map(|_| Body::empty()) } else { answer }
+}
+
+async fn answer(again: &Again, question: Question, caller: &Caller, request: Request, next: Next) -> Response {
     let if_none_match = IfNoneMatch::read(request.headers());
-    if let Some(answer) = again.find(&question, &caller).await.and_then(|remembered| remembered.answer(&if_none_match))
-    {
+    if let Some(answer) = again.find(&question, caller).await.and_then(|remembered| remembered.answer(&if_none_match)) {
         return answer;
     }
     let response = next.run(request).await;

@@ -26,7 +26,7 @@ impl Question {
     /// The question of a request; `None` where its answer cannot be given again.
     pub fn of(request: &Request) -> Option<Self> {
         let (uri, headers) = (request.uri(), request.headers());
-        let is_usual = *request.method() == Method::GET
+        let is_usual = matches!(*request.method(), Method::GET | Method::HEAD)
             && request.version() == Version::HTTP_11
             && uri.authority().is_none()
             && uri.path().starts_with("/v1/maps/")
@@ -73,6 +73,7 @@ mod tests {
         assert_ne!(plain, question(|request| request.uri("/v1/maps/7?f=html")));
         let swapped = |accept, coding| question(|it| it.header("accept", accept).header("accept-encoding", coding));
         assert_ne!(swapped("a", "b"), swapped("b", "a"));
+        assert_eq!(plain, question(|request| request.method("HEAD")), "it is answered as GET is, without content");
     }
 
     #[test]

@@ -26,6 +26,7 @@ use crate::http::extract::{MapPath, Path};
 use crate::http::links::{Base, HTML, JSON, OPENAPI_3_0, OPENAPI_3_1};
 use crate::http::page;
 use crate::http::problem::Problem;
+use crate::http::public_address::PublicAddress;
 use crate::views::link::Link;
 use refusals::NotFound;
 
@@ -78,6 +79,16 @@ impl Document {
         let bytes = Bytes::from(text);
         let tag = EntityTag::of_content(&[&blake3::hash(&bytes).to_hex()]);
         Self { bytes, tag }
+    }
+
+    /// The document for clients that reach the service below another path than `/`.
+    fn below(self, root: &str) -> Self {
+        if root == openapi::SERVER {
+            return self;
+        }
+        let text = String::from_utf8_lossy(&self.bytes);
+        let server = |root: &str| format!("\"url\": {}", Value::from(root));
+        Self::new(text.replacen(&server(openapi::SERVER), &server(root), 1))
     }
 
     fn answer(self, if_none_match: &IfNoneMatch, media_type: &'static str) -> Response {
@@ -137,8 +148,12 @@ impl Texts {
     responses((status = 200, description = "The OpenAPI 3.1 document", body = serde_json::Value,
         content_type = "application/vnd.oai.openapi+json;version=3.1",
         headers(("ETag" = String, description = "Changes with the document")))))]
-pub async fn openapi(Extension(documents): Extension<Documents>, if_none_match: IfNoneMatch) -> Response {
-    documents.version_3_1.answer(&if_none_match, OPENAPI_3_1)
+pub async fn openapi(
+    Extension(documents): Extension<Documents>,
+    Extension(address): Extension<PublicAddress>,
+    if_none_match: IfNoneMatch,
+) -> Response {
+    documents.version_3_1.below(&address.path("/")).answer(&if_none_match, OPENAPI_3_1)
 }
 
 /// OpenAPI 3.0 document
@@ -148,8 +163,12 @@ pub async fn openapi(Extension(documents): Extension<Documents>, if_none_match: 
     responses((status = 200, description = "The OpenAPI 3.0 document", body = serde_json::Value,
         content_type = "application/vnd.oai.openapi+json;version=3.0",
         headers(("ETag" = String, description = "Changes with the document")))))]
-pub async fn openapi_3_0(Extension(documents): Extension<Documents>, if_none_match: IfNoneMatch) -> Response {
-    documents.version_3_0.answer(&if_none_match, OPENAPI_3_0)
+pub async fn openapi_3_0(
+    Extension(documents): Extension<Documents>,
+    Extension(address): Extension<PublicAddress>,
+    if_none_match: IfNoneMatch,
+) -> Response {
+    documents.version_3_0.below(&address.path("/")).answer(&if_none_match, OPENAPI_3_0)
 }
 
 /// OpenAPI document of a map
@@ -174,7 +193,8 @@ pub async fn map_api(
     Ok(document.answer(&if_none_match, OPENAPI_3_0))
 }
 
-/// The reference page at `/docs/`: swagger-ui, built into the program.
+/// The reference page at `/docs/`: swagger-ui, built into the program. It looks for the document beside its folder, wherever
+/// a proxy puts both.
 pub fn reference_page<S: Clone + Send + Sync + 'static>() -> axum::Router<S> {
-    SwaggerUi::new("/docs").config(Config::from("/openapi.json").use_base_layout()).into()
+    SwaggerUi::new("/docs").config(Config::from("../openapi.json").use_base_layout()).into()
 }

@@ -16,6 +16,9 @@ use crate::http::extract::format;
 use crate::http::ogc::collections::CollectionId;
 use crate::http::problem::ProblemDocument;
 
+/// Where the service lies, seen by clients without a proxy between.
+pub const SERVER: &str = "/";
+
 /// What the document says of itself.
 #[derive(utoipa::OpenApi)]
 #[openapi(
@@ -26,7 +29,7 @@ use crate::http::problem::ProblemDocument;
             errors. Reads have strong ETags. Pages of other sites may read, not write.",
         license(name = "MIT OR Apache-2.0", identifier = "MIT OR Apache-2.0")
     ),
-    servers((url = "/", description = "This service")),
+    servers((url = SERVER, description = "This service")),
     // Beside the problems, what occurs in parameters only.
     components(schemas(ProblemDocument, CollectionId, CrsName)),
     tags(

@@ -73,7 +73,7 @@ pub async fn other_origins(request: Request, next: Next) -> Response {
         fixed("access-control-allow-origin", "*"),
         fixed(
             "access-control-expose-headers",
-            "content-crs, etag, idempotent-replayed, link, location, retry-after, x-request-id",
+            "content-crs, etag, idempotent-replayed, link, location, preference-applied, retry-after, x-request-id",
         ),
     ]);
     response

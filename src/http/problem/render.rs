@@ -7,6 +7,7 @@ use axum::response::{IntoResponse, Response};
 
 use super::detail::Problem;
 use super::types::ProblemType;
+use crate::http::public_address::PublicAddress;
 
 /// Media type of problem details.
 pub const PROBLEM_JSON: &str = "application/problem+json";
@@ -14,6 +15,7 @@ pub const PROBLEM_JSON: &str = "application/problem+json";
 /// Middleware: writes the body of every refusal.
 pub async fn render(request: Request, next: Next) -> Response {
     let (method, uri) = (request.method().clone(), request.uri().clone());
+    let address = request.extensions().get::<PublicAddress>().cloned().unwrap_or_default();
     let mut response = next.run(request).await;
     let status = response.status();
     if !status.is_client_error() && !status.is_server_error() {
@@ -28,7 +30,8 @@ pub async fn render(request: Request, next: Next) -> Response {
         };
         Problem::new(kind, detail)
     });
-    let body = serde_json::to_vec(&problem.document(uri.path())).expect("strings and numbers can be written");
+    let body =
+        serde_json::to_vec(&problem.document(&address.path(uri.path()))).expect("strings and numbers can be written");
     let (mut parts, _) = response.into_parts();
     parts.headers.remove(header::CONTENT_LENGTH);
     parts.headers.insert(header::CONTENT_TYPE, HeaderValue::from_static(PROBLEM_JSON));
