@@ -13,6 +13,8 @@ use crate::geometry::{Bounds, Point};
 pub const LEAST_SHARE: f64 = 0.2;
 /// Shares that differ by less are equal.
 const EQUAL_SHARES: f64 = 1e-6;
+/// Pairs are looked at closely whose boxes have this part of the least share in common: rounding makes it no smaller.
+const ENOUGH: f64 = 0.99;
 /// A second partner with this share of the best one's makes a pair doubtful.
 const RIVAL: f64 = 0.6;
 
@@ -57,18 +59,26 @@ pub fn pairs(old: &[Footprint], new: &[Footprint]) -> Vec<Pair> {
     found
 }
 
+/// Area in common of two boxes.
+fn common_box(one: &Bounds, other: &Bounds) -> f64 {
+    let side = |axis: usize| one.high[axis].min(other.high[axis]) - one.low[axis].max(other.low[axis]);
+    side(0).max(0.0) * side(1).max(0.0)
+}
+
 /// Every pair that overlaps enough.
 fn overlaps(old: &[Footprint], new: &[Footprint]) -> Vec<Pair> {
     let boxes: Vec<Bounds> = new.iter().map(Footprint::bounds).collect();
+    let areas: Vec<f64> = new.iter().map(Footprint::area).collect();
     let mut by_left: Vec<usize> = (0..new.len()).filter(|&index| !boxes[index].is_empty()).collect();
     by_left.sort_by(|&one, &other| boxes[one].low.x.total_cmp(&boxes[other].low.x));
     let widest = by_left.iter().map(|&index| boxes[index].high.x - boxes[index].low.x).fold(0.0, f64::max);
     let mut found = Vec::new();
     for (index, place) in old.iter().enumerate() {
-        let bounds = place.bounds();
+        let (bounds, area) = (place.bounds(), place.area());
         let first = by_left.partition_point(|&other| boxes[other].low.x < bounds.low.x - widest);
         for &other in by_left[first..].iter().take_while(|&&other| boxes[other].low.x <= bounds.high.x) {
-            if !bounds.meets(&boxes[other]) {
+            // No more is in common than the boxes have; most neighbours only touch.
+            if common_box(&bounds, &boxes[other]) < ENOUGH * LEAST_SHARE * area.max(areas[other]) {
                 continue;
             }
             // Rounded: shares that differ by the rounding of coordinates only are equal.

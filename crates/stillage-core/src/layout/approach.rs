@@ -1,8 +1,9 @@
 //! Where a vehicle stands to serve a location.
 //!
 //! Method: of the points before the front, in the corridor, on which the vehicle touches nothing, the one nearest to the
-//! usual standing distance, and nearest to the middle of the front. Cost: O(candidates), some hundreds per location.
-//! Limits: the vehicle is a disc.
+//! usual standing distance, and nearest to the middle of the front. They are tried in that order ([`Stands`]), which is the
+//! same for all fronts. Cost: one point of most fronts, at worst all candidates (some hundreds). Limits: the vehicle is a
+//! disc.
 
 use super::location::{ApproachPose, Location};
 use crate::geometry::{Point, direction, normal};
@@ -32,30 +33,48 @@ pub(super) struct ApproachFront {
 #[must_use]
 pub fn approach_before(map: &SiteMap<'_>, location: &Location, radius: f64) -> Option<ApproachPose> {
     let front = ApproachFront { middle: location.front?, heading: location.heading, width: location.width };
-    approach(map, front, radius)
+    Stands::new(radius, front.width, map.grid.resolution()).approach(map, front)
 }
 
-/// Where a vehicle of a radius stands before a front.
-pub(super) fn approach(map: &SiteMap<'_>, front: ApproachFront, radius: f64) -> Option<ApproachPose> {
-    let ApproachFront { middle, heading, width } = front;
-    let (outward, aside) = (-direction(heading), normal(heading));
-    let step = STEP_M.max(map.grid.resolution());
-    let usual = radius + GAP_M;
-    let along = (0..=((usual + FARTHEST_M) / step) as i32).map(|count| f64::from(count) * step);
-    let reach = (width / 2.0 / step).floor() as i32;
-    let mut best: Option<(f64, ApproachPose)> = None;
-    for distance in along {
-        for offset in (-reach..=reach).map(|count| f64::from(count) * step) {
-            let cost = (distance - usual).abs() + ASIDE * offset.abs();
-            if best.is_some_and(|(least, _)| least <= cost) {
-                continue;
-            }
-            if let Some(position) = standing(map, middle + outward * distance + aside * offset, radius) {
-                best = Some((cost, ApproachPose { position, heading }));
-            }
-        }
+/// Where a vehicle may stand before a front, the best point first.
+pub(super) struct Stands {
+    radius: f64,
+    /// Distance between candidates, metres.
+    step: f64,
+    /// Distance from the front and offset from its middle, metres.
+    candidates: Vec<[f64; 2]>,
+}
+
+impl Stands {
+    /// The points for vehicles of a radius before fronts up to this width, on cells of this side, all in metres.
+    pub fn new(radius: f64, widest: f64, resolution: f64) -> Self {
+        let step = STEP_M.max(resolution);
+        let usual = radius + GAP_M;
+        let reach = reach(widest, step);
+        let distances = (0..=((usual + FARTHEST_M) / step) as i32).map(|count| f64::from(count) * step);
+        let offsets = move || (-reach..=reach).map(move |count| f64::from(count) * step);
+        let mut candidates: Vec<[f64; 2]> =
+            distances.flat_map(|distance| offsets().map(move |offset| [distance, offset])).collect();
+        let cost = |[distance, offset]: [f64; 2]| (distance - usual).abs() + ASIDE * offset.abs();
+        candidates.sort_by(|&one, &other| cost(one).total_cmp(&cost(other)));
+        Self { radius, step, candidates }
     }
-    best.map(|(_, pose)| pose)
+
+    /// Where the vehicle stands before a front.
+    pub fn approach(&self, map: &SiteMap<'_>, front: ApproachFront) -> Option<ApproachPose> {
+        let ApproachFront { middle, heading, width } = front;
+        let (outward, aside) = (-direction(heading), normal(heading));
+        let reach = f64::from(reach(width, self.step)) * self.step;
+        let before = self.candidates.iter().filter(|[_, offset]| offset.abs() <= reach);
+        let mut points = before.map(|&[distance, offset]| middle + outward * distance + aside * offset);
+        let position = points.find_map(|point| standing(map, point, self.radius))?;
+        Some(ApproachPose { position, heading })
+    }
+}
+
+/// Candidates to either side of the middle of a front.
+fn reach(width: f64, step: f64) -> i32 {
+    (width / 2.0 / step).floor() as i32
 }
 
 /// A point itself, or the middle of its cell, where a vehicle touches nothing on drivable ground.

@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use super::access;
 use super::aisle::{Aisle, Row};
 use super::aisles::{AisleFront, FrontLine, aisles_of};
-use super::approach::{ApproachFront, approach};
+use super::approach::{ApproachFront, Stands};
 use super::code_template::{CodeNumbers, CodeTemplate};
 use super::depths::{DepthInRow, depths};
 use super::draft::{Draft, drafts_of};
@@ -156,13 +156,15 @@ impl<'a> Numbering<'a> {
             Ok(codes) => (codes, Vec::new()),
             Err(long) => (CodeTemplate::default().write_all(&all).unwrap_or_else(|codes| codes), long),
         };
+        let widest = drafts.iter().map(|draft| draft.width).fold(0.0, f64::max);
+        let stands = Stands::new(spec.vehicle_radius, widest, map.grid.resolution());
         let location = |&index: &usize| {
             let first = depths[index].map_or(index, |depth| depth.first);
             let (own, served) = (&drafts[index], &drafts[first]);
             let front = served.front.map(|front| front.middle);
             let approach = front.and_then(|middle| {
                 let front = ApproachFront { middle, heading: served.heading, width: served.width };
-                approach(map, front, spec.vehicle_radius)
+                stands.approach(map, front)
             });
             let from = served.front.map(|front| front.from);
             let corridor = from.and_then(|face| map.semantic.face_places[face.index()]);
