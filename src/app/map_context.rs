@@ -12,7 +12,9 @@ use stillage_core::{Analysis, OccupancyGrid, SiteCells, SiteMap};
 use uuid::Uuid;
 
 use super::routers::RouterCache;
+use crate::coordinates::{Crs, Transform};
 use crate::features::{self, AnalysedMap, Collection, Feature, MapNames};
+use crate::formats::FeatureTexts;
 use crate::records::{MapRecord, SemanticsRecord};
 use crate::store::MapState;
 
@@ -51,9 +53,12 @@ pub struct MapContext {
     pub(super) routers: RouterCache,
 }
 
-/// The features of the collections that were asked for.
+/// The features of the collections that were asked for, and their texts.
 #[derive(Debug, Default)]
-pub struct FeatureCache([OnceLock<Vec<Feature>>; Collection::ALL.len()]);
+pub struct FeatureCache {
+    features: [OnceLock<Vec<Feature>>; Collection::ALL.len()],
+    texts: [OnceLock<FeatureTexts>; Collection::ALL.len()],
+}
 
 impl MapContext {
     /// The state of the map that this answers for.
@@ -91,6 +96,14 @@ impl MapContext {
     /// The features of a collection, by id. The first call makes them: keep it off the runtime.
     #[must_use]
     pub fn features(&self, collection: Collection) -> &[Feature] {
-        self.features.0[collection as usize].get_or_init(|| features::features(&self.view(), collection))
+        self.features.features[collection as usize].get_or_init(|| features::features(&self.view(), collection))
+    }
+
+    /// The texts of those features in degrees, each written when it is first asked for.
+    #[must_use]
+    pub fn feature_texts(&self, collection: Collection) -> &FeatureTexts {
+        let degrees = || Transform::new(Crs::Crs84, self.record.georeference);
+        self.features.texts[collection as usize]
+            .get_or_init(|| FeatureTexts::new(self.features(collection).len(), degrees()))
     }
 }

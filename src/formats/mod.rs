@@ -1,6 +1,7 @@
 //! Features -> bytes: one file for each format.
 
 pub mod csv;
+mod feature_texts;
 pub mod flatgeobuf;
 pub mod geojson;
 mod json;
@@ -9,4 +10,5 @@ pub mod json_fg;
 mod tests;
 mod wkt;
 
+pub use feature_texts::FeatureTexts;
 pub use json::Json;

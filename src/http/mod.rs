@@ -19,6 +19,7 @@ mod page;
 mod paging;
 pub(crate) mod problem;
 mod public_address;
+mod shared;
 
 use std::sync::Arc;
 
@@ -143,7 +144,7 @@ pub fn router(app: Arc<App>) -> Router {
     let upload_bytes = app.config().limits.max_bytes + maps::upload::FORM_OVERHEAD_BYTES;
     let (router, document) = document(routes(upload_bytes));
     let known = Arc::new(guard::KnownParameters::of(&document));
-    let metrics = guard::observe::Metrics::new();
+    let metrics = Arc::new(guard::observe::Metrics::new());
     let layers = ServiceBuilder::new()
         .layer(from_fn(guard::observe::tell_route))
         .layer(from_fn(browser_headers))
@@ -152,6 +153,7 @@ pub fn router(app: Arc<App>) -> Router {
         .layer(from_fn_with_state(app.config().trust_proxy, public_address::resolve))
         .layer(from_fn(problem::render))
         .layer(from_fn_with_state(Arc::clone(&app), maps::deletion::tell_restorable))
+        .layer_fn(shared::Shared::new)
         .layer(CatchPanicLayer::custom(problem::of_panic))
         .layer(from_fn(guard::one_host))
         .layer(from_fn(guard::other_origins))
@@ -161,8 +163,9 @@ pub fn router(app: Arc<App>) -> Router {
         .layer(from_fn_with_state(known, guard::known_parameters))
         .layer(from_fn(extract::negotiation::negotiate))
         .layer(DefaultBodyLimit::max(BODY_BYTES))
-        .layer(Extension(metrics.clone()))
-        .layer(Extension(docs::Documents::of(&docs::openapi::value(&document))));
+        .layer(Extension(Arc::clone(&metrics)))
+        .layer(Extension(Arc::new(docs::Documents::of(&docs::openapi::value(&document)))))
+        .layer_fn(shared::Shared::new);
     let router = router.merge(docs::reference_page()).layer(layers).with_state(Arc::clone(&app));
     // Addresses are mended before they are looked up in the list of routes.
     let router = MapRequest::new(router, guard::without_last_slash as fn(Request) -> Request);

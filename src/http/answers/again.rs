@@ -64,9 +64,14 @@ async fn answer(again: &Again, question: Question, caller: &Caller, request: Req
 
 async fn kept(answers: &AnswerCache, question: Question, tag: EntityTag, response: Response) -> Response {
     let (mut parts, body) = response.into_parts();
-    // Reading the body is what compresses it, which takes longer than a moment.
+    let body = to_bytes(body, usize::MAX);
+    // Reading a body that is compressed on the way takes longer than a moment.
     let runtime = Handle::current();
-    let body = match off_the_runtime(move || runtime.block_on(to_bytes(body, usize::MAX))).await {
+    let body = match parts.headers.contains_key(header::CONTENT_ENCODING) {
+        true => off_the_runtime(move || runtime.block_on(body)).await,
+        false => body.await,
+    };
+    let body = match body {
         Ok(body) => body,
         Err(error) => {
             tracing::error!(%error, "an answer could not be written");

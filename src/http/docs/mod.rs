@@ -98,12 +98,12 @@ impl Document {
 }
 
 /// The OpenAPI documents of the service.
-#[derive(Debug, Clone)]
+#[derive(Debug)]
 pub struct Documents {
     version_3_1: Document,
     version_3_0: Document,
     /// That of a map, in version 3.0; [`of_map::SERVER`] stands for the address of the map.
-    of_map: Arc<str>,
+    of_map: String,
 }
 
 impl Documents {
@@ -114,7 +114,7 @@ impl Documents {
         Self {
             version_3_1: Document::new(texts.version_3_1),
             version_3_0: Document::new(texts.version_3_0),
-            of_map: texts.of_map.into(),
+            of_map: texts.of_map,
         }
     }
 }
@@ -149,11 +149,11 @@ impl Texts {
         content_type = "application/vnd.oai.openapi+json;version=3.1",
         headers(("ETag" = String, description = "Changes with the document")))))]
 pub async fn openapi(
-    Extension(documents): Extension<Documents>,
+    Extension(documents): Extension<Arc<Documents>>,
     Extension(address): Extension<PublicAddress>,
     if_none_match: IfNoneMatch,
 ) -> Response {
-    documents.version_3_1.below(&address.path("/")).answer(&if_none_match, OPENAPI_3_1)
+    documents.version_3_1.clone().below(&address.path("/")).answer(&if_none_match, OPENAPI_3_1)
 }
 
 /// OpenAPI 3.0 document
@@ -164,11 +164,11 @@ pub async fn openapi(
         content_type = "application/vnd.oai.openapi+json;version=3.0",
         headers(("ETag" = String, description = "Changes with the document")))))]
 pub async fn openapi_3_0(
-    Extension(documents): Extension<Documents>,
+    Extension(documents): Extension<Arc<Documents>>,
     Extension(address): Extension<PublicAddress>,
     if_none_match: IfNoneMatch,
 ) -> Response {
-    documents.version_3_0.below(&address.path("/")).answer(&if_none_match, OPENAPI_3_0)
+    documents.version_3_0.clone().below(&address.path("/")).answer(&if_none_match, OPENAPI_3_0)
 }
 
 /// OpenAPI document of a map
@@ -181,7 +181,7 @@ pub async fn openapi_3_0(
         NotFound))]
 pub async fn map_api(
     State(app): State<Arc<App>>,
-    Extension(documents): Extension<Documents>,
+    Extension(documents): Extension<Arc<Documents>>,
     caller: Caller,
     base: Base,
     Path(path): Path<MapPath>,

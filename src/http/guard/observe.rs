@@ -26,13 +26,12 @@ const LATENCY_BUCKETS: [f64; 11] = [0.001, 0.0025, 0.005, 0.01, 0.025, 0.05, 0.1
 const UPKEEP_PERIOD: u64 = 4_096;
 
 /// The metrics of one router. Not a global: several services may live in a process, as they do in tests.
-#[derive(Clone)]
 pub struct Metrics {
-    recorder: Arc<PrometheusRecorder>,
+    recorder: PrometheusRecorder,
     handle: PrometheusHandle,
-    requests: Arc<AtomicU64>,
+    requests: AtomicU64,
     /// By method, status and route: to look them up in the recorder takes longer than to answer from memory.
-    measures: Arc<RwLock<HashMap<String, Measures>>>,
+    measures: RwLock<HashMap<String, Measures>>,
 }
 
 /// What is counted of the requests with the same labels.
@@ -54,7 +53,7 @@ impl Metrics {
             metrics::describe_histogram!("http_request_duration_seconds", "Time to the head of the answer.");
             metrics::describe_gauge!("jobs", "Jobs by state.");
         });
-        Self { recorder: Arc::new(recorder), handle, requests: Arc::default(), measures: Arc::default() }
+        Self { recorder, handle, requests: AtomicU64::default(), measures: RwLock::default() }
     }
 
     fn count_request(&self, route: &str, method: &str, status: u16, seconds: f64) {
@@ -73,7 +72,7 @@ impl Metrics {
 
     fn measures(&self, route: &str, method: &str, status: u16) -> Measures {
         let labels = [("route", route.to_owned()), ("method", method.to_owned())];
-        metrics::with_local_recorder(&*self.recorder, || {
+        metrics::with_local_recorder(&self.recorder, || {
             let seconds = metrics::histogram!("http_request_duration_seconds", &labels);
             let [route, method] = labels;
             let labels = [route, method, ("status", status.to_string())];
@@ -96,7 +95,7 @@ impl std::fmt::Debug for Metrics {
 }
 
 /// Middleware: gives the request its id, logs it and counts it.
-pub async fn observe(State(metrics): State<Metrics>, request: Request, next: Next) -> Response {
+pub async fn observe(State(metrics): State<Arc<Metrics>>, request: Request, next: Next) -> Response {
     let began = Instant::now();
     let id = request_id(&request);
     let method = request.method().clone();
@@ -142,9 +141,12 @@ fn request_id(request: &Request) -> HeaderValue {
 /// Requests by route, method and status, their latency, and jobs by state, in the text format of Prometheus.
 #[utoipa::path(get, path = "/metrics", tag = "service", operation_id = "getMetrics",
     responses((status = 200, description = "The metrics", body = String, content_type = "text/plain; version=0.0.4")))]
-pub async fn metrics(State(app): State<Arc<App>>, Extension(metrics): Extension<Metrics>) -> Result<Response, Problem> {
+pub async fn metrics(
+    State(app): State<Arc<App>>,
+    Extension(metrics): Extension<Arc<Metrics>>,
+) -> Result<Response, Problem> {
     let counts = app.job_counts().await?;
-    metrics::with_local_recorder(&*metrics.recorder, || {
+    metrics::with_local_recorder(&metrics.recorder, || {
         for (state, count) in counts {
             metrics::gauge!("jobs", "state" => state).set(count as f64);
         }

@@ -70,6 +70,11 @@ impl Answer {
         let mut headers = self.headers();
         headers.extend(next.iter().map(|link| (header::LINK, link_header(link))));
         match self.format {
+            Format::GeoJson if self.crs.0 == Crs::Crs84 => {
+                let (all, texts) =
+                    (self.context.features(self.collection), self.context.feature_texts(self.collection));
+                (headers, texts.feature_collection(all, &page.features, &members)).into_response()
+            }
             Format::GeoJson => {
                 (headers, geojson::feature_collection(features, &self.transform, &members)).into_response()
             }
