@@ -67,9 +67,10 @@ async fn kept(answers: &AnswerCache, question: Question, tag: EntityTag, respons
     let body = to_bytes(body, usize::MAX);
     // Reading a body that is compressed on the way takes longer than a moment.
     let runtime = Handle::current();
-    let body = match parts.headers.contains_key(header::CONTENT_ENCODING) {
-        true => off_the_runtime(move || runtime.block_on(body)).await,
-        false => body.await,
+    let body = if parts.headers.contains_key(header::CONTENT_ENCODING) {
+        off_the_runtime(move || runtime.block_on(body)).await
+    } else {
+        body.await
     };
     let body = match body {
         Ok(body) => body,
