@@ -140,6 +140,9 @@ async fn boxes_select() {
     let degrees = ids(&api, &format!("{items}?bbox=0,0,0.0000179663,0.0000179663")).await;
     assert_eq!(degrees, some, "two metres are that many degrees");
     assert_eq!(ids(&api, &format!("{items}?bbox=1000,1000,1001,1001&bbox-crs=EPSG:3857")).await, Vec::<Value>::new());
+    // Across the antimeridian: all but a strip of the Earth, and that strip alone.
+    assert_eq!(ids(&api, &format!("{items}?bbox=-1,-1,-2,1")).await, everything);
+    assert_eq!(ids(&api, &format!("{items}?bbox=179,-1,-179,1")).await, Vec::<Value>::new());
 }
 
 #[tokio::test]
