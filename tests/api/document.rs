@@ -22,11 +22,11 @@ const FAULTS: [&str; 4] = ["408", "500", "503", "507"];
 
 /// A request that can be sent more than once, and spoilt.
 #[derive(Debug, Clone, PartialEq)]
-struct Sent {
-    method: Method,
-    path: String,
-    headers: BTreeMap<&'static str, String>,
-    body: Vec<u8>,
+pub struct Sent {
+    pub method: Method,
+    pub path: String,
+    pub headers: BTreeMap<&'static str, String>,
+    pub body: Vec<u8>,
 }
 
 impl Sent {
@@ -34,7 +34,7 @@ impl Sent {
         Self { method, path: path.into(), headers: BTreeMap::new(), body: Vec::new() }
     }
 
-    fn with(mut self, name: &'static str, value: impl Into<String>) -> Self {
+    pub fn with(mut self, name: &'static str, value: impl Into<String>) -> Self {
         self.headers.insert(name, value.into());
         self
     }
@@ -52,7 +52,7 @@ impl Sent {
         Self { path: path.into(), ..self }
     }
 
-    async fn to(&self, api: &Api) -> Answer {
+    pub async fn to(&self, api: &Api) -> Answer {
         let mut request = Request::new(Body::from(self.body.clone()));
         *request.method_mut() = self.method.clone();
         *request.uri_mut() = self.path.parse().expect("is an address");
@@ -64,8 +64,8 @@ impl Sent {
 }
 
 /// What the requests are about.
-struct Site {
-    api: Api,
+pub struct Site {
+    pub api: Api,
     /// Path of a map that is analysed.
     map: String,
     /// Path of a map that waits for its analysis.
@@ -75,7 +75,7 @@ struct Site {
 }
 
 impl Site {
-    async fn new() -> Self {
+    pub async fn new() -> Self {
         let api = Api::new().await;
         let map = api.hall().await;
         let over = api.get("/v1/jobs").await.json()["jobs"][0]["jobID"].as_str().expect("an id").to_owned();
@@ -117,7 +117,7 @@ fn rule_set(id: &str) -> Value {
 
 /// A good request for each operation, and the statuses that answer it. An operation without one fails the test.
 #[allow(clippy::too_many_lines, reason = "a list: a line or two for each operation")]
-async fn valid(site: &Site, operation: &str) -> (Sent, &'static [u16]) {
+pub async fn valid(site: &Site, operation: &str) -> (Sent, &'static [u16]) {
     let map = &site.map;
     let get = |path: String| (Sent::new(Method::GET, path), [200].as_slice());
     match operation {
@@ -329,7 +329,7 @@ fn wrongs(site: &Site, operation: &str, good: &Sent) -> Vec<Sent> {
 }
 
 /// The operations of a document: id and description.
-fn operations(document: &Value) -> Vec<(String, Value)> {
+pub fn operations(document: &Value) -> Vec<(String, Value)> {
     let items = document["paths"].as_object().into_iter().flatten();
     let of_item =
         |(_, item): (&String, &Value)| item.as_object().expect("operations").values().cloned().collect::<Vec<_>>();
