@@ -19,7 +19,7 @@ mod page;
 mod paging;
 pub(crate) mod problem;
 mod public_address;
-mod shared;
+mod shared_service;
 
 use std::sync::Arc;
 
@@ -153,7 +153,7 @@ pub fn router(app: Arc<App>) -> Router {
         .layer(from_fn_with_state(app.config().trust_proxy, public_address::resolve))
         .layer(from_fn(problem::render))
         .layer(from_fn_with_state(Arc::clone(&app), maps::deletion::tell_restorable))
-        .layer_fn(shared::Shared::new)
+        .layer_fn(shared_service::SharedService::new)
         .layer(CatchPanicLayer::custom(problem::of_panic))
         .layer(from_fn(guard::one_host))
         .layer(from_fn(guard::other_origins))
@@ -165,7 +165,7 @@ pub fn router(app: Arc<App>) -> Router {
         .layer(DefaultBodyLimit::max(BODY_BYTES))
         .layer(Extension(Arc::clone(&metrics)))
         .layer(Extension(Arc::new(docs::Documents::of(&docs::openapi::value(&document)))))
-        .layer_fn(shared::Shared::new);
+        .layer_fn(shared_service::SharedService::new);
     let router = router.merge(docs::reference_page()).layer(layers).with_state(Arc::clone(&app));
     // Addresses are mended before they are looked up in the list of routes.
     let router = MapRequest::new(router, guard::without_last_slash as fn(Request) -> Request);

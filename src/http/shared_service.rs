@@ -11,22 +11,22 @@ use tower::{Service, ServiceExt as _};
 /// that lies below it for each request, so that a stack of them costs the square of its height; between them, this makes
 /// the copies small.
 #[derive(Debug)]
-pub struct Shared<S>(Arc<S>);
+pub struct SharedService<S>(Arc<S>);
 
-impl<S> Shared<S> {
+impl<S> SharedService<S> {
     /// Shares a service.
     pub fn new(service: S) -> Self {
         Self(Arc::new(service))
     }
 }
 
-impl<S> Clone for Shared<S> {
+impl<S> Clone for SharedService<S> {
     fn clone(&self) -> Self {
         Self(Arc::clone(&self.0))
     }
 }
 
-impl<S: Service<Request> + Clone> Service<Request> for Shared<S> {
+impl<S: Service<Request> + Clone> Service<Request> for SharedService<S> {
     type Response = S::Response;
     type Error = S::Error;
     type Future = Oneshot<S, Request>;
