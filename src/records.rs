@@ -1,6 +1,7 @@
 //! What the service stores, as plain data. `store`, `jobs`, `app` and the edges pass these types to each other.
 
 use std::fmt;
+use std::time::Duration;
 
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
@@ -267,6 +268,14 @@ pub struct JobFilter {
     pub processes: Vec<String>,
     /// Of this map.
     pub map: Option<Uuid>,
+    /// Accepted at this time or later.
+    pub created_from: Option<Timestamp>,
+    /// Accepted at this time or earlier.
+    pub created_to: Option<Timestamp>,
+    /// Begun, and over after this time or longer, or running for so long already.
+    pub min_duration: Option<Duration>,
+    /// Begun, and over within this time, or not running for longer yet.
+    pub max_duration: Option<Duration>,
     /// At most this many.
     pub limit: u32,
     /// Older than this one.

@@ -111,6 +111,8 @@ fn answered_in_time() -> OpenApiRouter<Arc<App>> {
         .routes(routes!(fleet::exports::get))
         .routes(routes!(fleet::graph_report::get))
         .routes(routes!(fleet::graph_report::picture))
+        .routes(routes!(ogc::root::landing))
+        .routes(routes!(ogc::root::conformance))
         .routes(routes!(ogc::processes::list))
         .routes(routes!(ogc::processes::get))
         .routes(routes!(ogc::processes::of_job))

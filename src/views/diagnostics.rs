@@ -32,6 +32,7 @@ pub struct Diagnostics {
 
 /// Where the grid frame lies in the map frame.
 #[derive(Debug, Serialize, ToSchema)]
+#[schema(as = Frame)]
 #[serde(rename_all = "camelCase")]
 pub struct FrameView {
     /// Side of a cell, metres.
@@ -45,6 +46,7 @@ pub struct FrameView {
 /// What was taken for clutter before the first stage, in runs of cells: the first one (row by row from the lower left
 /// corner of the grid) and their number.
 #[derive(Debug, Serialize, ToSchema)]
+#[schema(as = Clutter)]
 #[serde(rename_all = "camelCase")]
 pub struct ClutterView {
     /// Share of the floor's cells that carry a lone hit.
@@ -78,6 +80,7 @@ fn runs(cells: &[u32]) -> Vec<[u32; 2]> {
 
 /// The dominant orientations and the signals they were read from.
 #[derive(Debug, Serialize, ToSchema)]
+#[schema(as = Orientations)]
 #[serde(rename_all = "camelCase")]
 pub struct OrientationsView {
     /// Directions of lines in [-pi/2, pi/2), ascending.
@@ -90,6 +93,7 @@ pub struct OrientationsView {
 
 /// Projection of the occupied cells of a region on the normal of an orientation.
 #[derive(Debug, Serialize, ToSchema)]
+#[schema(as = Radiogram)]
 #[serde(rename_all = "camelCase")]
 pub struct RadiogramView {
     region: u8,

@@ -47,12 +47,14 @@ pub struct LayoutView {
 #[serde(tag = "rule", deny_unknown_fields, rename_all = "kebab-case")]
 pub enum LaneRuleView {
     /// No vehicle drives over a node.
+    #[schema(title = "NoNode")]
     NoNode {
         /// Where it lies.
         #[schema(example = json!([3.5, 4.0]))]
         at: [f64; 2],
     },
     /// No vehicle drives over a lane.
+    #[schema(title = "NoLane")]
     NoLane {
         /// A place on it.
         #[schema(example = json!([3.5, 4.0]))]
@@ -62,6 +64,7 @@ pub enum LaneRuleView {
         to: [f64; 2],
     },
     /// Vehicles drive over a lane in one direction only.
+    #[schema(title = "OneWay")]
     OneWay {
         /// A place on it.
         #[schema(example = json!([3.5, 4.0]))]

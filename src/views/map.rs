@@ -13,12 +13,14 @@ use crate::records::MapRecord;
 
 /// A map: its landing page.
 #[derive(Debug, Serialize, ToSchema)]
-#[schema(as = Map)]
+#[schema(as = MapSummary)]
 #[serde(rename_all = "camelCase")]
 pub struct MapView {
     id: Id,
     /// Name for people.
     name: String,
+    /// The name, as the landing page of an OGC API calls it.
+    title: String,
     #[schema(value_type = String, format = DateTime)]
     created: Timestamp,
     #[schema(value_type = String, format = DateTime)]
@@ -52,6 +54,7 @@ impl MapView {
     pub fn new(map: MapRecord, links: Vec<Link>) -> Self {
         Self {
             id: Id(map.id),
+            title: map.name.clone(),
             name: map.name,
             created: map.created,
             updated: map.updated,

@@ -85,6 +85,7 @@ pub enum AreaKindView {
 
 /// How surely a place is where its code says.
 #[derive(Debug, Serialize, ToSchema)]
+#[schema(as = PlaceState)]
 #[serde(rename_all = "lowercase")]
 pub enum PlaceStateView {
     /// The newest map of the site shows it.
@@ -97,6 +98,7 @@ pub enum PlaceStateView {
 
 /// Which stale codes are right: some, or all.
 #[derive(Debug, Deserialize, ToSchema)]
+#[schema(as = Confirmation)]
 #[serde(deny_unknown_fields)]
 pub struct ConfirmationBody {
     /// The codes; all stale ones when absent.

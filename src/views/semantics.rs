@@ -48,6 +48,7 @@ pub struct OverrideView {
 
 /// Who decided: nobody (the suggestion is in force), or a person, maybe on another analysis of the map.
 #[derive(Debug, Serialize, ToSchema)]
+#[schema(as = SemanticsOrigin)]
 #[serde(rename_all = "lowercase")]
 pub enum OriginView {
     /// Nobody, or a person who went back to the suggestion.

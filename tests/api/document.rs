@@ -133,6 +133,8 @@ pub async fn valid(site: &Site, operation: &str) -> (Sent, &'static [u16]) {
         "getJob" => get(format!("/v1/jobs/{}", site.over)),
         "watchJob" => get(format!("/v1/jobs/{}/events", site.over)),
         "getJobResults" => get(format!("/v1/jobs/{}/results", site.over)),
+        "getApiRoot" => get("/v1".into()),
+        "getApiConformance" => get("/v1/conformance".into()),
         "listProcesses" => get("/v1/processes".into()),
         "getProcess" => get("/v1/processes/semantic-map".into()),
         "execute" => {

@@ -93,6 +93,9 @@ async fn pages_hold_every_feature_once() {
     let all = ids(&api, &format!("{map}/collections/edges/items?limit=10000")).await;
     assert!(all.len() > 20);
     assert_eq!(ids(&api, &format!("{map}/collections/edges/items?limit=7")).await, all);
+    assert_eq!(ids(&api, &format!("{map}/collections/edges/items?limit=7&offset=5")).await, all[5..]);
+    let beyond = api.get(&format!("{map}/collections/edges/items?offset=999999")).await.json();
+    assert_eq!((&beyond["numberReturned"], &beyond["numberMatched"]), (&json!(0), &json!(all.len())));
     let beyond = api.get(&format!("{map}/collections/edges/items?after=999999")).await.json();
     assert_eq!((&beyond["numberReturned"], &beyond["numberMatched"]), (&json!(0), &json!(all.len())));
 }

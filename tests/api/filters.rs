@@ -99,7 +99,7 @@ async fn each_property_is_a_parameter() {
         async move { api.get(&path).await.problem(400, "bad-parameter")["errors"][0].clone() }
     };
     let item = |parameter: &str, detail: &str| json!({"parameter": parameter, "detail": detail});
-    assert_eq!(refused("id=one").await, item("id", "must be a number"));
+    assert_eq!(refused("id=one").await, item("id", "must be a whole number"));
     assert_eq!(refused("cogency=cogent").await, item("cogency", "is not a property of faces"));
     assert_eq!(refused("walls=1").await, item("walls", "is not a parameter of this operation"));
 }

@@ -86,6 +86,9 @@ async fn results_are_waited_for() {
     let again = api.send_json(Method::POST, EXECUTION, &[("prefer", "respond-async")], &body).await;
     let names: Vec<String> = again.json().as_object().expect("results").keys().cloned().collect();
     assert_eq!((again.status.as_u16(), names), (200, vec!["faces".to_owned()]));
+    let body = json!({"inputs": {"mapId": map}, "outputs": {"map": {}}, "response": "raw"});
+    let raw = api.send_json(Method::POST, EXECUTION, &[], &body).await.json();
+    assert!(raw["href"].as_str().is_some_and(|href| href.ends_with(&map)), "{raw}");
     let other = execute(&api, &[("prefer", "wait=0")], &json!({"mapId": map, "options": {"seed": 5}})).await;
     assert_eq!((other.status.as_u16(), &other.json()["status"]), (201, &json!("accepted")));
 }
@@ -111,14 +114,53 @@ async fn what_cannot_be_executed_is_refused_by_its_input() {
     let body = json!({"inputs": {"occupancyGrid": room()}, "outputs": {"none": {}}});
     let problem = api.send_json(Method::POST, EXECUTION, &[], &body).await.problem(422, "invalid");
     assert_eq!(problem["errors"][0]["pointer"], "/outputs/none");
+    let body = json!({"inputs": {"occupancyGrid": room()}, "response": "raw"});
+    let problem = api.send_json(Method::POST, EXECUTION, &[], &body).await.problem(422, "invalid");
+    assert_eq!(problem["errors"][0]["pointer"], "/response");
     assert_eq!(api.get("/v1/jobs?processID=semantic-map").await.json()["jobs"], json!([]));
 }
 
 #[tokio::test]
-async fn jobs_are_those_of_a_process() {
+async fn jobs_are_listed_by_process_time_and_duration() {
     let api = Api::new().await;
     execute(&api, &[("prefer", "respond-async")], &json!({"occupancyGrid": room()})).await;
+    api.app.run_until_empty().await.expect("the queue can be worked on");
+    execute(&api, &[("prefer", "respond-async")], &json!({"occupancyGrid": room(), "name": "waits"})).await;
     let count = async |query: &str| api.get(&format!("/v1/jobs?{query}")).await.json()["jobs"].as_array().map(Vec::len);
-    assert_eq!(count("processID=semantic-map,other").await, Some(1));
-    assert_eq!(count("processID=other").await, Some(0));
+    for (query, expected) in [
+        ("processID=semantic-map,other", 2),
+        ("processID=other", 0),
+        ("type=process", 2),
+        ("datetime=2026-01-01/..", 2),
+        ("datetime=../2026-01-01", 0),
+        // A job that waits has no duration.
+        ("minDuration=0", 1),
+        ("maxDuration=600", 1),
+        ("minDuration=600", 0),
+        ("status=accepted&maxDuration=600", 0),
+    ] {
+        assert_eq!(count(query).await, Some(expected), "{query}");
+    }
+    let page = api.get("/v1/jobs?datetime=2026-01-01/..&limit=1").await;
+    let next = page.json()["links"][1]["href"].as_str().expect("a second page").to_owned();
+    assert!(next.contains("?datetime=2026-01-01/..&limit=1&after="), "{next}");
+    assert_eq!(
+        api.get(next.trim_start_matches("http://stillage.test")).await.json()["jobs"][0]["status"],
+        "successful"
+    );
+}
+
+#[tokio::test]
+async fn the_root_of_processes_leads_to_them() {
+    let api = Api::new().await;
+    let root = api.get("/v1").await.json();
+    for rel in ["processes", "job-list", "conformance"] {
+        let rel = format!("http://www.opengis.net/def/rel/ogc/1.0/{rel}");
+        let links = root["links"].as_array().expect("links");
+        let href = links.iter().find(|link| link["rel"] == rel).expect("a link")["href"].as_str().expect("an address");
+        assert_eq!(api.get(href.trim_start_matches("http://stillage.test")).await.status, 200, "{href}");
+    }
+    let classes = api.get("/v1/conformance").await.json()["conformsTo"].clone();
+    let class = json!("http://www.opengis.net/spec/ogcapi-processes-1/1.0/conf/job-list");
+    assert!(classes.as_array().is_some_and(|classes| classes.contains(&class)), "{classes}");
 }

@@ -29,6 +29,8 @@ pub struct FeatureQuery {
     pub sort: Vec<SortKey>,
     /// The last feature of the page before.
     pub after: Option<FeatureId>,
+    /// How many are left out before the page.
+    pub offset: usize,
     /// Most features of a page.
     pub limit: usize,
 }
@@ -72,6 +74,7 @@ impl FeatureQuery {
                 None => 0,
             }
         };
+        let start = matched.len().min(start.saturating_add(self.offset));
         let end = matched.len().min(start.saturating_add(self.limit));
         Ok(Page { features: matched[start..end].to_vec(), matched: matched.len(), has_more: end < matched.len() })
     }

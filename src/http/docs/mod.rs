@@ -1,6 +1,8 @@
 //! The front door, the OpenAPI documents and the reference page made of them. Nothing loads from elsewhere.
 
+pub mod binary;
 mod for_clients;
+mod integers;
 mod of_map;
 pub mod openapi;
 pub mod problem_types;
@@ -30,6 +32,9 @@ use crate::http::public_address::PublicAddress;
 use crate::views::link::Link;
 use refusals::NotFound;
 
+/// What the service is called.
+pub const TITLE: &str = "stillage";
+
 /// The front door.
 #[derive(Debug, Serialize, ToSchema)]
 pub struct LandingPage {
@@ -39,6 +44,15 @@ pub struct LandingPage {
     links: Vec<Link>,
 }
 
+impl LandingPage {
+    /// A page with these links.
+    #[must_use]
+    pub const fn new(links: Vec<Link>) -> Self {
+        let (description, version) = (env!("CARGO_PKG_DESCRIPTION"), env!("CARGO_PKG_VERSION"));
+        Self { title: TITLE, description, version, links }
+    }
+}
+
 /// Landing page
 ///
 /// Leads to everything else.
@@ -46,25 +60,28 @@ pub struct LandingPage {
     responses((status = 200, description = "The landing page",
         content((LandingPage = "application/json"), (String = "text/html")))))]
 pub async fn landing(base: Base, accept: Accept) -> Response {
-    let view = LandingPage {
-        title: "stillage",
-        description: env!("CARGO_PKG_DESCRIPTION"),
-        version: env!("CARGO_PKG_VERSION"),
-        links: vec![
-            base.link("self", "/", JSON),
-            base.link("alternate", "/?f=html", HTML).titled("This document as a page"),
-            base.link("service-desc", "/openapi-3.0.json", OPENAPI_3_0).titled("The API as an OpenAPI 3.0 document"),
-            base.link("related", "/openapi.json", OPENAPI_3_1).titled("The API as an OpenAPI 3.1 document"),
-            base.link("service-doc", "/docs/", HTML).titled("The API reference"),
-            base.link("status", "/health/ready", JSON).titled("Readiness"),
-            base.link("data", "/v1/maps", JSON).titled("The maps"),
-            base.link("http://www.opengis.net/def/rel/ogc/1.0/processes", "/v1/processes", JSON)
-                .titled("The processes"),
-            base.link("http://www.opengis.net/def/rel/ogc/1.0/job-list", "/v1/jobs", JSON).titled("The jobs"),
-            base.link("related", "/v1/rule-sets", JSON).titled("The rule sets"),
-        ],
-    };
-    page::answer(&accept, view.title, &view)
+    let own = [
+        base.link("self", "/", JSON),
+        base.link("alternate", "/?f=html", HTML).titled("This document as a page"),
+        base.link("related", "/openapi.json", OPENAPI_3_1).titled("The API as an OpenAPI 3.1 document"),
+        base.link("status", "/health/ready", JSON).titled("Readiness"),
+    ];
+    let view = LandingPage::new(own.into_iter().chain(pages_of_the_api(&base)).collect());
+    page::answer(&accept, TITLE, &view)
+}
+
+/// Where the API is described, and where its resources begin.
+pub fn pages_of_the_api(base: &Base) -> [Link; 7] {
+    [
+        base.link("service-desc", "/openapi-3.0.json", OPENAPI_3_0).titled("The API as an OpenAPI 3.0 document"),
+        base.link("service-doc", "/docs/", HTML).titled("The API reference"),
+        base.link("http://www.opengis.net/def/rel/ogc/1.0/conformance", "/v1/conformance", JSON)
+            .titled("The standards that processes and jobs meet"),
+        base.link("http://www.opengis.net/def/rel/ogc/1.0/processes", "/v1/processes", JSON).titled("The processes"),
+        base.link("http://www.opengis.net/def/rel/ogc/1.0/job-list", "/v1/jobs", JSON).titled("The jobs"),
+        base.link("data", "/v1/maps", JSON).titled("The maps"),
+        base.link("related", "/v1/rule-sets", JSON).titled("The rule sets"),
+    ]
 }
 
 /// A document, written once, with its tag.

@@ -160,6 +160,7 @@ pub fn value(document: &OpenApi) -> Value {
             };
         }
     }
+    super::integers::tell_ranges(&mut document);
     document
 }
 

@@ -10,6 +10,7 @@ use crate::http::problem::{Problem, ProblemType};
 
 /// A kind of problem, described.
 #[derive(Debug, Serialize, ToSchema)]
+#[schema(as = ProblemType)]
 pub struct ProblemTypeView {
     /// Its URI.
     #[schema(example = "/problems/not-found")]

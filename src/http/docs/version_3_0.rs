@@ -120,10 +120,17 @@ fn convert_choice(schema: &mut Map<String, Value>, choice: &str) {
     if alternatives.len() == count {
         return;
     }
-    if alternatives.len() == 1
-        && let Some(only) = schema.remove(choice)
+    if let [Value::Object(only)] = alternatives.as_mut_slice()
+        && only.contains_key("$ref")
     {
-        schema.insert("allOf".to_owned(), only);
+        // Generators take a bare reference for the type that it names, and one with words beside it for a type of its own.
+        let words: Vec<(String, Value)> = only
+            .iter()
+            .filter(|(name, _)| *name != "$ref")
+            .map(|(name, value)| (name.clone(), value.clone()))
+            .collect();
+        only.retain(|name, _| name == "$ref");
+        schema.extend(words);
     }
     schema.insert("nullable".to_owned(), json!(true));
 }
@@ -144,7 +151,7 @@ mod tests {
             (json!({"type": ["string", "integer"]}), json!({"anyOf": [{"type": "string"}, {"type": "integer"}]})),
             (
                 json!({"oneOf": [{"type": "null"}, {"$ref": "#/x", "description": "d"}]}),
-                json!({"allOf": [{"description": "d", "allOf": [{"$ref": "#/x"}]}], "nullable": true}),
+                json!({"description": "d", "oneOf": [{"$ref": "#/x"}], "nullable": true}),
             ),
             (json!({"$ref": "#/x"}), json!({"$ref": "#/x"})),
             (json!({"const": 7}), json!({"enum": [7]})),

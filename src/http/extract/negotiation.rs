@@ -9,7 +9,7 @@ use axum::middleware::Next;
 use axum::response::{IntoResponse, Response};
 
 use crate::http::links::JSON_FG;
-use crate::http::problem::{Problem, ProblemType};
+use crate::http::problem::{PROBLEM_JSON, Problem, ProblemType};
 
 /// The name by which version 1.0 of JSON-FG calls itself until it is registered.
 const JSON_FG_VENDOR: &str = "application/vnd.ogc.fg+json";
@@ -58,9 +58,12 @@ fn is_json(essence: &str) -> bool {
 pub struct Accept(Vec<MediaRange>);
 
 impl Accept {
+    /// The ranges but for problem details, in which every refusal is written: clients made by openapi-generator accept
+    /// nothing else where the answer is no JSON, a picture for example.
     fn read(headers: &HeaderMap) -> Self {
         let values = headers.get_all(header::ACCEPT).iter().filter_map(|value| value.to_str().ok());
-        Self(values.flat_map(|value| value.split(',')).filter_map(|text| MediaRange::read(text.trim())).collect())
+        let ranges = values.flat_map(|value| value.split(',')).filter_map(|text| MediaRange::read(text.trim()));
+        Self(ranges.filter(|range| range.essence != PROBLEM_JSON).collect())
     }
 
     /// Quality of a media type: that of the closest range.
@@ -136,6 +139,12 @@ mod tests {
         for value in ["text/html", "image/png", "application/fg+json", "*/*;q=0", "application/geo+json;q=0, */*"] {
             assert!(!accept(value).accepts("application/geo+json"), "{value}");
         }
+    }
+
+    #[test]
+    fn problems_are_accepted_by_everybody() {
+        assert!(accept("application/problem+json").accepts("image/png"));
+        assert!(!accept("application/problem+json, text/html").accepts("image/png"));
     }
 
     #[test]

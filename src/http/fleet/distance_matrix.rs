@@ -30,7 +30,7 @@ pub struct MatrixRequest {
     to: Option<Vec<End>>,
     /// System of the coordinates; CRS84 when absent.
     #[serde(default)]
-    #[schema(value_type = Option<CrsName>)]
+    #[schema(required = false)]
     crs: CrsName,
     /// Distance that the middle of the vehicle keeps from obstacles, metres.
     #[serde(rename = "footprintRadiusM")]
@@ -50,6 +50,7 @@ pub struct MatrixRequest {
 
 /// Lengths and times, a row for each start.
 #[derive(Debug, Serialize, ToSchema)]
+#[schema(as = DistanceMatrix)]
 #[serde(rename_all = "camelCase")]
 pub struct MatrixView {
     /// Lengths, metres; null where no way leads.

@@ -14,6 +14,7 @@ use utoipa::openapi::{Required, Schema};
 
 use crate::app::{App, Caller};
 use crate::exports::{self, Export, ExportError, ExportKind, ExportOptions};
+use crate::http::docs::binary::Binary;
 use crate::http::docs::refusals::{Conflict, NotFound};
 use crate::http::extract::conditional::{EntityTag, IfNoneMatch};
 use crate::http::extract::{MapPath, Path, Query};
@@ -96,8 +97,8 @@ impl IntoParams for ExportParameters {
     responses((status = 200, description = "The file",
         content((serde_json::Value = "application/json"), (serde_json::Value = "application/geo+json"),
             (String = "application/yaml"), (String = "text/csv; charset=utf-8"), (String = "text/plain; charset=utf-8"),
-            (String = "application/graphml+xml"), (Vec<u8> = "application/zip"), (Vec<u8> = "application/flatgeobuf"),
-            (Vec<u8> = "application/vnd.openxmlformats-officedocument.spreadsheetml.sheet")),
+            (String = "application/graphml+xml"), (Binary = "application/zip"), (Binary = "application/flatgeobuf"),
+            (Binary = "application/vnd.openxmlformats-officedocument.spreadsheetml.sheet")),
         headers(("ETag" = String, description = "Changes with the map, its analysis, its labels and the options"),
             ("Content-Disposition" = String, description = "Name of the file"))),
         NotFound, Conflict))]

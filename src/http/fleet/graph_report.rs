@@ -15,6 +15,7 @@ use utoipa::IntoParams;
 
 use super::vehicle::Footprint;
 use crate::app::{App, AppError, Caller, MapContext};
+use crate::http::docs::binary::Binary;
 use crate::http::docs::refusals::{NotAnalysed, NotFound};
 use crate::http::extract::conditional::{EntityTag, IfNoneMatch};
 use crate::http::extract::{MapPath, Path, Query};
@@ -98,7 +99,7 @@ pub async fn get(
 /// where labels and obstacles disagree.
 #[utoipa::path(get, path = "/v1/maps/{mapId}/graph-report.png", tag = "fleet", operation_id = "getGraphReportImage",
     params(MapPath, ReportQuery),
-    responses((status = 200, description = "The picture", body = Vec<u8>, content_type = "image/png",
+    responses((status = 200, description = "The picture", body = Binary, content_type = "image/png",
         headers(("ETag" = String, description = "Changes with the picture"))),
         NotFound, NotAnalysed))]
 pub async fn picture(

@@ -142,6 +142,7 @@ pub struct RouteProperties {
 
 /// One step of turn-by-turn instructions.
 #[derive(Debug, Serialize, ToSchema)]
+#[schema(as = Instruction)]
 #[serde(rename_all = "camelCase")]
 pub struct InstructionView {
     /// `depart`, `left`, `right`, `turn-around` or `arrive`.
@@ -157,6 +158,7 @@ pub struct InstructionView {
 
 /// Another route.
 #[derive(Debug, Serialize, ToSchema)]
+#[schema(as = Alternative)]
 #[serde(rename_all = "camelCase")]
 pub struct AlternativeView {
     /// Length of the path, metres.

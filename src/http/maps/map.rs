@@ -165,6 +165,7 @@ pub async fn get(
 
 /// Changes to a map, as a JSON merge patch (RFC 7396).
 #[derive(Debug, Deserialize, ToSchema)]
+#[schema(as = MapPatch)]
 #[serde(deny_unknown_fields)]
 pub struct MapPatchBody {
     /// A new name.

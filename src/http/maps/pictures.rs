@@ -7,6 +7,7 @@ use axum::http::header;
 use axum::response::{IntoResponse, Response};
 
 use crate::app::{App, Caller, MapContext};
+use crate::http::docs::binary::Binary;
 use crate::http::docs::refusals::{NotAnalysed, NotFound};
 use crate::http::extract::conditional::{EntityTag, IfNoneMatch};
 use crate::http::extract::{MapPath, Path};
@@ -47,7 +48,7 @@ async fn picture(
 /// The occupancy grid as `map_saver` draws it: free white, occupied black, unknown grey. It is there as soon as the map
 /// is uploaded; thresholds of the options count once an analysis with them is in force.
 #[utoipa::path(get, path = "/v1/maps/{mapId}/image.png", tag = "maps", operation_id = "getImage", params(MapPath),
-    responses((status = 200, description = "The picture", body = Vec<u8>, content_type = "image/png",
+    responses((status = 200, description = "The picture", body = Binary, content_type = "image/png",
         headers(("ETag" = String, description = "Changes with the picture"))),
         NotFound))]
 pub async fn image(
@@ -68,7 +69,7 @@ pub async fn image(
 /// One colour per category of the cells; the palette index is the category + 1.
 #[utoipa::path(get, path = "/v1/maps/{mapId}/categories.png", tag = "maps", operation_id = "getCategoriesImage",
     params(MapPath),
-    responses((status = 200, description = "The picture", body = Vec<u8>, content_type = "image/png",
+    responses((status = 200, description = "The picture", body = Binary, content_type = "image/png",
         headers(("ETag" = String, description = "Changes with the picture"))),
         NotFound, NotAnalysed))]
 pub async fn categories(
@@ -86,7 +87,7 @@ pub async fn categories(
 /// Coloured over the dimmed map.
 #[utoipa::path(get, path = "/v1/maps/{mapId}/regions.png", tag = "maps", operation_id = "getRegionsImage",
     params(MapPath),
-    responses((status = 200, description = "The picture", body = Vec<u8>, content_type = "image/png",
+    responses((status = 200, description = "The picture", body = Binary, content_type = "image/png",
         headers(("ETag" = String, description = "Changes with the picture"))),
         NotFound, NotAnalysed))]
 pub async fn regions(
@@ -104,7 +105,7 @@ pub async fn regions(
 /// Drawn like the paper's Fig. 9: faces by label, cogency of the edges, a legend.
 #[utoipa::path(get, path = "/v1/maps/{mapId}/semantic.png", tag = "maps", operation_id = "getSemanticImage",
     params(MapPath),
-    responses((status = 200, description = "The picture", body = Vec<u8>, content_type = "image/png",
+    responses((status = 200, description = "The picture", body = Binary, content_type = "image/png",
         headers(("ETag" = String, description = "Changes with the picture"))),
         NotFound, NotAnalysed))]
 pub async fn semantic(

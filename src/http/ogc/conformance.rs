@@ -54,6 +54,14 @@ pub struct Conformance {
     conforms_to: &'static [&'static str],
 }
 
+impl Conformance {
+    /// With these classes.
+    #[must_use]
+    pub const fn with(conforms_to: &'static [&'static str]) -> Self {
+        Self { conforms_to }
+    }
+}
+
 /// Conformance
 ///
 /// The classes of requirements of the OGC standards that the API of a map meets.
@@ -68,5 +76,5 @@ pub async fn get(
     accept: Accept,
 ) -> Result<Response, Problem> {
     let map = app.map(&caller, path.map_id.0).await?;
-    Ok(page::answer(&accept, &format!("Conformance of {}", map.name), &Conformance { conforms_to: &CONFORMS_TO }))
+    Ok(page::answer(&accept, &format!("Conformance of {}", map.name), &Conformance::with(&CONFORMS_TO)))
 }

@@ -32,18 +32,18 @@ pub struct ExecuteBody {
     /// The outputs that a synchronous answer holds, by name; all when absent.
     #[schema(value_type = Option<Object>, example = json!({"faces": {}}))]
     outputs: Option<BTreeMap<String, Value>>,
-    /// Outputs come as a document.
-    #[serde(rename = "response")]
-    #[schema(inline)]
-    _response: Option<ResponseForm>,
+    /// The form of a synchronous answer; a document when absent.
+    response: Option<ResponseForm>,
 }
 
 /// The form of an answer.
-#[derive(Debug, Deserialize, ToSchema)]
+#[derive(Debug, Clone, Copy, Deserialize, ToSchema)]
 #[serde(rename_all = "lowercase")]
 enum ResponseForm {
     /// A JSON object with a member for each output.
     Document,
+    /// The value of the one output that is named.
+    Raw,
 }
 
 /// A map, and how it is analysed. The map is one of three: `mapId`, `occupancyGrid`, or `image` with `metadata`. A value may
@@ -85,12 +85,19 @@ pub struct Execution {
     /// What is to be analysed.
     pub analysed: Analysed,
     outputs: Option<BTreeMap<String, Value>>,
+    response: Option<ResponseForm>,
 }
 
 impl Execution {
     /// Whether an output is to be in the answer.
     pub fn wants(&self, output: &str) -> bool {
         self.outputs.as_ref().is_none_or(|outputs| outputs.contains_key(output))
+    }
+
+    /// The output whose value is the whole answer, if there is one.
+    pub fn raw_output(&self) -> Option<&str> {
+        let outputs = self.outputs.as_ref().filter(|_| matches!(self.response, Some(ResponseForm::Raw)))?;
+        outputs.keys().next().map(String::as_str)
     }
 
     /// Where in the body a pointer into an upload or into options leads.
@@ -103,7 +110,7 @@ impl Execution {
 }
 
 impl ExecuteBody {
-    /// Checks that there is one map, and that the outputs are outputs.
+    /// Checks that there is one map, that the outputs are outputs, and that a raw answer has one.
     ///
     /// # Errors
     /// 422 with the pointer of the input.
@@ -113,6 +120,10 @@ impl ExecuteBody {
                 let detail = format!("is not an output: those are {}", OUTPUTS.join(", "));
                 return Err(Problem::invalid(format!("/outputs/{}", pointer_step(name)), detail));
             }
+        }
+        if matches!(self.response, Some(ResponseForm::Raw)) && self.outputs.as_ref().map(BTreeMap::len) != Some(1) {
+            let detail = "a raw answer is one value: name one output in outputs, or ask for a document";
+            return Err(Problem::invalid("/response", detail));
         }
         let ExecuteInputs { map_id, occupancy_grid, image, metadata, name, options } = self.inputs;
         if metadata.is_some() && image.is_none() {
@@ -149,7 +160,7 @@ impl ExecuteBody {
                 return Err(Problem::invalid("/inputs", "needs one map: mapId, occupancyGrid, or image with metadata"));
             }
         };
-        Ok(Execution { analysed, outputs: self.outputs })
+        Ok(Execution { analysed, outputs: self.outputs, response: self.response })
     }
 }
 

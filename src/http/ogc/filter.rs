@@ -100,7 +100,11 @@ pub fn equal(collection: Collection, values: &[(String, String)]) -> Result<Vec<
 fn literal(property: &Property, text: &str) -> Result<Expression, &'static str> {
     match property.kind {
         Kind::Boolean => text.parse().map(Expression::Boolean).map_err(|_| "must be true or false"),
-        Kind::Integer | Kind::Number => {
+        Kind::Integer => {
+            let number = text.parse().ok().filter(|number: &f64| number.is_finite() && number.fract() == 0.0);
+            number.map(Expression::Number).ok_or("must be a whole number")
+        }
+        Kind::Number => {
             let number = text.parse().ok().filter(|number: &f64| number.is_finite());
             number.map(Expression::Number).ok_or("must be a number")
         }
@@ -108,10 +112,18 @@ fn literal(property: &Property, text: &str) -> Result<Expression, &'static str> 
     }
 }
 
+/// Name of the parameter by which clients count: a property of this name is compared in a `filter` only.
+const PAGING: &str = "offset";
+
+/// Whether a property has a parameter of its own.
+fn has_parameter(property: &Property) -> bool {
+    property.kind.is_scalar() && property.name != PAGING
+}
+
 /// A property that has a parameter of its own.
 fn scalar(collection: Collection, name: &str) -> Option<&'static Property> {
     let schema = CollectionSchema::of(collection);
-    schema.find(name).map(|index| &schema.properties[index]).filter(|property| property.kind.is_scalar())
+    schema.find(name).map(|index| &schema.properties[index]).filter(|property| has_parameter(property))
 }
 
 /// Whether a collection has a parameter of this name for a property, or no collection has.
@@ -132,9 +144,8 @@ impl IntoParams for PropertyParameters {
     fn into_params(_: impl Fn() -> Option<ParameterIn>) -> Vec<Parameter> {
         let mut collections: BTreeMap<&str, Vec<(Collection, &Property)>> = BTreeMap::new();
         for collection in Collection::ALL {
-            let scalars =
-                CollectionSchema::of(collection).properties.iter().filter(|property| property.kind.is_scalar());
-            scalars.for_each(|property| collections.entry(property.name).or_default().push((collection, property)));
+            let having = CollectionSchema::of(collection).properties.iter().filter(|property| has_parameter(property));
+            having.for_each(|property| collections.entry(property.name).or_default().push((collection, property)));
         }
         collections.into_iter().map(|(name, having)| parameter(name, &having)).collect()
     }

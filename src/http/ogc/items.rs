@@ -17,6 +17,7 @@ use crate::blocking::off_the_runtime;
 use crate::coordinates::{Georeference, Transform};
 use crate::features::query::{self, VanishedFeature};
 use crate::features::{Collection, CollectionSchema};
+use crate::http::docs::binary::Binary;
 use crate::http::docs::refusals::{NotAnalysed, NotFound};
 use crate::http::extract::conditional::{EntityTag, IfNoneMatch};
 use crate::http::extract::crs::CrsName;
@@ -36,7 +37,7 @@ use crate::views::id::Id;
     operation_id = "getFeatures", params(CollectionPath, ItemsQuery, PropertyParameters),
     responses((status = 200, description = "A page of features",
         content((FeatureCollectionView = "application/geo+json"), (FeatureCollectionView = "application/fg+json"),
-            (String = "text/html"), (String = "text/csv"), (String = "application/flatgeobuf")),
+            (String = "text/html"), (String = "text/csv"), (Binary = "application/flatgeobuf")),
         headers(("ETag" = String, description = "Changes with the map, its analysis and its labels"),
             ("Content-Crs" = Option<String>, description = "System of the coordinates"),
             ("Link" = Option<String>, description = "The next page"))),

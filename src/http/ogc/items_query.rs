@@ -46,7 +46,7 @@ pub struct ItemsQuery {
     #[param(value_type = Option<String>, rename = "datetime", example = "2026-01-01T00:00:00Z/..")]
     _datetime: Option<Datetime>,
     /// A condition that selects features, in the language that `filter-lang` says: `areaM2 > 20 AND label = 'co'`.
-    #[param(max_length = 65_536, example = "id < 100")]
+    #[param(max_length = 32_768, example = "id < 100")]
     filter: Option<String>,
     /// The language of `filter`; `cql-text` is an old name of `cql2-text`, which is the default.
     #[serde(default, rename = "filter-lang")]
@@ -70,6 +70,11 @@ pub struct ItemsQuery {
     /// Id of the last feature of the page before: taken from the `next` link.
     #[param(max_length = 64)]
     after: Option<String>,
+    /// How many features are left out before the page, for clients that count; `next` links go on after a feature, so that
+    /// nothing is skipped or repeated when features come and go.
+    #[serde(default)]
+    #[param(value_type = Option<u32>, default = 0)]
+    offset: u32,
     /// Properties and what they are to be equal to, each a parameter of its own.
     #[serde(skip)]
     #[param(ignore)]
@@ -131,6 +136,7 @@ impl ItemsQuery {
             filters,
             sort: sort.transpose().map_err(|detail| Problem::parameter("sortby", detail))?.unwrap_or_default(),
             after: after.transpose().map_err(|detail| Problem::parameter("after", detail))?,
+            offset: self.offset as usize,
             limit,
         })
     }
@@ -163,7 +169,7 @@ impl ItemsQuery {
         self.after.as_deref()
     }
 
-    /// The query string of a page of the same selection.
+    /// The query string of this page, or of one of the same selection after another feature.
     pub fn parameters(&self, format: Format, after: Option<&str>) -> String {
         let mut parameters = Vec::new();
         parameters.extend(self.ids.as_ref().map(|ids| format!("ids={}", encode(ids))));
@@ -185,6 +191,9 @@ impl ItemsQuery {
             Some(limit) => parameters.push(format!("limit={}", limit.0)),
             None if format.is_whole() => {}
             None => parameters.push(format!("limit={DEFAULT_LIMIT}")),
+        }
+        if self.offset > 0 && after == self.after() {
+            parameters.push(format!("offset={}", self.offset));
         }
         parameters.extend(after.map(|after| format!("after={}", encode(after))));
         if format != Format::GeoJson {

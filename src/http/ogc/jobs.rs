@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use axum::Json;
-use axum::extract::State;
+use axum::extract::{RawQuery, State};
 use axum::http::{HeaderMap, StatusCode, header};
 use axum::response::sse::{Event, KeepAlive, Sse};
 use axum::response::{IntoResponse, Response};
@@ -16,8 +16,9 @@ use utoipa::{IntoParams, ToSchema};
 
 use crate::app::{App, AppError, Caller, JobFilter, JobRecord, JobState};
 use crate::http::docs::refusals::{Conflict, NotFound};
+use crate::http::extract::datetime::Datetime;
 use crate::http::extract::{ListLimit, Path, Query};
-use crate::http::links::{Base, JSON, encode, header as link_header};
+use crate::http::links::{Base, JSON, header as link_header};
 use crate::http::paging::cut;
 use crate::http::problem::Problem;
 use crate::views::id::Id;
@@ -63,7 +64,7 @@ pub struct JobPath {
 /// Which jobs to list.
 #[derive(Debug, Deserialize, IntoParams)]
 #[into_params(parameter_in = Query)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, rename_all = "camelCase")]
 pub struct JobQuery {
     /// States, separated by commas.
     #[param(value_type = Option<Vec<JobStatus>>, style = Form, explode = false, min_items = 1)]
@@ -76,12 +77,39 @@ pub struct JobQuery {
     #[serde(rename = "type")]
     #[param(inline, rename = "type")]
     _type: Option<JobType>,
+    /// When they were accepted: a time, a day, or an interval such as `2026-01-01/..`.
+    #[param(value_type = Option<String>, example = "2026-01-01T00:00:00Z/..")]
+    datetime: Option<Datetime>,
+    /// Seconds that they took at least, or have been running for.
+    #[param(value_type = Option<u32>, rename = "minDuration")]
+    min_duration: Option<u32>,
+    /// Seconds that they took at most, or have been running for.
+    #[param(value_type = Option<u32>, rename = "maxDuration")]
+    max_duration: Option<u32>,
     /// Most entries of the answer, and never more than 1,000.
     #[serde(default)]
     #[param(value_type = Option<u32>, minimum = 1, default = 100)]
     limit: ListLimit,
     /// Id of the last job of the page before: taken from the `next` link.
     after: Option<Id>,
+}
+
+impl JobQuery {
+    /// What the store is asked for: one job more than the page has.
+    fn filter(self) -> JobFilter {
+        let seconds = |seconds: u32| Duration::from_secs(seconds.into());
+        JobFilter {
+            states: self.status.map(|states| states.0).unwrap_or_default(),
+            processes: self.process_id.iter().flat_map(|ids| ids.split(',')).map(str::to_owned).collect(),
+            map: None,
+            created_from: self.datetime.and_then(|time| time.start),
+            created_to: self.datetime.and_then(|time| time.end),
+            min_duration: self.min_duration.map(seconds),
+            max_duration: self.max_duration.map(seconds),
+            limit: self.limit.0 + 1,
+            after: self.after.map(|id| id.0),
+        }
+    }
 }
 
 /// Type of a job.
@@ -95,10 +123,7 @@ pub enum JobType {
 /// A list of states as a parameter.
 #[derive(Debug, Deserialize)]
 #[serde(try_from = "String")]
-struct States {
-    states: Vec<JobState>,
-    text: String,
-}
+struct States(Vec<JobState>);
 
 impl TryFrom<String> for States {
     type Error = String;
@@ -112,7 +137,7 @@ impl TryFrom<String> for States {
             "dismissed" => Ok(JobState::Dismissed),
             _ => Err(format!("{name:?} is none of accepted, running, successful, failed, dismissed")),
         };
-        Ok(Self { states: text.split(',').map(state).collect::<Result<_, _>>()?, text })
+        text.split(',').map(state).collect::<Result<_, _>>().map(Self)
     }
 }
 
@@ -133,21 +158,18 @@ pub async fn list(
     State(app): State<Arc<App>>,
     caller: Caller,
     base: Base,
+    RawQuery(asked): RawQuery,
     Query(query): Query<JobQuery>,
 ) -> Result<Response, Problem> {
     let limit = query.limit.0;
-    let (states, text) = query.status.map(|status| (status.states, status.text)).unwrap_or_default();
-    let processes: Vec<String> = query.process_id.iter().flat_map(|ids| ids.split(',')).map(str::to_owned).collect();
-    let of_processes = query.process_id.map(|ids| format!("&processID={}", encode(&ids))).unwrap_or_default();
-    let after = query.after.map(|id| id.0);
-    let filter = JobFilter { states, processes, map: None, limit: limit + 1, after };
-    let (jobs, more) = cut(app.jobs(&caller, filter).await?, limit);
-    let status = if text.is_empty() { String::new() } else { format!("&status={text}") };
-    let next = jobs
-        .last()
-        .filter(|_| more)
-        .map(|last| format!("/v1/jobs?limit={limit}{status}{of_processes}&after={}", last.id));
-    let next = next.map(|path| base.link("next", &path, JSON));
+    let (jobs, more) = cut(app.jobs(&caller, query.filter()).await?, limit);
+    let asked = asked.unwrap_or_default();
+    let next = jobs.last().filter(|_| more).map(|last| {
+        // The same question, from the last job on.
+        let kept = asked.split('&').filter(|pair| !pair.is_empty() && !pair.starts_with("after="));
+        let pairs: Vec<String> = kept.map(str::to_owned).chain([format!("after={}", last.id)]).collect();
+        base.link("next", &format!("/v1/jobs?{}", pairs.join("&")), JSON)
+    });
     let headers: HeaderMap = next.iter().map(|link| (header::LINK, link_header(link))).collect();
     let links = std::iter::once(base.link("self", "/v1/jobs", JSON)).chain(next).collect();
     let jobs = jobs.into_iter().map(|job| view(&base, job)).collect();
@@ -283,7 +305,7 @@ mod tests {
     #[test]
     fn states_are_listed_with_commas() {
         let states = States::try_from("running,failed".to_owned()).expect("are states");
-        assert_eq!(states.states, [JobState::Running, JobState::Failed]);
+        assert_eq!(states.0, [JobState::Running, JobState::Failed]);
         let refused = States::try_from("runing".to_owned()).expect_err("is none");
         assert_eq!(refused, "\"runing\" is none of accepted, running, successful, failed, dismissed");
     }

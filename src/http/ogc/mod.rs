@@ -13,3 +13,4 @@ pub mod items_query;
 pub mod jobs;
 pub mod processes;
 pub mod queryables;
+pub mod root;

@@ -8,10 +8,11 @@ use axum::extract::State;
 use axum::http::{HeaderValue, StatusCode};
 use axum::response::{IntoResponse, Response};
 use serde::Deserialize;
+use serde_json::json;
 use utoipa::IntoParams;
 use uuid::Uuid;
 
-use super::execution_body::{Analysed, ExecuteBody};
+use super::execution_body::{Analysed, ExecuteBody, Execution};
 use super::jobs::{self, JobPath};
 use crate::app::{ANALYSIS, AnalysisTicket, App, AppError, Caller, JobState};
 use crate::http::docs::refusals::{NoSpace, NotFound};
@@ -119,14 +120,11 @@ pub async fn execute(
         error => Problem::from(error).map_pointers(|pointer| execution.pointer(pointer)),
     })?;
     let job = match ticket {
-        AnalysisTicket::Existing(record) => {
-            let results = results(&base, record.map, record.id, |output| execution.wants(output));
-            return Ok(Json(results).into_response());
-        }
+        AnalysisTicket::Existing(record) => return Ok(answer(&base, record.map, record.id, &execution)),
         AnalysisTicket::Job(job) => app.job_within(&caller, job.id, prefer.patience(PATIENCE)).await?,
     };
     if let (JobState::Successful, Some(analysis)) = (job.state, job.analysis()) {
-        return Ok(Json(results(&base, job.map, analysis, |output| execution.wants(output))).into_response());
+        return Ok(answer(&base, job.map, analysis, &execution));
     }
     let mut response = jobs::accepted(&base, job);
     *response.status_mut() = StatusCode::CREATED;
@@ -134,6 +132,15 @@ pub async fn execute(
         response.headers_mut().insert("preference-applied", HeaderValue::from_static("respond-async"));
     }
     Ok(response)
+}
+
+/// What an execution asked for.
+fn answer(base: &Base, map: Uuid, analysis: Uuid, execution: &Execution) -> Response {
+    let results = results(base, map, analysis, |output| execution.wants(output));
+    match execution.raw_output() {
+        None => Json(results).into_response(),
+        Some(output) => Json(&json!(results)[output]).into_response(),
+    }
 }
 
 fn results(base: &Base, map: Uuid, analysis: Uuid, wants: impl Fn(&str) -> bool) -> ResultsView {

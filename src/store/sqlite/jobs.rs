@@ -1,5 +1,7 @@
 //! Rows of jobs as clients see them.
 
+use std::time::Duration;
+
 use async_trait::async_trait;
 use jiff::Timestamp;
 use sqlx::SqliteConnection;
@@ -9,7 +11,7 @@ use uuid::Uuid;
 use super::Sqlite;
 use super::rows::{Columns, job_record, json};
 use crate::records::{JobFilter, JobRecord, JobState, Tenant};
-use crate::store::{Jobs, NewJob, StoreError};
+use crate::store::{Jobs, NewJob, StoreError, now};
 
 #[async_trait]
 impl Jobs for Sqlite {
@@ -50,6 +52,9 @@ impl Jobs for Sqlite {
             "SELECT * FROM jobs WHERE tenant = $5 AND ($1 IS NULL OR id < $1) AND ($2 IS NULL OR map = $2) \
                  AND ($3 = '[]' OR state IN (SELECT value FROM json_each($3))) \
                  AND ($6 = '[]' OR process IN (SELECT value FROM json_each($6))) \
+                 AND ($7 IS NULL OR created >= $7) AND ($8 IS NULL OR created <= $8) \
+                 AND ($9 IS NULL OR coalesce(finished, $11) - started >= $9) \
+                 AND ($10 IS NULL OR coalesce(finished, $11) - started <= $10) \
              ORDER BY id DESC LIMIT $4",
         )
         .bind(filter.after.map(|id| id.to_string()))
@@ -58,6 +63,11 @@ impl Jobs for Sqlite {
         .bind(filter.limit)
         .bind(tenant.as_str())
         .bind(json(&filter.processes))
+        .bind(filter.created_from.map(Timestamp::as_microsecond))
+        .bind(filter.created_to.map(Timestamp::as_microsecond))
+        .bind(filter.min_duration.map(microseconds))
+        .bind(filter.max_duration.map(microseconds))
+        .bind(now().as_microsecond())
         .fetch_all(&self.readers)
         .await?;
         rows.iter().map(job_record).collect()
@@ -70,6 +80,11 @@ impl Jobs for Sqlite {
         let count = |row: &SqliteRow| Ok((row.state()?, row.whole("jobs")?));
         rows.iter().map(count).collect()
     }
+}
+
+/// Microseconds, as the columns of times count.
+fn microseconds(duration: Duration) -> i64 {
+    i64::try_from(duration.as_micros()).unwrap_or(i64::MAX)
 }
 
 /// Queues a job.
