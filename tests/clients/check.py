@@ -4,6 +4,7 @@ import json
 import pathlib
 import subprocess
 import sys
+import time
 import urllib.parse
 import urllib.request
 
@@ -11,6 +12,7 @@ import jsonschema
 import openapi_spec_validator
 import pyogrio
 from owslib.ogcapi.features import Features
+from owslib.ogcapi.processes import Processes
 
 
 MAP, SCHEMAS, WORK = sys.argv[1], pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3])
@@ -129,6 +131,21 @@ def owslib_reads():
     assert client.api()["openapi"] == "3.0.3"
 
 
+def owslib_executes():
+    """OWSLib: processes, a description, an execution that waits, one that does not, and its results."""
+    client = Processes(f"{SERVICE}/v1/")
+    assert any(uri.endswith("ogcapi-processes-1/1.0/conf/core") for uri in client.conformance()["conformsTo"])
+    assert [process["id"] for process in client.processes()] == ["semantic-map"]
+    assert "mapId" in client.process("semantic-map")["inputs"]
+    inputs = {"mapId": MAP.rsplit("/", 1)[1]}
+    assert client.execute("semantic-map", inputs)["faces"]["href"] == f"{MAP}/collections/faces/items"
+    job = client.execute("semantic-map", inputs | {"options": {"seed": 7}}, async_=True)["jobID"]
+    while get(f"{SERVICE}/v1/jobs/{job}")["status"] in ("accepted", "running"):
+        time.sleep(0.2)
+    assert get(f"{SERVICE}/v1/jobs/{job}/results")["map"]["href"] == MAP
+    assert job in [one["jobID"] for one in get(f"{SERVICE}/v1/jobs?status=successful&minDuration=0")["jobs"]]
+
+
 def a_surveyed_map_is_in_its_zone():
     """GDAL of today: a map that is surveyed is in metres of its zone of UTM, where it lies on Earth."""
     place = json.dumps({"georeference": {"lon": 12.8572, "lat": 56.6745, "heading": 30}}).encode()
@@ -150,6 +167,7 @@ for check in (
     todays_gdal_leaves_selections_to_the_service,
     files_are_read,
     owslib_reads,
+    owslib_executes,
     a_surveyed_map_is_in_its_zone,
 ):
     check()
