@@ -79,7 +79,7 @@ pub async fn create(
         return Err(Problem::invalid("/from", detail));
     }
     let context = app.context(&caller, path.map_id.0).await?;
-    off_the_runtime(move || measure(&context, &body).map(Json)).await
+    off_the_runtime(move || measure(&context, &body).map(Json).map_err(Problem::in_body)).await
 }
 
 fn measure(context: &MapContext, body: &MatrixRequest) -> Result<MatrixView, Problem> {

@@ -100,6 +100,18 @@ impl Problem {
         self
     }
 
+    /// A refusal of parameters as one of the members of a body that have their names.
+    #[must_use]
+    pub fn in_body(mut self) -> Self {
+        for item in &mut self.errors {
+            item.pointer = item.parameter.take().map(|name| format!("/{name}")).or(item.pointer.take());
+        }
+        if self.kind == ProblemType::BadParameter {
+            self.kind = ProblemType::Invalid;
+        }
+        self
+    }
+
     /// The kind of the problem.
     #[cfg(test)]
     pub const fn kind(&self) -> ProblemType {
