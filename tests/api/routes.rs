@@ -45,7 +45,8 @@ async fn no_route_says_why() {
     let metres = api.get(&format!("{map}/at?point=-1,3.5")).await.problem(404, "outside-map");
     assert!(metres["detail"].as_str().expect("a text").ends_with("; did you mean crs=EPSG:3857?"), "{metres}");
     let blocked = api.get(&format!("{routes}&from=-1.9,3.5&to=12,0")).await.problem(404, "route-blocked");
-    assert!(blocked["detail"].as_str().expect("a text").ends_with("would do"), "{blocked}");
+    let [x, y] = [0, 1].map(|axis| blocked["position"][axis].as_f64().expect("a number"));
+    assert!(blocked["detail"].as_str().expect("a text").ends_with(&format!("; {x},{y} would do")), "{blocked}");
     let wide = api
         .get(&format!("{map}/routes?crs=EPSG:3857&from=-1,3.5&to=12,0&footprintRadiusM=3"))
         .await

@@ -7,6 +7,17 @@ use crate::app::MapContext;
 use crate::coordinates::Transform;
 use crate::http::problem::{Problem, ProblemType};
 
+/// Where the reason lies, or what would do instead, in the grid frame.
+fn position(reason: &NoRoute) -> Option<Point> {
+    match reason {
+        NoRoute::CannotStand { nearest, .. } | NoRoute::NotDrivable { nearest, .. } => *nearest,
+        NoRoute::TooNarrow { at, .. } | NoRoute::CannotTurn { at, .. } => Some(*at),
+        NoRoute::NoApproach { .. } | NoRoute::EndBlocked { .. } | NoRoute::CutOff | NoRoute::Disconnected { .. } => {
+            None
+        }
+    }
+}
+
 /// The problem detail; points are told in the coordinates of the request. `radius` is that of the vehicle, metres.
 pub fn problem(reason: &NoRoute, context: &MapContext, transform: &Transform, radius: f64) -> Problem {
     let place = |point: Point| {
@@ -73,4 +84,5 @@ pub fn problem(reason: &NoRoute, context: &MapContext, transform: &Transform, ra
         }
     };
     Problem::new(kind, detail)
+        .on_map(position(reason).map(|point| transform.readable(context.analysis.frame.to_map(point))))
 }

@@ -34,10 +34,11 @@ impl ProblemItem {
 }
 
 /// A refusal.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Problem {
     kind: ProblemType,
     detail: String,
+    position: Option<[f64; 2]>,
     errors: Vec<ProblemItem>,
     retry_after_s: Option<u32>,
 }
@@ -53,7 +54,7 @@ impl Problem {
     /// A refusal with its reason, for people.
     #[must_use]
     pub fn new(kind: ProblemType, detail: impl Into<String>) -> Self {
-        Self { kind, detail: detail.into(), errors: Vec::new(), retry_after_s: None }
+        Self { kind, detail: detail.into(), position: None, errors: Vec::new(), retry_after_s: None }
     }
 
     /// A query parameter that is unknown or wrong.
@@ -88,6 +89,13 @@ impl Problem {
     #[must_use]
     pub const fn retry_after(mut self, seconds: u32) -> Self {
         self.retry_after_s = Some(seconds);
+        self
+    }
+
+    /// Tells where on the map the reason lies, in the coordinates of the request.
+    #[must_use]
+    pub const fn on_map(mut self, position: Option<[f64; 2]>) -> Self {
+        self.position = position;
         self
     }
 
@@ -133,6 +141,7 @@ impl Problem {
             status: self.kind.status().as_u16(),
             detail: self.detail.clone(),
             instance: instance.to_owned(),
+            position: self.position,
             errors: self.errors.clone(),
         }
     }
@@ -157,6 +166,11 @@ pub struct ProblemDocument {
     /// The path of the request.
     #[schema(format = "uri-reference", example = "/v1/maps/019ab3c2-0000-7000-8000-000000000000")]
     instance: String,
+    /// Where on the map a route fails, or the nearest place that would do: x and y, or longitude and latitude, in the
+    /// coordinates of the request.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schema(required = false, example = json!([12.05, -7.35]))]
+    position: Option<[f64; 2]>,
     /// What is wrong, piece by piece, where that is known.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     errors: Vec<ProblemItem>,
