@@ -8,6 +8,7 @@
 
 mod admin;
 mod answers;
+mod dashboard;
 mod docs;
 mod extract;
 pub(crate) mod fleet;
@@ -63,6 +64,7 @@ fn routes(upload_bytes: usize) -> OpenApiRouter<Arc<App>> {
 fn answered_in_time() -> OpenApiRouter<Arc<App>> {
     OpenApiRouter::new()
         .routes(routes!(docs::landing))
+        .route(dashboard::ASSET_PATH, axum::routing::get(dashboard::asset))
         .routes(routes!(docs::openapi))
         .routes(routes!(docs::openapi_3_0))
         .routes(routes!(docs::problem_types::describe))
@@ -180,11 +182,12 @@ pub fn router(app: Arc<App>) -> Router {
 /// Middleware: nothing is sniffed, framed or loaded from elsewhere.
 async fn browser_headers(request: Request, next: Next) -> Response {
     let mut response = next.run(request).await;
-    // The styles and icons that swagger-ui writes into its page.
+    // The styles and icons that swagger-ui writes into its page. The dashboard has a stricter policy of its own.
     let policy = "default-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' data:; frame-ancestors 'none'";
-    response.headers_mut().extend([
+    let headers = response.headers_mut();
+    headers.entry(header::CONTENT_SECURITY_POLICY).or_insert(HeaderValue::from_static(policy));
+    headers.extend([
         (header::X_CONTENT_TYPE_OPTIONS, HeaderValue::from_static("nosniff")),
-        (header::CONTENT_SECURITY_POLICY, HeaderValue::from_static(policy)),
         (HeaderName::from_static("cross-origin-resource-policy"), HeaderValue::from_static("cross-origin")),
         (header::REFERRER_POLICY, HeaderValue::from_static("no-referrer")),
     ]);

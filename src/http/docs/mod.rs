@@ -11,10 +11,10 @@ mod version_3_0;
 
 use std::sync::Arc;
 
-use axum::Extension;
 use axum::extract::State;
 use axum::http::header::CONTENT_TYPE;
 use axum::response::{IntoResponse, Response};
+use axum::{Extension, Json};
 use bytes::Bytes;
 use serde::Serialize;
 use serde_json::Value;
@@ -26,9 +26,9 @@ use crate::http::extract::conditional::{EntityTag, IfNoneMatch};
 use crate::http::extract::negotiation::Accept;
 use crate::http::extract::{MapPath, Path};
 use crate::http::links::{Base, HTML, JSON, OPENAPI_3_0, OPENAPI_3_1};
-use crate::http::page;
 use crate::http::problem::Problem;
 use crate::http::public_address::PublicAddress;
+use crate::http::{dashboard, page};
 use crate::views::link::Link;
 use refusals::NotFound;
 
@@ -55,19 +55,21 @@ impl LandingPage {
 
 /// Landing page
 ///
-/// Leads to everything else.
+/// Leads to everything else. Browsers get the dashboard.
 #[utoipa::path(get, path = "/", tag = "service", operation_id = "getLandingPage",
-    responses((status = 200, description = "The landing page",
+    responses((status = 200, description = "The landing page, or the dashboard",
         content((LandingPage = "application/json"), (String = "text/html")))))]
-pub async fn landing(base: Base, accept: Accept) -> Response {
+pub async fn landing(base: Base, accept: Accept, if_none_match: IfNoneMatch) -> Response {
+    if page::is_wanted(&accept) {
+        return dashboard::page(&if_none_match);
+    }
     let own = [
         base.link("self", "/", JSON),
-        base.link("alternate", "/?f=html", HTML).titled("This document as a page"),
+        base.link("alternate", "/?f=html", HTML).titled("The dashboard"),
         base.link("related", "/openapi.json", OPENAPI_3_1).titled("The API as an OpenAPI 3.1 document"),
         base.link("status", "/health/ready", JSON).titled("Readiness"),
     ];
-    let view = LandingPage::new(own.into_iter().chain(pages_of_the_api(&base)).collect());
-    page::answer(&accept, TITLE, &view)
+    Json(LandingPage::new(own.into_iter().chain(pages_of_the_api(&base)).collect())).into_response()
 }
 
 /// Where the API is described, and where its resources begin.

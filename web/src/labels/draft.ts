@@ -1,0 +1,67 @@
+/** Changes to the labels of a map that are not saved yet. */
+
+import type { Semantics } from "../service/types";
+
+export interface Draft {
+  /** The version it was begun on. */
+  readonly version: number;
+  readonly ruleSet?: string;
+  /** Label by category. */
+  readonly assignment: Readonly<Record<string, string>>;
+  /** Label by face; null gives a face that of its category again. */
+  readonly overrides: Readonly<Record<string, string | null>>;
+}
+
+export function emptyDraft(version: number): Draft {
+  return { version, assignment: {}, overrides: {} };
+}
+
+export function isEmpty(draft: Draft): boolean {
+  return changeCount(draft) === 0;
+}
+
+export function changeCount(draft: Draft): number {
+  return Object.keys(draft.assignment).length + Object.keys(draft.overrides).length + (draft.ruleSet === undefined ? 0 : 1);
+}
+
+/** The merge patch that saves a draft. */
+export function patchOf({ ruleSet, assignment, overrides }: Draft): Record<string, unknown> {
+  return {
+    ...(ruleSet === undefined ? {} : { ruleSet }),
+    ...(Object.keys(assignment).length > 0 ? { assignment } : {}),
+    ...(Object.keys(overrides).length > 0 ? { overrides } : {}),
+  };
+}
+
+/** The label of a face under a draft. `read` is the label that the service told. */
+export function labelUnder(draft: Draft, inForce: Semantics, face: { id: number; category: number }, read: string): string {
+  const wanted = draft.overrides[face.id];
+  if (typeof wanted === "string") return wanted;
+  const isOverridden = inForce.overrides.some((override) => override.face === face.id);
+  const category = draft.assignment[face.category];
+  if (isOverridden && wanted !== null) return read;
+  return category ?? (isOverridden ? (inForce.assignment[face.category] ?? read) : read);
+}
+
+/** What somebody else changed between two states, in words of the assignment: `category 3: co → ju`. */
+export interface Difference {
+  readonly what: "category" | "face" | "ruleSet";
+  readonly key: string;
+  readonly before: string;
+  readonly after: string;
+}
+
+export function differences(before: Semantics, after: Semantics): Difference[] {
+  const list: Difference[] = [];
+  if (before.ruleSet !== after.ruleSet) list.push({ what: "ruleSet", key: "", before: before.ruleSet, after: after.ruleSet });
+  const compare = (what: "category" | "face", old: Record<string, string>, now: Record<string, string>): void => {
+    for (const key of new Set([...Object.keys(old), ...Object.keys(now)])) {
+      const [was, is] = [old[key] ?? "", now[key] ?? ""];
+      if (was !== is) list.push({ what, key, before: was, after: is });
+    }
+  };
+  const byFace = (semantics: Semantics) => Object.fromEntries(semantics.overrides.map(({ face, label }) => [face, label]));
+  compare("category", before.assignment, after.assignment);
+  compare("face", byFace(before), byFace(after));
+  return list;
+}

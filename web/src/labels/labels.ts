@@ -1,0 +1,158 @@
+/** The labels of a map: what is in force, the draft over it, and what follows for each face and edge. */
+
+import type { FeatureLike } from "ol/Feature";
+
+import { rowOf } from "../map/geojson";
+import type { COLORS } from "../map/look";
+import type { Reading } from "../map/layers";
+import { getTagged, get, send, type Tagged } from "../service/request";
+import type { CogencyMatrix, Label, RuleSet, Semantics } from "../service/types";
+import { emptyDraft, isEmpty, labelUnder, patchOf, type Draft } from "./draft";
+import { changed, step, trackOf, type Track } from "./undo";
+
+/** A colour for what has no label. */
+const NONE = "#bdbdbd";
+
+export class Labels implements Reading {
+  private draftNow: Draft;
+  private track: Track;
+  private readonly listeners = new Set<() => void>();
+
+  private constructor(
+    private readonly map: string,
+    private read: Tagged<Semantics>,
+    public ruleSet: RuleSet,
+    private matrix: CogencyMatrix,
+    /** The row of a face. */
+    private readonly faceRow: (id: number) => Readonly<Record<string, unknown>> | undefined,
+  ) {
+    this.draftNow = this.stored() ?? emptyDraft(read.body.version);
+    this.track = trackOf(read.body.version);
+  }
+
+  static async of(map: string, faceRow: (id: number) => Readonly<Record<string, unknown>> | undefined): Promise<Labels> {
+    const read = await getTagged<Semantics>(`v1/maps/${map}/semantics`);
+    const [ruleSet, matrix] = await rulesOf(read.body.ruleSet);
+    return new Labels(map, read, ruleSet, matrix, faceRow);
+  }
+
+  get inForce(): Semantics {
+    return this.read.body;
+  }
+
+  get draft(): Draft {
+    return this.draftNow;
+  }
+
+  /** Keeps a draft, in the browser too: it outlives a closed page and a service that is gone. */
+  set draft(draft: Draft) {
+    this.draftNow = draft;
+    if (isEmpty(draft)) localStorage.removeItem(this.key);
+    else localStorage.setItem(this.key, JSON.stringify(draft));
+    this.tell();
+  }
+
+  private get key(): string {
+    return `stillage.draft.${this.map}`;
+  }
+
+  private stored(): Draft | undefined {
+    const text = localStorage.getItem(this.key);
+    return text === null ? undefined : (JSON.parse(text) as Draft);
+  }
+
+  onChange(listener: () => void): () => void {
+    this.listeners.add(listener);
+    return () => void this.listeners.delete(listener);
+  }
+
+  private tell(): void {
+    for (const listener of this.listeners) listener();
+  }
+
+  discard(): void {
+    this.draft = emptyDraft(this.inForce.version);
+  }
+
+  /** Saves the draft as a new version, over exactly the version that was read: 412 where another one is in force. */
+  async save(): Promise<void> {
+    const saved = await send<Semantics>("PATCH", `v1/maps/${this.map}/semantics`, patchOf(this.draftNow), this.read.tag);
+    this.track = changed(this.track, saved.body.version);
+    await this.accept(saved);
+    this.discard();
+  }
+
+  /** Reads what is in force now; the draft stays. */
+  async reread(): Promise<void> {
+    const read = await getTagged<Semantics>(`v1/maps/${this.map}/semantics`);
+    if (read.body.version !== this.inForce.version) this.track = trackOf(read.body.version);
+    await this.accept(read);
+    this.tell();
+  }
+
+  /** Puts an earlier version in force, as a new one. */
+  async restore(version: number): Promise<void> {
+    const saved = await this.sendRestore(version);
+    this.track = changed(this.track, saved.body.version);
+    await this.accept(saved);
+    this.tell();
+  }
+
+  canStep(by: -1 | 1): boolean {
+    return step(this.track, by) !== undefined;
+  }
+
+  /** One step back or forth over the versions. */
+  async step(by: -1 | 1): Promise<void> {
+    const wanted = step(this.track, by);
+    if (!wanted) return;
+    const saved = await this.sendRestore(wanted.version);
+    this.track = wanted.track;
+    await this.accept(saved);
+    this.tell();
+  }
+
+  private sendRestore(version: number): Promise<Tagged<Semantics>> {
+    return send<Semantics>("POST", `v1/maps/${this.map}/semantics/versions/${version}/restore`, undefined, this.read.tag);
+  }
+
+  private async accept(read: Tagged<Semantics>): Promise<void> {
+    this.read = read;
+    [this.ruleSet, this.matrix] = await rulesOf(read.body.ruleSet);
+  }
+
+  label(id: string): Label | undefined {
+    return this.ruleSet.labels.find((label) => label.id === id);
+  }
+
+  color(id: string): string {
+    return this.label(id)?.color ?? NONE;
+  }
+
+  labelOf(row: Readonly<Record<string, unknown>>): string {
+    const face = { id: Number(row["id"]), category: Number(row["category"]) };
+    return labelUnder(this.draftNow, this.inForce, face, String(row["label"]));
+  }
+
+  colorOf(feature: FeatureLike): string {
+    const row = rowOf(feature);
+    return this.color("category" in row ? this.labelOf(row) : String(row["label"]));
+  }
+
+  cogencyOf(feature: FeatureLike): keyof typeof COLORS {
+    const row = rowOf(feature);
+    const read = String(row["cogency"]) as keyof typeof COLORS;
+    if (isEmpty(this.draftNow)) return read;
+    const sides = [row["faceLeft"], row["faceRight"]].map((id) => (typeof id === "number" ? this.faceRow(id) : undefined));
+    const [left, right] = sides.map((side) => side && this.labelOf(side));
+    const isChanged = sides.some((side) => side && this.labelOf(side) !== side["label"]);
+    if (!isChanged || !left || !right) return read;
+    const [row1, column] = [left, right].map((id) => this.matrix.labels.findIndex((label) => label.id === id));
+    return this.matrix.cogency[row1 ?? -1]?.[column ?? -1] ?? read;
+  }
+}
+
+async function rulesOf(id: string): Promise<[RuleSet, CogencyMatrix]> {
+  const path = `v1/rule-sets/${encodeURIComponent(id)}`;
+  return Promise.all([get<RuleSet>(path), get<CogencyMatrix>(`${path}/matrix`)]);
+}

@@ -1,0 +1,65 @@
+/** Deciding labels: by category, by face, by rule set; saved as versions that can be undone. */
+
+import { h, replace } from "../../../dom";
+import { t } from "../../../language";
+import { get } from "../../../service/request";
+import type { Category } from "../../../service/types";
+import type { OpenTool, Tool, Workspace } from "../workspace";
+import { categoryList } from "./category_list";
+import { faceSelection } from "./face_selection";
+import { historyList } from "./history";
+import { ruleSetChoice } from "./rule_set_choice";
+import { saveBar } from "./save_bar";
+
+export const decide: Tool = { id: "decide", name: "decide", open };
+
+function open(workspace: Workspace): OpenTool {
+  const { map, labels, collections, failed } = workspace;
+  const selection = faceSelection(workspace);
+  const content = h("div", {});
+  const bar = saveBar(workspace, reread);
+  const element = h("div", {}, h("p", {}, h("small", {}, t("decideMeaning"))), content, bar.element);
+  let categories: Category[] = [];
+  let isClosed = false;
+
+  function show(): void {
+    // The focus stays where it was in what is shown anew.
+    const focused = document.activeElement?.id;
+    const isHistoryOpen = element.querySelector<HTMLDetailsElement>("details.history")?.open ?? false;
+    replace(
+      content,
+      ruleSetChoice(workspace, reread),
+      selection.element(),
+      h("h2", {}, t("categories")),
+      ...categoryList(workspace, categories, selection),
+      historyList(workspace, isHistoryOpen, reread),
+    );
+    bar.update();
+    if (focused) document.getElementById(focused)?.focus();
+  }
+
+  /** Reads what follows from labels that are in force now. */
+  async function reread(): Promise<void> {
+    const [read] = await Promise.all([get<{ categories: Category[] }>(`v1/maps/${map.id}/categories`), collections.refresh()]);
+    if (isClosed) return;
+    categories = read.categories;
+    show();
+  }
+
+  const stop = labels.onChange(() => categories.length > 0 && show());
+  selection.onChange(show);
+  collections
+    .read("faces")
+    .then(reread)
+    .catch(failed);
+  return {
+    element,
+    click: (_point, features) => selection.click(features),
+    key: (event) => selection.key(event),
+    close: () => {
+      isClosed = true;
+      stop();
+      selection.close();
+    },
+  };
+}

@@ -1,0 +1,58 @@
+/** All that is known of what was chosen, feature by feature, with a link to its JSON. */
+
+import type Feature from "ol/Feature";
+
+import { button, h, replace } from "../../dom";
+import { number, t } from "../../language";
+import { rowOf } from "../../map/geojson";
+import type { MapCanvas } from "../../map/map_canvas";
+
+export function inspector(map: string, canvas: MapCanvas): { readonly element: HTMLElement; choose(features: readonly Feature[]): void } {
+  const element = h("aside", { class: "inspector card", "aria-label": t("properties"), hidden: true });
+
+  function choose(features: readonly Feature[]): void {
+    canvas.chosen.clear();
+    element.hidden = features.length === 0;
+    const [first] = features;
+    if (first) canvas.chosen.addFeature(first.clone());
+    replace(
+      element,
+      button("×", () => choose([]), { class: "close", "aria-label": t("close") }),
+      ...features.map((feature, index) => section(map, feature, index === 0, () => mark(feature))),
+    );
+  }
+
+  function mark(feature: Feature): void {
+    canvas.chosen.clear();
+    canvas.chosen.addFeature(feature.clone());
+  }
+
+  return { element, choose };
+}
+
+function section(map: string, feature: Feature, isOpen: boolean, opened: () => void): HTMLElement {
+  const [collection = "", ...id] = String(feature.getId()).split("/");
+  const name = id.join("/");
+  const details = h(
+    "details",
+    { open: isOpen },
+    h("summary", {}, `${collection} ${name}`),
+    h(
+      "table",
+      {},
+      ...Object.entries(rowOf(feature))
+        .filter(([, value]) => value !== null && !(Array.isArray(value) && value.length === 0))
+        .map(([key, value]) => h("tr", {}, h("th", { scope: "row" }, key), h("td", {}, readable(value)))),
+    ),
+    h("a", { href: `v1/maps/${map}/collections/${collection}/items/${encodeURIComponent(name)}?f=json`, target: "_blank", rel: "noopener" }, "JSON"),
+  );
+  details.addEventListener("toggle", () => details.open && opened());
+  return details;
+}
+
+function readable(value: unknown): string {
+  if (typeof value === "number") return number(value, Number.isInteger(value) ? 0 : 2);
+  if (typeof value === "string") return value;
+  if (Array.isArray(value)) return value.map(readable).join(", ");
+  return JSON.stringify(value);
+}

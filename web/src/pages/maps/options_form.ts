@@ -1,0 +1,77 @@
+/** The options of an analysis with their meaning, from the OpenAPI document. What stays empty keeps its default. */
+
+import { choice, field, h, replace } from "../../dom";
+import { t } from "../../language";
+import { problemBox, show } from "../../parts/problem";
+import { readOptionFields, type OptionField } from "../../service/options";
+
+export interface OptionsForm {
+  readonly element: HTMLElement;
+  /** What was chosen, by path (`group/name`). */
+  chosen(): ReadonlyMap<string, unknown>;
+}
+
+export function optionsForm(): OptionsForm {
+  const chosen = new Map<string, unknown>();
+  const content = h("div", { class: "options" });
+  let isAsked = false;
+  const element = h("details", {}, h("summary", {}, t("options")), content);
+  element.addEventListener("toggle", () => {
+    if (isAsked) return;
+    isAsked = true;
+    readOptionFields().then(
+      (fields) => replace(content, ...groups(fields).map(([name, group]) => fieldset(name, group, chosen))),
+      (error: unknown) => {
+        isAsked = false;
+        const box = problemBox();
+        replace(content, box);
+        show(box, error);
+      },
+    );
+  });
+  return { element, chosen: () => chosen };
+}
+
+/** Fields by the group that they lie in; those of none first. */
+function groups(fields: readonly OptionField[]): [string, OptionField[]][] {
+  const groups = new Map<string, OptionField[]>();
+  for (const option of fields) {
+    const group = option.path.slice(0, -1).join(" ");
+    groups.set(group, [...(groups.get(group) ?? []), option]);
+  }
+  return [...groups];
+}
+
+function fieldset(name: string, fields: readonly OptionField[], chosen: Map<string, unknown>): HTMLElement {
+  const inputs = fields.map((option) => field(option.path.at(-1) ?? "", input(option, chosen), option.meaning));
+  return h("fieldset", {}, h("legend", {}, name || t("general")), ...inputs);
+}
+
+function input(option: OptionField, chosen: Map<string, unknown>): HTMLElement {
+  const path = option.path.join("/");
+  const standard = option.standard === "" ? t("automatic") : t("standard", { value: option.standard });
+  const set = (text: string, value: unknown): void => void (text === "" ? chosen.delete(path) : chosen.set(path, value));
+  if (option.kind === "choice" || option.kind === "switch") {
+    const values = option.kind === "switch" ? ["true", "false"] : option.values;
+    const options = [["", standard] as const, ...values.map((value) => [value, value] as const)];
+    return choice(options, "", (value) => set(value, option.kind === "switch" ? value === "true" : value));
+  }
+  const text = h("input", {
+    type: option.kind === "number" ? "number" : "text",
+    step: "any",
+    min: option.minimum,
+    max: option.maximum,
+    placeholder: standard,
+    oninput: () => set(text.value, option.kind === "number" ? text.valueAsNumber : jsonOrText(text.value)),
+  });
+  return text;
+}
+
+/** Lists are written as JSON; the service says what is wrong with anything else. */
+function jsonOrText(text: string): unknown {
+  try {
+    return JSON.parse(text) as unknown;
+  } catch {
+    return text;
+  }
+}

@@ -1,0 +1,51 @@
+/** Maps: the list, upload, deletion. */
+
+import { ask, get } from "./request";
+import type { Job, MapView } from "./types";
+
+/** All maps, newest first, page after page. */
+export async function listMaps(): Promise<MapView[]> {
+  const maps: MapView[] = [];
+  let path: string | undefined = "v1/maps?limit=100";
+  while (path !== undefined) {
+    const page: { maps: MapView[]; links: { rel: string; href: string }[] } = await get(path);
+    maps.push(...page.maps);
+    path = nextPath(page.links);
+  }
+  return maps;
+}
+
+/** The path of the next page, relative to this one's: links are absolute, and a proxy may have another address. */
+export function nextPath(links: readonly { rel: string; href: string }[]): string | undefined {
+  const next = links.find((link) => link.rel === "next")?.href;
+  return next?.slice(next.indexOf("v1/"));
+}
+
+/** What is uploaded: a picture with its metadata, or a message. */
+export type Upload =
+  | { readonly kind: "picture"; readonly image: File; readonly metadata: File }
+  | { readonly kind: "message"; readonly message: File };
+
+/** Uploads a map; answers with its job. */
+export async function createMap(upload: Upload, name: string, options: unknown): Promise<Job> {
+  if (upload.kind === "message") {
+    const query = name ? `?${new URLSearchParams({ name })}` : "";
+    const isYaml = /\.ya?ml$/i.test(upload.message.name);
+    const headers = { "Content-Type": isYaml ? "application/yaml" : "application/json" };
+    return json(await ask(`v1/maps${query}`, { method: "POST", body: upload.message, headers }));
+  }
+  const form = new FormData();
+  form.append("image", upload.image);
+  form.append("metadata", upload.metadata);
+  if (name) form.append("name", name);
+  if (options) form.append("options", JSON.stringify(options));
+  return json(await ask("v1/maps", { method: "POST", body: form }));
+}
+
+async function json(response: Response): Promise<Job> {
+  return (await response.json()) as Job;
+}
+
+export async function deleteMap(id: string): Promise<void> {
+  await ask(`v1/maps/${id}`, { method: "DELETE" });
+}

@@ -1,0 +1,24 @@
+/** The documents of the service, by the names of its OpenAPI document. */
+
+import type { components } from "./openapi";
+
+type Schemas = components["schemas"];
+
+export type MapView = Schemas["Map"];
+export type Job = Schemas["Job"];
+export type Category = Schemas["Category"];
+export type Semantics = Schemas["Semantics"];
+export type RuleSet = Schemas["RuleSet"];
+export type Label = Schemas["Label"];
+export type Cogency = Schemas["Cogency"];
+export type CogencyMatrix = Schemas["CogencyMatrix"];
+export type CogencyRule = Schemas["CogencyRule"];
+export type Functionality = Schemas["Functionality"];
+export type Diagnostics = Schemas["Diagnostics"];
+export type Frame = Schemas["FrameView"];
+export type Georeference = Schemas["Georeference"];
+export type Route = Schemas["Route"];
+export type GraphReport = Schemas["GraphReport"];
+export type Export = Schemas["Export"];
+export type Evaluation = Schemas["Evaluation"];
+export type LabelScores = Schemas["LabelScores"];
