@@ -43,9 +43,16 @@ export function button(text: string, act: () => void, properties: Properties = {
   return h("button", { type: "button", onclick: act, ...properties }, text);
 }
 
+let fields = 0;
+
 /** A field with its name before it, and what it means below. */
-export function field(name: string, input: HTMLElement, meaning?: string): HTMLLabelElement {
-  return h("label", { class: "field" }, h("span", { class: "name" }, name), input, meaning && h("small", {}, meaning));
+export function field(name: string, input: HTMLElement, meaning?: string): HTMLElement {
+  const label = h("label", {}, h("span", { class: "name" }, name), input);
+  if (meaning === undefined) return h("div", { class: "field" }, label);
+  fields += 1;
+  const id = `meaning-${fields}`;
+  input.setAttribute("aria-describedby", id);
+  return h("div", { class: "field" }, label, h("small", { id }, meaning));
 }
 
 /** A choice among values with their names. */

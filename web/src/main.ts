@@ -37,6 +37,8 @@ function header(): HTMLElement {
 }
 
 async function show(): Promise<void> {
+  // What was asked on the page before needs no answer any more.
+  for (const dialog of document.querySelectorAll("dialog")) dialog.close();
   // What is open on a map is no other page: the map follows the address by itself.
   const { map } = address.read(location.hash);
   const wanted = map ?? "maps";

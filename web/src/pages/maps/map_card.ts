@@ -32,7 +32,7 @@ export function mapCard(map: MapView, job: Job | undefined, events: CardEvents):
     h(
       "div",
       { class: "about" },
-      h("h3", {}, name),
+      h("h2", {}, name),
       h("p", {}, size(map), " · ", moment(map.created)),
       ...map.warnings.map((warning) => h("p", { class: "warning" }, warning.message)),
       state(map, job, events),

@@ -15,7 +15,7 @@ export function cogencyTable(draft: RuleSetDraft, derived: CogencyMatrix, change
   };
   return h(
     "div",
-    { class: "scroll", tabindex: 0, role: "region", "aria-label": t("matrix") },
+    { class: "scroll", tabindex: 0, role: "group", "aria-label": t("matrix") },
     h(
       "table",
       { class: "matrix" },

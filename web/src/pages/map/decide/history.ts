@@ -13,7 +13,10 @@ export function historyList(workspace: Workspace, isOpen: boolean, restored: () 
   const element = h("details", { class: "history", open: isOpen }, h("summary", {}, t("history")), list);
 
   async function read(): Promise<void> {
-    const { versions } = await get<{ versions: Semantics[] }>(`v1/maps/${map.id}/semantics/versions`);
+    const path = `v1/maps/${map.id}/semantics/versions`;
+    // The list has what people decided; before all of it comes the suggestion.
+    const [decided, suggestion] = await Promise.all([get<{ versions: Semantics[] }>(path), get<Semantics>(`${path}/0`)]);
+    const versions = [...decided.versions, suggestion];
     replace(list, ...versions.map((version, index) => line(version, versions[index + 1])));
   }
 

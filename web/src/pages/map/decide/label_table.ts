@@ -9,7 +9,7 @@ export function labelTable(draft: RuleSetDraft, change: (draft: RuleSetDraft) =>
   const heads = [t("labelId"), t("name"), t("color"), t("isFor"), t("connectsTo"), ""];
   return h(
     "div",
-    { class: "scroll", tabindex: 0, role: "region", "aria-label": t("labels") },
+    { class: "scroll", tabindex: 0, role: "group", "aria-label": t("labels") },
     h(
       "table",
       { class: "labels-table" },

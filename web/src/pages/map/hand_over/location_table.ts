@@ -65,7 +65,7 @@ export function locationTable(workspace: Workspace): HTMLElement {
     h("h2", { id: "table-title" }, t("locationTable")),
     field(t("filter"), filter),
     count,
-    h("div", { class: "scroll big", tabindex: 0, role: "region", "aria-label": t("locationTable") }, table),
+    h("div", { class: "scroll big", tabindex: 0, role: "group", "aria-label": t("locationTable") }, table),
     h("p", {}, h("a", { href: `v1/maps/${map.id}/exports/locations.csv`, download: "locations.csv" }, t("downloadCsv")), " · ",
       h("a", { href: `v1/maps/${map.id}/exports/locations.xlsx`, download: "locations.xlsx" }, t("downloadSheet"))),
   );

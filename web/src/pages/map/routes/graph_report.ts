@@ -53,7 +53,7 @@ export function graphReport({ map, canvas, failed }: Workspace): { readonly elem
     return h(
       "section",
       { class: "list" },
-      h("h3", {}, `${title}: ${findings.length}`),
+      h("h2", {}, `${title}: ${findings.length}`),
       h("ol", {}, ...findings.map((finding) => h("li", {}, button(finding.text, () => fly(finding))))),
     );
   }

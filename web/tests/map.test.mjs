@@ -1,0 +1,203 @@
+/** One map: looking, deciding, routes, handing over. */
+
+import assert from "node:assert/strict";
+import { after, before, test } from "node:test";
+
+import { changeLabels, clickMap, EXAMPLE, json, openMap, picture, startBrowser, startService, uploadExample } from "./service.mjs";
+
+let service;
+let browser;
+let page;
+let complaints;
+let map;
+let location;
+
+const semantics = async () => (await json(service.base, `/v1/maps/${map}/semantics`)).body;
+
+before(async () => {
+  service = await startService();
+  map = await uploadExample(service.base, "Hall 1");
+  const { body } = await json(service.base, `/v1/maps/${map}/collections/locations/items?limit=1&crs=EPSG:3857`);
+  location = body.features[0].properties;
+  ({ browser, page, complaints } = await startBrowser());
+});
+after(async () => {
+  await browser?.close();
+  await service?.stop();
+});
+
+test("a click tells all that is known of a place", async () => {
+  await openMap(page, service.base, map);
+  await clickMap(page, location.centre);
+  const inspector = page.getByRole("complementary", { name: "Properties" });
+  await inspector.getByText("areaM2").first().waitFor();
+  const link = await inspector.getByRole("link", { name: "JSON" }).first().getAttribute("href");
+  assert.match(link, new RegExp(`^v1/maps/${map}/collections/\\w+/items/`));
+  await picture(page, "look");
+});
+
+test("a code is searched and flown to, and the address holds the view", async () => {
+  await page.getByLabel("Search a code or a name").fill(location.code);
+  await page.locator(".answers").getByRole("button").first().click();
+  await page.waitForTimeout(700);
+  const address = page.url();
+  const view = new URLSearchParams(address.split("?")[1]);
+  assert.ok(Math.hypot(view.get("x") - location.centre[0], view.get("y") - location.centre[1]) < 5, address);
+  await page.goto("about:blank");
+  await page.goto(address);
+  await page.locator("a[role=tab]").first().waitFor();
+  await page.waitForTimeout(500);
+  assert.equal(page.url(), address);
+});
+
+test("layers are shown and hidden, and the address says which", async () => {
+  for (const name of ["Occupancy", "Adjacency graph", "Regions", "Lines", "Places"]) await page.getByLabel(name, { exact: true }).check();
+  await page.waitForLoadState("networkidle");
+  assert.match(page.url(), /layers=regions%2Cfaces%2Coccupancy%2Cplaces%2Clines%2Cedges%2Cgraph/);
+  await picture(page, "layers");
+  for (const name of ["Occupancy", "Adjacency graph", "Regions", "Lines", "Places"]) await page.getByLabel(name, { exact: true }).uncheck();
+  assert.doesNotMatch(page.url(), /layers=/);
+});
+
+test("a length is measured", async () => {
+  await page.getByRole("button", { name: "Show all" }).click();
+  await page.waitForTimeout(500);
+  await page.getByRole("button", { name: "Measure" }).click();
+  const [x, y] = location.centre;
+  await clickMap(page, [x, y]);
+  await clickMap(page, [x + 3, y]);
+  await page.getByText(/^3\.\d\d m$/).waitFor();
+  await page.keyboard.press("Escape");
+});
+
+test("a category is decided: seen at once, saved as a version, undone, redone", async () => {
+  await openMap(page, service.base, map, "decide");
+  const category = page.locator("section.category").first();
+  const id = (await category.getAttribute("id")).replace("category-", "");
+  const before = (await semantics()).assignment[id];
+  const other = before === "co" ? "ju" : "co";
+  await category.getByRole("combobox").selectOption(other);
+  await page.getByText("Changes: 1").waitFor();
+  assert.equal((await semantics()).version, 0, "nothing is stored before it is saved");
+  await picture(page, "decide");
+  await page.getByRole("button", { name: "Save" }).click();
+  await page.getByText("Version 1 is in force").waitFor();
+  assert.equal((await semantics()).assignment[id], other);
+  await page.getByRole("button", { name: "Undo" }).click();
+  await page.getByText("Version 2 is in force").waitFor();
+  assert.equal((await semantics()).assignment[id], before);
+  await page.getByRole("button", { name: "Redo" }).click();
+  await page.getByText("Version 3 is in force").waitFor();
+  assert.equal((await semantics()).assignment[id], other);
+  await page.getByText("History").click();
+  await page.getByRole("button", { name: "Restore version 0" }).click();
+  await page.getByText("Version 4 is in force").waitFor();
+  assert.equal((await semantics()).assignment[id], before);
+});
+
+test("a focused category takes its label by a key, and a draft outlives the page", async () => {
+  const category = page.locator("section.category").nth(1);
+  const select = category.getByRole("combobox");
+  const other = (await select.inputValue()) === "ro" ? "1" : "4";
+  await category.focus();
+  await page.keyboard.press(other);
+  await page.getByText("Changes: 1").waitFor();
+  await page.reload();
+  await page.getByText("Changes: 1").waitFor();
+  await page.getByRole("button", { name: "Discard" }).click();
+  await page.getByText("Version 4 is in force").waitFor();
+});
+
+test("faces get a label of their own", async () => {
+  await clickMap(page, location.centre);
+  await page.getByText("1 faces chosen").waitFor();
+  await page.keyboard.press("4");
+  await page.getByText("1 faces changed, not saved").waitFor();
+  await page.getByRole("button", { name: "Save" }).click();
+  await page.getByText("Version 5 is in force").waitFor();
+  assert.deepEqual((await semantics()).overrides.map(({ label }) => label), ["ro"]);
+  await page.getByRole("button", { name: "Undo" }).click();
+  await page.getByText("Version 6 is in force").waitFor();
+});
+
+test("where somebody else saved meanwhile, their change is shown and nothing is lost", async () => {
+  const [first, second] = await page.locator("section.category").evaluateAll((all) => all.map((one) => one.id.replace("category-", "")));
+  await page.locator(`#category-${second}`).getByRole("combobox").selectOption("ro");
+  await changeLabels(service.base, map, { assignment: { [first]: "un" } });
+  await page.getByRole("button", { name: "Save" }).click();
+  await page.getByText("Somebody else saved meanwhile").waitFor();
+  await page.getByText(new RegExp(`Category ${first}: .* → unidentified`)).waitFor();
+  await page.getByText("Changes: 1").waitFor();
+  await picture(page, "conflict");
+  await page.getByRole("button", { name: "Save" }).click();
+  await page.getByText("Version 8 is in force").waitFor();
+  const { assignment } = await semantics();
+  assert.deepEqual([assignment[first], assignment[second]], ["un", "ro"]);
+  await page.getByText("History").click();
+  await page.getByRole("button", { name: "Restore version 0" }).click();
+  await page.getByText("Version 9 is in force").waitFor();
+});
+
+test("a rule set is made of a built-in one, with a rule of its own", async () => {
+  await page.getByRole("button", { name: "Edit labels and rules" }).click();
+  await page.getByLabel("Id", { exact: true }).fill("hall");
+  await page.getByLabel("Name 4").fill("workshop");
+  await page.keyboard.press("Tab");
+  await page.getByLabel("workshop and corridor").selectOption("cogent");
+  await picture(page, "rules");
+  await page.getByRole("button", { name: "Save the rule set" }).click();
+  await page.getByRole("dialog").waitFor({ state: "detached" });
+  const { body } = await json(service.base, "/v1/rule-sets/hall");
+  assert.deepEqual(body.cogency, [{ when: ["ro", "co"], then: "cogent" }]);
+  assert.equal(body.labels[3].name, "workshop");
+  await page.getByRole("button", { name: "Save", exact: true }).click();
+  await page.getByText("Version 10 is in force").waitFor();
+  assert.equal((await semantics()).ruleSet, "hall");
+  await changeLabels(service.base, map, { ruleSet: "site" });
+});
+
+test("a route is clicked, told and drawn; a vehicle that is too wide is told why", async () => {
+  await openMap(page, service.base, map, "routes");
+  const { body } = await json(service.base, `/v1/maps/${map}/collections/locations/items?limit=200&crs=EPSG:3857`);
+  await clickMap(page, location.centre);
+  await clickMap(page, body.features.at(-1).properties.centre);
+  assert.equal(await page.getByLabel("From", { exact: true }).inputValue(), `location:${location.code}`);
+  await page.getByText(/m, .* s, .* m from obstacles/).waitFor();
+  await page.locator("ol.steps li").first().waitFor();
+  await picture(page, "route");
+  await page.getByLabel("Vehicle", { exact: true }).fill("1.5");
+  await page.locator(".problem", { hasText: "No route" }).waitFor();
+  await page.getByText("Report on the navigation graph").click();
+  await page.getByText(/nodes, .* lanes/).waitFor();
+  await picture(page, "graph-report");
+});
+
+test("locations are listed, sorted and filtered; files are offered with their options", async () => {
+  await openMap(page, service.base, map, "hand-over");
+  const codes = page.locator("tbody tr td:first-child");
+  await codes.first().waitFor();
+  const first = await codes.first().textContent();
+  await page.getByRole("button", { name: /^code/ }).click();
+  assert.notEqual(await codes.first().textContent(), first);
+  await page.getByLabel("Filter").fill(first);
+  assert.equal(await codes.count(), 1);
+  const lif = page.locator("details", { hasText: "lif.json" });
+  await lif.locator("summary").click();
+  await lif.getByLabel("footprintRadiusM").fill("x");
+  await lif.getByRole("button", { name: "Preview" }).click();
+  await lif.locator(".problem").waitFor();
+  await lif.getByLabel("footprintRadiusM").fill("0.35");
+  await lif.getByRole("button", { name: "Preview" }).click();
+  await lif.locator("pre", { hasText: "metaInformation" }).waitFor();
+  const [download] = await Promise.all([page.waitForEvent("download"), lif.getByRole("link", { name: "Download" }).click()]);
+  assert.equal(download.suggestedFilename(), "lif.json");
+});
+
+test("the map is compared with its truth, which is drawn over it", async () => {
+  await page.getByLabel("Truth file").setInputFiles(EXAMPLE.truth.pathname);
+  await page.getByText("Places found").waitFor();
+  await page.locator(".panel").evaluate((panel) => panel.scrollTo(0, panel.scrollHeight));
+  await picture(page, "evaluation");
+});
+
+test("the page had nothing to complain about", () => assert.deepEqual(complaints, []));

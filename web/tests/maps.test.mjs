@@ -1,0 +1,101 @@
+/** The list of maps: upload, progress, refusals that teach, deletion. */
+
+import assert from "node:assert/strict";
+import { after, before, test } from "node:test";
+
+import { EXAMPLE, json, picture, startBrowser, startService, uploadExample } from "./service.mjs";
+
+let service;
+let browser;
+let page;
+let complaints;
+
+before(async () => {
+  service = await startService();
+  ({ browser, page, complaints } = await startBrowser());
+  await page.goto(service.base);
+});
+after(async () => {
+  await browser?.close();
+  await service?.stop();
+});
+
+const files = (...names) => page.setInputFiles("#files", names.map((name) => EXAMPLE[name].pathname));
+
+test("an empty service says what to do", async () => {
+  await page.getByText("There is no map yet").waitFor();
+});
+
+test("a picture without its YAML is asked for it before anything is sent", async () => {
+  await files("image");
+  await page.getByText("The YAML is missing").waitFor();
+  await page.getByRole("button", { name: "Upload and analyse" }).click();
+  assert.equal(await page.getByRole("alert").filter({ hasText: "The YAML is missing" }).count(), 1);
+  assert.equal((await json(service.base, "/v1/maps")).body.maps.length, 0);
+});
+
+test("an option out of its range is refused with its place and its range", async () => {
+  await files("metadata");
+  await page.getByText("Options of the analysis").click();
+  const gradient = page.getByLabel("bins", { exact: true });
+  await page.getByText("Bins of the histogram over half a turn.").waitFor();
+  await gradient.fill("5");
+  await page.evaluate(() => (document.querySelector("form.upload").noValidate = true));
+  await page.getByRole("button", { name: "Upload and analyse" }).click();
+  await page.locator(".problem code", { hasText: "/options/orientation/bins" }).waitFor();
+  await picture(page, "refusal");
+  await gradient.fill("");
+});
+
+test("a map is uploaded, watched, and there", async () => {
+  await page.getByLabel("Name", { exact: true }).fill("Hall 1");
+  await page.getByRole("button", { name: "Upload and analyse" }).click();
+  await page.locator("progress").waitFor();
+  await page.getByText("Analysed").waitFor();
+  await page.getByRole("link", { name: "Hall 1" }).waitFor();
+  await page.locator("img.thumbnail").evaluate((image) => image.decode());
+  await picture(page, "maps");
+});
+
+test("a job that waits is cancelled", async () => {
+  const waiting = [uploadExample(service.base, "Hall 2"), uploadExample(service.base, "Hall 3")];
+  await page.waitForTimeout(200);
+  await page.reload();
+  const card = page.locator("li.map").filter({ has: page.getByRole("heading", { name: "Hall 3" }) });
+  await card.getByRole("button", { name: "Cancel" }).click();
+  await card.getByText("The analysis was cancelled").waitFor();
+  await Promise.all(waiting);
+});
+
+test("a map is deleted after a question", async () => {
+  const { body } = await json(service.base, "/v1/maps");
+  await page.getByRole("button", { name: "Delete Hall 3" }).click();
+  await page.getByRole("dialog").getByRole("button", { name: "Keep" }).click();
+  assert.equal((await json(service.base, "/v1/maps")).body.maps.length, body.maps.length);
+  await page.getByRole("button", { name: "Delete Hall 3" }).click();
+  await page.getByRole("dialog").getByRole("button", { name: "Delete" }).click();
+  await page.getByRole("heading", { name: "Hall 3" }).waitFor({ state: "detached" });
+  assert.equal((await json(service.base, "/v1/maps")).body.maps.length, body.maps.length - 1);
+});
+
+test("files are dropped on the page", async () => {
+  const transfer = await page.evaluateHandle(() => {
+    const transfer = new DataTransfer();
+    transfer.items.add(new File(["P2\n1 1\n255\n0\n"], "small.pgm"));
+    return transfer;
+  });
+  await page.dispatchEvent(".drop", "drop", { dataTransfer: transfer });
+  await page.locator(".chip", { hasText: "small.pgm" }).waitFor();
+});
+
+test("a service that is gone loses nothing of what was entered", async () => {
+  await page.getByLabel("Name", { exact: true }).fill("Hall 9");
+  await page.route("**/v1/maps", (route) => route.abort());
+  await files("metadata");
+  await page.getByRole("button", { name: "Upload and analyse" }).click();
+  await page.getByText("The service does not answer").waitFor();
+  assert.equal(await page.getByLabel("Name", { exact: true }).inputValue(), "Hall 9");
+  assert.equal(await page.locator(".chip").count(), 2);
+});
+
+test("the page had nothing to complain about", () => assert.deepEqual(complaints, []));

@@ -1,0 +1,144 @@
+/** The functions of the page that touch no document. */
+
+import assert from "node:assert/strict";
+import { after, before, test } from "node:test";
+
+import { createServer } from "vite";
+
+let vite;
+const load = (path) => vite.ssrLoadModule(`/src/${path}`);
+
+before(async () => {
+  vite = await createServer({ server: { middlewareMode: true, ws: false, watch: null }, appType: "custom", logLevel: "error" });
+});
+after(() => vite.close());
+
+test("an address names a map, a tool and a view", async () => {
+  const { read, ofMap } = await load("address.ts");
+  const id = "01a22711-7884-74c4-958b-49286e02bea9";
+  const address = ofMap(id, "routes", new Map([["x", "1.50"], ["layers", "faces,edges"]]));
+  assert.deepEqual(read(address), { map: id, tool: "routes", view: new Map([["x", "1.50"], ["layers", "faces,edges"]]) });
+  assert.equal(read("#/").map, null);
+  assert.equal(read("#/maps/../x").map, null);
+});
+
+test("pixels of a turned grid lie in the map frame", async () => {
+  const { ofPixel, boxOf, lengthOf } = await load("map/frame.ts");
+  const grid = { frame: { resolutionM: 0.5, originM: [10, 20], yawRad: Math.PI / 2 }, width: 4, height: 2 };
+  const near = (point, wanted) => point.forEach((value, axis) => assert.ok(Math.abs(value - wanted[axis]) < 1e-9, `${point}`));
+  near(ofPixel(grid, [0, 2]), [10, 20]);
+  near(ofPixel(grid, [4, 2]), [10, 22]);
+  near(boxOf(grid), [9, 20, 10, 22]);
+  assert.equal(lengthOf([[0, 0], [3, 4], [3, 5]]), 6);
+});
+
+test("coordinates of a georeferenced map lead there and back", async () => {
+  const { coordinatesOf } = await load("map/coordinates.ts");
+  const coordinates = coordinatesOf({ status: "surveyed", lon: 12.8572, lat: 56.6745, heading: 30 });
+  assert.equal(coordinates.crs, "CRS84");
+  const [x, y] = coordinates.toMap(coordinates.ofMap([120.5, -40.25]));
+  assert.ok(Math.hypot(x - 120.5, y + 40.25) < 1e-6);
+  // 100 m along the y axis of a map that looks north are 100 m of the meridian.
+  const [lon, lat] = coordinatesOf({ status: "surveyed", lon: 12.8572, lat: 56.6745, heading: 0 }).ofMap([0, 100]);
+  assert.ok(Math.abs(lon - 12.8572) < 1e-12 && Math.abs(lat - 56.6745 - 100 / 111_350) < 1e-7);
+  assert.deepEqual(coordinatesOf({ status: "nominal" }).ofMap([1, 2]), [1, 2]);
+});
+
+test("a draft lies over the labels in force", async () => {
+  const { labelUnder, patchOf, emptyDraft } = await load("labels/draft.ts");
+  const inForce = { ruleSet: "site", assignment: { 3: "co" }, overrides: [{ face: 7, label: "ju" }] };
+  const draft = { ...emptyDraft(1), assignment: { 3: "pc" } };
+  const label = (draft, id, read) => labelUnder(draft, inForce, { id, category: 3 }, read);
+  assert.equal(label(draft, 8, "co"), "pc");
+  assert.equal(label(draft, 7, "ju"), "ju", "its own label is stronger than that of its category");
+  assert.equal(label({ ...draft, overrides: { 7: null } }, 7, "ju"), "pc");
+  assert.equal(label({ ...emptyDraft(1), overrides: { 7: null } }, 7, "ju"), "co");
+  assert.equal(label({ ...draft, overrides: { 8: "ro" } }, 8, "co"), "ro");
+  assert.deepEqual(patchOf(draft), { assignment: { 3: "pc" } });
+});
+
+test("what somebody else changed is told", async () => {
+  const { differences } = await load("labels/draft.ts");
+  const before = { ruleSet: "site", assignment: { 0: "co" }, overrides: [{ face: 1, label: "ju" }] };
+  const after = { ruleSet: "hall", assignment: { 0: "pc" }, overrides: [] };
+  assert.deepEqual(differences(before, after), [
+    { what: "ruleSet", key: "", before: "site", after: "hall" },
+    { what: "category", key: "0", before: "co", after: "pc" },
+    { what: "face", key: "1", before: "ju", after: "" },
+  ]);
+});
+
+test("undo and redo walk over contents; a new one ends what was undone", async () => {
+  const { trackOf, changed, step } = await load("labels/undo.ts");
+  const track = changed(trackOf(1), 2);
+  const back = step(track, -1);
+  assert.equal(back.version, 1);
+  assert.equal(step(back.track, 1).version, 2);
+  assert.equal(step(changed(back.track, 4), 1), undefined);
+  assert.equal(step(changed(back.track, 4), -1).version, 1);
+});
+
+test("a rule for two labels is stronger than what follows from them", async () => {
+  const { cogencyOf, withCogency } = await load("labels/rule_set_draft.ts");
+  const derived = { labels: [{ id: "a" }, { id: "b" }], cogency: [["invalid", "cogent"], ["cogent", "invalid"]] };
+  const draft = { id: "x", labels: [], cogency: [{ when: ["*", "b"], then: "storage-access" }] };
+  assert.equal(cogencyOf({ ...draft, cogency: [] }, derived, "a", "b"), "cogent");
+  assert.equal(cogencyOf(draft, derived, "b", "a"), "storage-access");
+  const ruled = withCogency(draft, "b", "a", "invalid");
+  assert.equal(cogencyOf(ruled, derived, "a", "b"), "invalid");
+  assert.deepEqual(withCogency(ruled, "a", "b", undefined), draft);
+});
+
+test("files are told apart by their names", async () => {
+  const { classify } = await load("pages/maps/uploaded_files.ts");
+  const file = (name) => new File(["x"], name);
+  assert.equal(classify([file("map.PGM"), file("map.yaml")]).kind, "picture");
+  assert.equal(classify([file("map.png")]), "missingMetadata");
+  assert.equal(classify([file("a.png"), file("b.png")]), "tooManyFiles");
+  assert.equal(classify([file("grid.json")]).kind, "message");
+  assert.equal(classify([file("notes.txt")]), "missingAll");
+});
+
+test("codes that begin as typed come before those that contain it", async () => {
+  const { matches } = await load("pages/map/look/matches.ts");
+  const all = ["11-010", "01-010", "01-002", "01"].map((name) => ({ names: [name] }));
+  assert.deepEqual(matches(all, "01", 9).map(({ names }) => names[0]), ["01", "01-002", "01-010", "11-010"]);
+  assert.deepEqual(matches(all, " ", 9), []);
+});
+
+test("a route is asked for in the coordinates of the service", async () => {
+  const { routeQuery } = await load("pages/map/routes/route_request.ts");
+  const { coordinatesOf } = await load("map/coordinates.ts");
+  const query = new URLSearchParams(routeQuery("1.5, -2", "03-012", 0.4, "shortest", coordinatesOf({ status: "nominal" })));
+  assert.deepEqual([query.get("from"), query.get("to"), query.get("crs")], ["1.5,-2", "location:03-012", "EPSG:3857"]);
+});
+
+test("locations are sorted as people count", async () => {
+  const { shownRows } = await load("pages/map/hand_over/table_rows.ts");
+  const rows = ["2-10", "2-9", "1-1"].map((code) => ({ code, occupancy: code === "1-1" ? "empty" : "occupied" }));
+  const codes = (text, isDescending) => shownRows(rows, text, { column: "code", isDescending }).map(({ code }) => code);
+  assert.deepEqual(codes("", false), ["1-1", "2-9", "2-10"]);
+  assert.deepEqual(codes("occup", true), ["2-10", "2-9"]);
+});
+
+test("every text is there in both languages, with the same values to fill in", async () => {
+  const { texts } = await load("texts.ts");
+  const values = (text) => [...text.matchAll(/\{\w+\}/g)].map(String).sort();
+  for (const [name, [english, german]] of Object.entries(texts)) {
+    assert.ok(english.length > 0 && german.length > 0, name);
+    assert.deepEqual(values(english), values(german), name);
+  }
+});
+
+test("options come from the document with their meaning and their range", async () => {
+  const { optionFields, optionDocument } = await load("service/options.ts");
+  const schemas = {
+    AnalysisOptions: { properties: { seed: { type: "integer", description: "Seed.", default: 1, minimum: 0 }, grid: { $ref: "#/x/GridOptions" } } },
+    GridOptions: { properties: { mode: { $ref: "#/x/Mode", description: "The `mode`.", default: "a" } } },
+    Mode: { type: "string", enum: ["a", "b"] },
+  };
+  const [seed, mode] = optionFields(schemas);
+  assert.deepEqual([seed.kind, seed.standard, seed.minimum], ["number", "1", 0]);
+  assert.deepEqual([mode.kind, mode.path, mode.meaning, mode.values], ["choice", ["grid", "mode"], "The mode.", ["a", "b"]]);
+  assert.deepEqual(optionDocument(new Map([["seed", 7], ["grid/mode", "b"]])), { seed: 7, grid: { mode: "b" } });
+});
