@@ -7,6 +7,8 @@ export default defineConfig({
     target: "es2022",
     // Every file is an asset of its own: the policy of the page allows no `data:` address.
     assetsInlineLimit: 0,
+    // What the licences of the bundled packages ask to be told with them.
+    license: { fileName: "assets/licenses.txt" },
     modulePreload: { polyfill: false },
     chunkSizeWarningLimit: 1000,
   },

@@ -16,7 +16,9 @@ const POLICY: HeaderValue = HeaderValue::from_static(
     "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self'; connect-src 'self'; \
      base-uri 'none'; form-action 'none'; frame-ancestors 'none'",
 );
-/// An asset's name changes with its content: a year is for ever.
+/// Licences of the packages in the page: the one asset whose name stays.
+const LICENSES: &str = "licenses.txt";
+/// The name of any other asset changes with its content: a year is for ever.
 const FOR_EVER: HeaderValue = HeaderValue::from_static("public, max-age=31536000, immutable");
 
 /// The path of an asset.
@@ -37,8 +39,9 @@ pub async fn asset(Path(name): Path<String>) -> Result<Response, Problem> {
     let (name, bytes) = ASSETS.iter().find(|(known, _)| *known == name).ok_or_else(|| {
         Problem::new(ProblemType::NotFound, "there is no such file of the dashboard: load its page anew")
     })?;
+    let caching = if *name == LICENSES { HeaderValue::from_static("no-cache") } else { FOR_EVER };
     let headers =
-        [(header::CONTENT_TYPE, HeaderValue::from_static(media_type(name))), (header::CACHE_CONTROL, FOR_EVER)];
+        [(header::CONTENT_TYPE, HeaderValue::from_static(media_type(name))), (header::CACHE_CONTROL, caching)];
     Ok((headers, *bytes).into_response())
 }
 
@@ -47,6 +50,7 @@ fn media_type(name: &str) -> &'static str {
         Some("js") => "text/javascript; charset=utf-8",
         Some("css") => "text/css; charset=utf-8",
         Some("svg") => "image/svg+xml",
+        Some("txt") => "text/plain; charset=utf-8",
         _ => "application/octet-stream",
     }
 }

@@ -17,6 +17,8 @@ export const texts = {
   ],
   aboutProblem: ["About this kind of problem", "Über diese Art von Problem"],
 
+  licenses: ["Licences of the packages in this page", "Lizenzen der Pakete in dieser Seite"],
+
   // Maps
   noMaps: ["There is no map yet. Upload the first one.", "Es gibt noch keine Karte. Laden Sie die erste hoch."],
   newMap: ["New map", "Neue Karte"],

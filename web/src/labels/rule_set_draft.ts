@@ -48,7 +48,7 @@ export function withCogency(draft: RuleSetDraft, left: string, right: string, va
 }
 
 /** The document that the service reads. */
-export function documentOf(draft: RuleSetDraft): Record<string, unknown> {
+export function documentOf(draft: RuleSetDraft): { id: string; labels: readonly Label[]; cogency?: readonly CogencyRule[] } {
   const { id, labels, cogency } = draft;
   return { id, labels, ...(cogency.length > 0 ? { cogency } : {}) };
 }

@@ -19,7 +19,7 @@ import { rasterLayer } from "./raster";
 /** How near a line or a point has to be to the pointer, pixels. */
 const NEAR = 6;
 /** Pixels kept free around what is shown whole; at the right lies the list of layers. */
-const PADDING = [30, 240, 40, 40];
+const PADDING = [30, 250, 40, 40];
 /** The closest view of a flight, metres a pixel. */
 const CLOSEST_FLIGHT = 0.02;
 /** Pixels of a cell at the closest look. */

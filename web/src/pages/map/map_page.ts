@@ -43,15 +43,19 @@ export function mapPage(id: string): Page {
 }
 
 async function open(id: string, panel: HTMLElement, target: HTMLElement, problems: HTMLElement): Promise<() => void> {
-  const [map, diagnostics] = await Promise.all([get<MapView>(`v1/maps/${id}`), get<Diagnostics>(`v1/maps/${id}/diagnostics`)]);
-  document.title = `${map.name} · stillage`;
-  const coordinates = coordinatesOf(map.georeference);
-  const collections = new Collections(id, coordinates);
+  // The face of an edge is looked up when something is drawn: long after its collection is there.
   const faceRow = (face: number): Properties | undefined => {
     const feature = collections.source("faces").getFeatureById(`faces/${face}`);
     return feature ? rowOf(feature as { get(name: string): unknown }) : undefined;
   };
-  const labels = await Labels.of(id, faceRow);
+  const [map, diagnostics, labels] = await Promise.all([
+    get<MapView>(`v1/maps/${id}`),
+    get<Diagnostics>(`v1/maps/${id}/diagnostics`),
+    Labels.of(id, faceRow),
+  ]);
+  document.title = `${map.name} · stillage`;
+  const coordinates = coordinatesOf(map.georeference);
+  const collections = new Collections(id, coordinates);
   const failed = (error: unknown): void => show(problems, error);
   const grid = { frame: diagnostics.frame, width: map.width, height: map.height };
   const canvas = new MapCanvas(target, grid, `v1/maps/${id}/image.png`, collections, labels, failed);

@@ -32,6 +32,7 @@ export function mapsPage(): Page {
     h("h1", {}, t("maps")),
     problems,
     h("div", { class: "columns" }, list, uploadForm(() => void read().catch(failed))),
+    h("p", {}, h("a", { href: "assets/licenses.txt" }, h("small", {}, t("licenses")))),
   );
   return { element, leave: () => void (isLeft = true) };
 }

@@ -26,15 +26,15 @@ export async function editRuleSet(id: string, saved: (id: string) => Promise<voi
   const update = (): void =>
     replace(content, labelTable(draft, change), h("h3", {}, t("matrix")), h("p", {}, h("small", {}, t("matrixMeaning"))), cogencyTable(draft, derived, change));
 
-  const name = h("input", { type: "text", value: draft.id, oninput: () => void (draft = { ...draft, id: name.value.trim() }) });
+  const name = h("input", { type: "text", value: draft.id });
   const save = async (): Promise<void> => {
     clear(problems);
-    const isOwn = !ruleSet.builtIn && draft.id === ruleSet.id;
+    const document = documentOf({ ...draft, id: name.value.trim() });
     try {
-      if (isOwn) await send("PUT", path, documentOf(draft), tag);
-      else await send("POST", "v1/rule-sets", documentOf(draft));
+      if (!ruleSet.builtIn && document.id === ruleSet.id) await send("PUT", path, document, tag);
+      else await send("POST", "v1/rule-sets", document);
       dialog.close();
-      await saved(draft.id);
+      await saved(document.id);
     } catch (error) {
       show(problems, error);
     }
