@@ -22,6 +22,16 @@ exports:
     cargo build --release
     tests/exports/run
 
+# The dashboard: its committed page from its sources (Node.js 20.19 or later).
+web:
+    npm --prefix web ci
+    npm --prefix web run build
+
+# The dashboard in a browser, on a real service.
+web-test:
+    cargo build --release
+    web/tests/run
+
 # Every stage on a part of a site, then the paper's size beside the exact march.
 bench:
     cargo bench

@@ -143,7 +143,8 @@ fn summary(context: &MapContext, job: &JobRecord) -> String {
 fn places_to_look(base: &str, map: Uuid) -> String {
     let map = format!("{base}/v1/maps/{map}");
     format!(
-        "\nPicture        {map}/semantic.png\n\
+        "\nDashboard      {base}/\n\
+         Picture        {map}/semantic.png\n\
          Faces          {map}/collections/faces/items\n\
          Locations      {map}/collections/locations/items?f=csv\n\
          Categories     {map}/categories\n\

@@ -200,4 +200,17 @@ test("the map is compared with its truth, which is drawn over it", async () => {
   await picture(page, "evaluation");
 });
 
+test("a georeferenced map is shown and driven on in its own metres", async () => {
+  const headers = { "content-type": "application/json" };
+  const georeference = { lon: 12.8572, lat: 56.6745, heading: 30 };
+  await json(service.base, `/v1/maps/${map}`, { method: "PATCH", headers, body: JSON.stringify({ georeference }) });
+  await page.reload();
+  await openMap(page, service.base, map, "routes");
+  await clickMap(page, location.centre);
+  assert.equal(await page.getByLabel("From", { exact: true }).inputValue(), `location:${location.code}`);
+  const { body } = await json(service.base, `/v1/maps/${map}/graph-report`);
+  await clickMap(page, body.graphComponents[0].position);
+  await page.getByText(/m, .* s, .* m from obstacles/).waitFor();
+});
+
 test("the page had nothing to complain about", () => assert.deepEqual(complaints, []));

@@ -57,8 +57,12 @@ export class Labels implements Reading {
   }
 
   private stored(): Draft | undefined {
-    const text = localStorage.getItem(this.key);
-    return text === null ? undefined : (JSON.parse(text) as Draft);
+    try {
+      return (JSON.parse(localStorage.getItem(this.key) ?? "null") as Draft | null) ?? undefined;
+    } catch {
+      // No page of today wrote it.
+      return undefined;
+    }
   }
 
   onChange(listener: () => void): () => void {

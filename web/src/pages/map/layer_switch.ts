@@ -44,6 +44,6 @@ export function layerSwitch(workspace: Workspace): { readonly element: HTMLEleme
 
   labels.onChange(update);
   const title = h("summary", {}, t("layers"));
-  const element = h("details", { class: "layers card", open: innerWidth > 900 }, title, list, h("label", { class: "line" }, t("picture"), opacity));
+  const element = h("details", { class: "layers card", open: innerWidth > 900 }, title, h("label", { class: "line" }, t("picture"), opacity), list);
   return { element, update };
 }
