@@ -16,8 +16,9 @@ fn main() -> Result<(), Box<dyn Error>> {
         fs::read_dir(&folder)?.map(|entry| Ok(entry?.path())).collect::<Result<_, std::io::Error>>()?;
     paths.sort();
     let mut list = String::from("&[");
-    for path in paths {
-        let name = path.file_name().ok_or("a file has a name")?.to_string_lossy().into_owned();
+    for path in &paths {
+        let name = path.file_name().ok_or("a file has a name")?.to_string_lossy();
+        let path = path.to_string_lossy();
         write!(list, "({name:?}, include_bytes!({path:?})),")?;
     }
     list.push(']');

@@ -178,6 +178,7 @@ test("locations are listed, sorted and filtered; files are offered with their op
   await codes.first().waitFor();
   const first = await codes.first().textContent();
   await page.getByRole("button", { name: /^code/ }).click();
+  await page.getByRole("button", { name: "code ▼" }).waitFor();
   assert.notEqual(await codes.first().textContent(), first);
   await page.getByLabel("Filter").fill(first);
   assert.equal(await codes.count(), 1);

@@ -54,6 +54,8 @@ test("a map is uploaded, watched, and there", async () => {
   await page.getByText("Analysed").waitFor();
   await page.getByRole("link", { name: "Hall 1" }).waitFor();
   await page.locator("img.thumbnail").evaluate((image) => image.decode());
+  await page.getByText("Options of the analysis").click();
+  await page.evaluate(() => scrollTo(0, 0));
   await picture(page, "maps");
 });
 

@@ -83,7 +83,8 @@ export async function startBrowser(options = {}) {
 export async function openMap(page, base, map, tool = "look") {
   await page.goto(`${base}/#/maps/${map}/${tool}`);
   await page.locator("a[role=tab][aria-selected=true]").waitFor();
-  await page.waitForFunction(() => document.querySelector(".canvas canvas") !== null);
+  // Once it is drawn, the address tells where the map is looked at.
+  await page.waitForFunction((tool) => location.hash.includes(`/${tool}?`) && /[?&]r=\d/.test(location.hash), tool);
   await page.waitForLoadState("networkidle");
 }
 

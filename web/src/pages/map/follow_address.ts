@@ -19,7 +19,7 @@ export function follow(workspace: Workspace, showTool: (tool: string) => void, l
     layersChanged();
     const [x, y, resolution] = ["x", "y", "r"].map((name) => Number(view.get(name) ?? Number.NaN));
     if ([x, y, resolution].every(Number.isFinite)) canvas.look([x ?? 0, y ?? 0], resolution ?? 1);
-    else canvas.fit(canvas.box);
+    else if (shownTool === "") canvas.fit(canvas.box);
     if (tool !== shownTool) showTool(tool);
     shownTool = tool;
   };
@@ -40,9 +40,14 @@ export function follow(workspace: Workspace, showTool: (tool: string) => void, l
     }
   };
 
-  addEventListener("hashchange", read);
+  const changed = (): void => {
+    read();
+    // An address without a view names a tool alone: the view stays.
+    write();
+  };
+  addEventListener("hashchange", changed);
   canvas.map.on("moveend", write);
   canvas.target.addEventListener("layerschanged", write);
   read();
-  return () => removeEventListener("hashchange", read);
+  return () => removeEventListener("hashchange", changed);
 }

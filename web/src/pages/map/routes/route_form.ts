@@ -100,7 +100,13 @@ export function routeForm(workspace: Workspace): RouteForm {
 
   function showRoute(route: Route): void {
     const { lengthM, timeS, clearanceM, instructions } = route.properties;
-    draw(route.geometry as unknown as GeoJsonFeature["geometry"], [line("#ffffff", 7), line(COLORS.route, 4)]);
+    // The document leaves the shape of geometries to GeoJSON.
+    const path = route.geometry as unknown as { type: "LineString"; coordinates: Point[] };
+    source.clear();
+    draw({ ...path, coordinates: path.coordinates as never }, [line("#ffffff", 7), line(COLORS.route, 4)]);
+    const [first, last] = [path.coordinates[0], path.coordinates.at(-1)];
+    if (first) mark(coordinates.toMap(first), [dot(COLORS.route, 6), label(t("from"))]);
+    if (last) mark(coordinates.toMap(last), [dot(COLORS.route, 6), label(t("to"))]);
     replace(
       answer,
       h("p", {}, h("strong", {}, t("routeFigures", { length: number(lengthM, 1), time: number(timeS, 0), clearance: number(clearanceM, 2) }))),
