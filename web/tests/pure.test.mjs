@@ -142,3 +142,10 @@ test("options come from the document with their meaning and their range", async 
   assert.deepEqual([mode.kind, mode.path, mode.meaning, mode.values], ["choice", ["grid", "mode"], "The mode.", ["a", "b"]]);
   assert.deepEqual(optionDocument(new Map([["seed", 7], ["grid/mode", "b"]])), { seed: 7, grid: { mode: "b" } });
 });
+
+test("only so many jobs are followed that a browser has connections left", async () => {
+  const { watchedJobs } = await load("service/jobs.ts");
+  const job = (jobID, status) => ({ jobID, status, created: `2026-01-01T00:00:0${jobID}Z` });
+  const jobs = [job("5", "accepted"), job("4", "accepted"), job("3", "accepted"), job("2", "running"), job("1", "successful")];
+  assert.deepEqual([...watchedJobs(jobs)], ["2", "3", "4"]);
+});

@@ -50,13 +50,18 @@ export async function changeLabels(base, map, patch) {
   return json(base, `/v1/maps/${map}/semantics`, { method: "PATCH", headers, body: JSON.stringify(patch) });
 }
 
-/** Uploads the example and waits until it is analysed; answers with its id. */
-export async function uploadExample(base, name) {
+/** Uploads the example; answers with its job. */
+export async function upload(base, name) {
   const form = new FormData();
   form.append("image", new Blob([await readFile(EXAMPLE.image)]), "warehouse.png");
   form.append("metadata", new Blob([await readFile(EXAMPLE.metadata)]), "warehouse.yaml");
   form.append("name", name);
-  const { body: job } = await json(base, "/v1/maps", { method: "POST", body: form });
+  return (await json(base, "/v1/maps", { method: "POST", body: form })).body;
+}
+
+/** Uploads the example and waits until it is analysed; answers with its id. */
+export async function uploadExample(base, name) {
+  const job = await upload(base, name);
   // The stream of events ends with the job.
   await (await fetch(`${base}/v1/jobs/${job.jobID}/events`)).text();
   return job.mapId;

@@ -5,14 +5,22 @@ import { t } from "../language";
 import { dismiss, isOver, watch } from "../service/jobs";
 import type { Job } from "../service/types";
 
-/** Follows a job; tells once when it is over. */
-export function jobProgress(job: Job, over: (job: Job) => void, failed: (error: unknown) => void): HTMLElement {
+export interface JobEvents {
+  /** The job is over. */
+  readonly changed: () => void;
+  readonly failed: (error: unknown) => void;
+  /** The job is followed until this is called. */
+  readonly following: (stop: () => void) => void;
+}
+
+/** Shows a job, and follows it where it is watched. */
+export function jobProgress(job: Job, isWatched: boolean, { changed, failed, following }: JobEvents): HTMLElement {
   const bar = h("progress", { max: 100, "aria-label": t("progress") });
   const stage = h("span", { role: "status" });
   const seconds = h("small", {});
   const cancel = button(t("cancel"), () => {
     cancel.disabled = true;
-    dismiss(job.jobID).catch(failed);
+    dismiss(job.jobID).then(() => isWatched || changed(), failed);
   });
   const show = (now: Job): void => {
     bar.value = now.progress;
@@ -20,10 +28,10 @@ export function jobProgress(job: Job, over: (job: Job) => void, failed: (error: 
     replace(seconds, now.stages.map((done) => `${done.name} ${done.wallS.toFixed(1)} s`).join(" · "));
   };
   show(job);
-  const stop = watch(job.jobID, (now) => {
+  const told = (now: Job): void => {
     show(now);
-    if (isOver(now)) over(now);
-    else if (!bar.isConnected) stop();
-  });
+    if (isOver(now)) changed();
+  };
+  if (isWatched) following(watch(job.jobID, told));
   return h("div", { class: "job" }, h("div", { class: "line" }, bar, stage, cancel), seconds);
 }

@@ -18,6 +18,18 @@ export async function latestJobs(): Promise<Map<string, Job>> {
   return latest;
 }
 
+/**
+ * Streams of events at the same time. A browser opens six connections to a host over HTTP/1.1, and all other requests need
+ * one, too.
+ */
+const MOST_STREAMS = 3;
+
+/** Ids of the jobs that are followed: those that came first and are not over. The list is read anew when one ends. */
+export function watchedJobs(jobs: readonly Job[]): ReadonlySet<string> {
+  const unfinished = jobs.filter((job) => !isOver(job)).sort((left, right) => left.created.localeCompare(right.created));
+  return new Set(unfinished.slice(0, MOST_STREAMS).map((job) => job.jobID));
+}
+
 /** Tells every change of a job up to its end; the browser connects again by itself. Returns how to stop. */
 export function watch(id: string, tell: (job: Job) => void): () => void {
   const events = new EventSource(`v1/jobs/${id}/events`);

@@ -4,7 +4,7 @@ import { ofMap } from "../../address";
 import { button, h } from "../../dom";
 import { moment, number, t } from "../../language";
 import { confirm } from "../../parts/confirm";
-import { jobProgress } from "../../parts/job_progress";
+import { jobProgress, type JobEvents } from "../../parts/job_progress";
 import { isOver } from "../../service/jobs";
 import { deleteMap } from "../../service/maps";
 import type { Job, MapView } from "../../service/types";
@@ -12,12 +12,13 @@ import type { Job, MapView } from "../../service/types";
 /** Cells up to which a browser draws the whole picture as a small one without effort. */
 const THUMBNAIL_CELLS = 16_000_000;
 
-export interface CardEvents {
-  readonly changed: () => void;
-  readonly failed: (error: unknown) => void;
+/** The latest job of a map, and whether it is followed. */
+export interface CardJob {
+  readonly job: Job | undefined;
+  readonly isWatched: boolean;
 }
 
-export function mapCard(map: MapView, job: Job | undefined, events: CardEvents): HTMLElement {
+export function mapCard(map: MapView, job: CardJob, events: JobEvents): HTMLElement {
   const isAnalysed = Boolean(map.analysisId);
   const remove = async (): Promise<void> => {
     if (!(await confirm(t("deleteQuestion", { name: map.name }), t("deleteMeaning"), t("delete")))) return;
@@ -53,8 +54,8 @@ function thumbnail(map: MapView): HTMLElement {
   return h("img", { class: "thumbnail", src, alt: "", loading: "lazy", width: 160, height: 100 });
 }
 
-function state(map: MapView, job: Job | undefined, events: CardEvents): HTMLElement {
-  if (job && !isOver(job)) return jobProgress(job, events.changed, events.failed);
+function state(map: MapView, { job, isWatched }: CardJob, events: JobEvents): HTMLElement {
+  if (job && !isOver(job)) return jobProgress(job, isWatched, events);
   if (job?.status === "failed") return h("p", { class: "bad" }, `${t("failed")} ${job.message}`);
   if (map.analysisId) return h("p", { class: "good" }, t("analysed"));
   return h("p", { class: "bad" }, job?.status === "dismissed" ? t("dismissed") : t("notAnalysed"));

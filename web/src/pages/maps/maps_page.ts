@@ -4,24 +4,36 @@ import { h, replace } from "../../dom";
 import { t } from "../../language";
 import type { Page } from "../page";
 import { clear, problemBox, show } from "../../parts/problem";
-import { latestJobs } from "../../service/jobs";
+import { latestJobs, watchedJobs } from "../../service/jobs";
 import { listMaps } from "../../service/maps";
+import type { MapView } from "../../service/types";
 import { mapCard } from "./map_card";
 import { uploadForm } from "./upload";
 
 export function mapsPage(): Page {
   const problems = problemBox();
   const list = h("ul", { class: "maps" });
+  const following: (() => void)[] = [];
   let isLeft = false;
   const failed = (error: unknown): void => show(problems, error);
+
+  function stopFollowing(): void {
+    for (const stop of following.splice(0)) stop();
+  }
 
   async function read(): Promise<void> {
     const [maps, jobs] = await Promise.all([listMaps(), latestJobs()]);
     if (isLeft) return;
     clear(problems);
-    const events = { changed: () => void read().catch(failed), failed };
+    stopFollowing();
+    const events = { changed: () => void read().catch(failed), failed, following: (stop: () => void) => void following.push(stop) };
+    const watched = watchedJobs([...jobs.values()]);
+    const card = (map: MapView): HTMLElement => {
+      const job = jobs.get(map.id);
+      return mapCard(map, { job, isWatched: job !== undefined && watched.has(job.jobID) }, events);
+    };
     if (maps.length === 0) replace(list, h("li", { class: "empty" }, t("noMaps")));
-    else replace(list, ...maps.map((map) => mapCard(map, jobs.get(map.id), events)));
+    else replace(list, ...maps.map(card));
   }
 
   void read().catch(failed);
@@ -34,5 +46,9 @@ export function mapsPage(): Page {
     h("div", { class: "columns" }, list, uploadForm(() => void read().catch(failed))),
     h("p", {}, h("a", { href: "assets/licenses.txt" }, h("small", {}, t("licenses")))),
   );
-  return { element, leave: () => void (isLeft = true) };
+  const leave = (): void => {
+    isLeft = true;
+    stopFollowing();
+  };
+  return { element, leave };
 }
