@@ -28,7 +28,11 @@ function header(): HTMLElement {
   return h(
     "header",
     { class: "top" },
-    h("a", { href: "#main", class: "skip", onclick: (event: Event) => (event.preventDefault(), main.focus()) }, t("skip")),
+    h(
+      "a",
+      { href: "#main", class: "skip", onclick: (event: Event) => (event.preventDefault(), main.focus()) },
+      t("skip"),
+    ),
     h("a", { href: "#/", class: "brand" }, "stillage"),
     h("a", { href: "#/" }, t("maps")),
     h("a", { href: "docs/", class: "right" }, t("reference")),

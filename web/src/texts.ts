@@ -27,7 +27,10 @@ export const texts = {
     "The picture of the map (PNG, PGM, ...) together with its YAML, or an OccupancyGrid message as JSON or YAML",
     "Das Bild der Karte (PNG, PGM, ...) zusammen mit seiner YAML-Datei, oder eine OccupancyGrid-Nachricht als JSON oder YAML",
   ],
-  missingAll: ["Choose a picture with its YAML, or a message.", "Wählen Sie ein Bild mit seiner YAML-Datei oder eine Nachricht."],
+  missingAll: [
+    "Choose a picture with its YAML, or a message.",
+    "Wählen Sie ein Bild mit seiner YAML-Datei oder eine Nachricht.",
+  ],
   missingMetadata: [
     "The YAML is missing that was saved with the picture: it tells resolution and origin.",
     "Es fehlt die YAML-Datei, die mit dem Bild gespeichert wurde: Sie nennt Auflösung und Ursprung.",
@@ -62,7 +65,10 @@ export const texts = {
   ],
 
   // A map
-  mapCanvas: ["The map. Arrow keys move it, plus and minus zoom.", "Die Karte. Pfeiltasten verschieben sie, Plus und Minus zoomen."],
+  mapCanvas: [
+    "The map. Arrow keys move it, plus and minus zoom.",
+    "Die Karte. Pfeiltasten verschieben sie, Plus und Minus zoomen.",
+  ],
   tools: ["Tools", "Werkzeuge"],
   layers: ["Layers", "Ebenen"],
   picture: ["Picture", "Bild"],
@@ -92,7 +98,10 @@ export const texts = {
   found: ["Found", "Gefunden"],
   foundCount: ["{count} found", "{count} gefunden"],
   measure: ["Measure", "Messen"],
-  measureMeaning: ["Click along the way; a double click ends it.", "Klicken Sie entlang des Weges; ein Doppelklick beendet ihn."],
+  measureMeaning: [
+    "Click along the way; a double click ends it.",
+    "Klicken Sie entlang des Weges; ein Doppelklick beendet ihn.",
+  ],
   length: ["{metres} m", "{metres} m"],
   showAll: ["Show all", "Alles zeigen"],
   lookMeaning: [
@@ -117,7 +126,10 @@ export const texts = {
   why: ["Why", "Warum"],
   singleFaces: ["Single faces", "Einzelne Flächen"],
   selectByBox: ["Select by box", "Mit Rahmen wählen"],
-  chooseFaces: ["Click faces on the map to give them another label.", "Klicken Sie Flächen auf der Karte an, um ihnen ein anderes Label zu geben."],
+  chooseFaces: [
+    "Click faces on the map to give them another label.",
+    "Klicken Sie Flächen auf der Karte an, um ihnen ein anderes Label zu geben.",
+  ],
   facesChosen: ["{count} faces chosen", "{count} Flächen gewählt"],
   facesDrafted: ["{count} faces changed, not saved", "{count} Flächen geändert, nicht gespeichert"],
   none: ["None", "Keine"],
@@ -142,9 +154,15 @@ export const texts = {
   restore: ["Restore", "Wiederherstellen"],
   restoreOne: ["Restore version {version}", "Version {version} wiederherstellen"],
   ruleSet: ["Rule set", "Regelsatz"],
-  ruleSetDrafted: ["Its labels can be assigned once this is saved.", "Seine Labels lassen sich zuweisen, sobald gespeichert ist."],
+  ruleSetDrafted: [
+    "Its labels can be assigned once this is saved.",
+    "Seine Labels lassen sich zuweisen, sobald gespeichert ist.",
+  ],
   editRules: ["Edit labels and rules", "Labels und Regeln bearbeiten"],
-  builtIn: ["{id} is built in: what you save becomes a rule set of its own.", "{id} ist eingebaut: Was Sie speichern, wird ein eigener Regelsatz."],
+  builtIn: [
+    "{id} is built in: what you save becomes a rule set of its own.",
+    "{id} ist eingebaut: Was Sie speichern, wird ein eigener Regelsatz.",
+  ],
   ruleSetId: ["Id", "Kennung"],
   ruleSetIdMeaning: ["Small letters, digits and hyphens", "Kleinbuchstaben, Ziffern und Bindestriche"],
   labels: ["Labels", "Labels"],
@@ -178,7 +196,10 @@ export const texts = {
   clearance: ["far from obstacles", "weit von Hindernissen"],
   swap: ["Swap", "Tauschen"],
   startAgain: ["Start again", "Neu beginnen"],
-  routeFigures: ["{length} m, {time} s, {clearance} m from obstacles", "{length} m, {time} s, {clearance} m von Hindernissen"],
+  routeFigures: [
+    "{length} m, {time} s, {clearance} m from obstacles",
+    "{length} m, {time} s, {clearance} m von Hindernissen",
+  ],
   graphReport: ["Report on the navigation graph", "Bericht über den Navigationsgraphen"],
   graphFigures: [
     "{nodes} nodes, {lanes} lanes, {parts} parts; a way joins {share} % of the pairs that were tried.",
@@ -201,17 +222,26 @@ export const texts = {
   exports: ["Files for other programs", "Dateien für andere Programme"],
   download: ["Download", "Herunterladen"],
   preview: ["Preview", "Vorschau"],
-  noPreview: ["The file can be made; {type} has no preview.", "Die Datei lässt sich erzeugen; {type} hat keine Vorschau."],
+  noPreview: [
+    "The file can be made; {type} has no preview.",
+    "Die Datei lässt sich erzeugen; {type} hat keine Vorschau.",
+  ],
   evaluation: ["Compare with a truth", "Mit einer Wahrheit vergleichen"],
   truthFile: ["Truth file", "Datei der Wahrheit"],
-  truthMeaning: ["GeoJSON in metres of the map, as docs/accuracy.md describes it", "GeoJSON in Metern der Karte, wie docs/accuracy.md es beschreibt"],
+  truthMeaning: [
+    "GeoJSON in metres of the map, as docs/accuracy.md describes it",
+    "GeoJSON in Metern der Karte, wie docs/accuracy.md es beschreibt",
+  ],
   suggestedLabels: ["suggested labels", "vorgeschlagene Labels"],
   decidedLabels: ["decided labels", "entschiedene Labels"],
   placesFound: ["Places found", "Gefundene Plätze"],
   placesSystematic: ["Missed, and empty", "Verfehlt und leer"],
   precision: ["Precision", "Genauigkeit"],
   overlap: ["Overlap of {label}", "Überdeckung von {label}"],
-  borders: ["{found} of the true borders are found, {right} of the borders are right.", "{found} der wahren Grenzen sind gefunden, {right} der Grenzen sind richtig."],
+  borders: [
+    "{found} of the true borders are found, {right} of the borders are right.",
+    "{found} der wahren Grenzen sind gefunden, {right} der Grenzen sind richtig.",
+  ],
 } as const satisfies Record<string, readonly [english: string, german: string]>;
 
 export type TextName = keyof typeof texts;

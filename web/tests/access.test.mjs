@@ -35,7 +35,8 @@ const PAGES = {
     await page.getByRole("dialog").waitFor();
   },
   routes: (page) => openMap(page, service.base, map, "routes"),
-  "hand-over": (page) => openMap(page, service.base, map, "hand-over").then(() => page.locator("tbody tr").first().waitFor()),
+  "hand-over": (page) =>
+    openMap(page, service.base, map, "hand-over").then(() => page.locator("tbody tr").first().waitFor()),
 };
 
 for (const [name, options] of Object.entries({
@@ -48,7 +49,9 @@ for (const [name, options] of Object.entries({
     const found = {};
     for (const [place, open] of Object.entries(PAGES)) {
       await open(page);
-      await page.locator("details:not([open]) > summary").evaluateAll((all) => all.slice(0, 3).forEach((one) => one.click()));
+      await page
+        .locator("details:not([open]) > summary")
+        .evaluateAll((all) => all.slice(0, 3).forEach((one) => one.click()));
       found[place] = await violations(page);
       const overflow = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
       if (overflow > 0) found[place].push(`${overflow} pixels too wide`);
@@ -66,7 +69,8 @@ test("everything is reached by keys: a map is opened, a place is found", async (
   await page.goto(service.base);
   const link = page.getByRole("link", { name: "Hall 1" });
   await link.waitFor();
-  for (let tabs = 0; tabs < 20 && !(await link.evaluate((one) => one === document.activeElement)); tabs += 1) await page.keyboard.press("Tab");
+  for (let tabs = 0; tabs < 20 && !(await link.evaluate((one) => one === document.activeElement)); tabs += 1)
+    await page.keyboard.press("Tab");
   await page.keyboard.press("Enter");
   const search = page.getByLabel("Search a code or a name");
   await search.waitFor();

@@ -6,7 +6,13 @@ import { after, before, test } from "node:test";
 import { changeLabels, json, openMap, startBrowser, startService, uploadExample } from "./service.mjs";
 
 const MARKUP = '<img src=x onerror="globalThis.harmed=true">';
-const PAYLOADS = [MARKUP, "<script>globalThis.harmed=true</script>", "<svg/onload=globalThis.harmed=true>", "javascript:globalThis.harmed=true", '"><b onmouseover=globalThis.harmed=true>'];
+const PAYLOADS = [
+  MARKUP,
+  "<script>globalThis.harmed=true</script>",
+  "<svg/onload=globalThis.harmed=true>",
+  "javascript:globalThis.harmed=true",
+  '"><b onmouseover=globalThis.harmed=true>',
+];
 let service;
 let browser;
 let page;
@@ -19,13 +25,21 @@ before(async () => {
   const rules = (await json(service.base, "/v1/rule-sets/site")).body;
   const labels = rules.labels.map((label, index) => ({ ...label, name: PAYLOADS[index] }));
   const headers = { "content-type": "application/json" };
-  await json(service.base, "/v1/rule-sets", { method: "POST", headers, body: JSON.stringify({ id: "hostile", labels }) });
+  await json(service.base, "/v1/rule-sets", {
+    method: "POST",
+    headers,
+    body: JSON.stringify({ id: "hostile", labels }),
+  });
   await changeLabels(service.base, map, { ruleSet: "hostile" });
   const items = `/v1/maps/${map}/collections/locations/items`;
   const { body } = await json(service.base, `${items}?limit=1`);
   const path = `${items}/${body.features[0].id}`;
   const { tag } = await json(service.base, path);
-  await json(service.base, path, { method: "PATCH", headers: { ...headers, "if-match": tag }, body: JSON.stringify({ properties: { name: MARKUP } }) });
+  await json(service.base, path, {
+    method: "PATCH",
+    headers: { ...headers, "if-match": tag },
+    body: JSON.stringify({ properties: { name: MARKUP } }),
+  });
   ({ browser, page, complaints } = await startBrowser());
 });
 after(async () => {
@@ -33,7 +47,10 @@ after(async () => {
   await service?.stop();
 });
 
-const isHarmed = () => page.evaluate(() => globalThis.harmed === true || document.querySelector("main img[src=x], main b, main svg") !== null);
+const isHarmed = () =>
+  page.evaluate(
+    () => globalThis.harmed === true || document.querySelector("main img[src=x], main b, main svg") !== null,
+  );
 
 test("names of maps and files", async () => {
   await page.goto(service.base);
@@ -71,8 +88,13 @@ test("what the service says of hostile input", async () => {
 
 test("a truth file with markup in it", async () => {
   await openMap(page, service.base, map, "hand-over");
-  const truth = { type: "FeatureCollection", features: [{ type: "Feature", properties: { label: MARKUP }, geometry: { type: MARKUP, coordinates: [] } }] };
-  await page.getByLabel("Truth file").setInputFiles({ name: "truth.geojson", mimeType: "application/json", buffer: Buffer.from(JSON.stringify(truth)) });
+  const truth = {
+    type: "FeatureCollection",
+    features: [{ type: "Feature", properties: { label: MARKUP }, geometry: { type: MARKUP, coordinates: [] } }],
+  };
+  await page
+    .getByLabel("Truth file")
+    .setInputFiles({ name: "truth.geojson", mimeType: "application/json", buffer: Buffer.from(JSON.stringify(truth)) });
   await page.locator(".problem").waitFor();
   assert.equal(await isHarmed(), false);
 });

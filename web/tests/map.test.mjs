@@ -3,7 +3,17 @@
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 
-import { changeLabels, clickMap, EXAMPLE, json, openMap, picture, startBrowser, startService, uploadExample } from "./service.mjs";
+import {
+  changeLabels,
+  clickMap,
+  EXAMPLE,
+  json,
+  openMap,
+  picture,
+  startBrowser,
+  startService,
+  uploadExample,
+} from "./service.mjs";
 
 let service;
 let browser;
@@ -51,11 +61,13 @@ test("a code is searched and flown to, and the address holds the view", async ()
 });
 
 test("layers are shown and hidden, and the address says which", async () => {
-  for (const name of ["Occupancy", "Adjacency graph", "Regions", "Lines", "Places"]) await page.getByLabel(name, { exact: true }).check();
+  for (const name of ["Occupancy", "Adjacency graph", "Regions", "Lines", "Places"])
+    await page.getByLabel(name, { exact: true }).check();
   await page.waitForLoadState("networkidle");
   assert.match(page.url(), /layers=regions%2Cfaces%2Coccupancy%2Cplaces%2Clines%2Cedges%2Cgraph/);
   await picture(page, "layers");
-  for (const name of ["Occupancy", "Adjacency graph", "Regions", "Lines", "Places"]) await page.getByLabel(name, { exact: true }).uncheck();
+  for (const name of ["Occupancy", "Adjacency graph", "Regions", "Lines", "Places"])
+    await page.getByLabel(name, { exact: true }).uncheck();
   assert.doesNotMatch(page.url(), /layers=/);
 });
 
@@ -115,13 +127,18 @@ test("faces get a label of their own", async () => {
   await page.getByText("1 faces changed, not saved").waitFor();
   await page.getByRole("button", { name: "Save" }).click();
   await page.getByText("Version 5 is in force").waitFor();
-  assert.deepEqual((await semantics()).overrides.map(({ label }) => label), ["ro"]);
+  assert.deepEqual(
+    (await semantics()).overrides.map(({ label }) => label),
+    ["ro"],
+  );
   await page.getByRole("button", { name: "Undo" }).click();
   await page.getByText("Version 6 is in force").waitFor();
 });
 
 test("where somebody else saved meanwhile, their change is shown and nothing is lost", async () => {
-  const [first, second] = await page.locator("section.category").evaluateAll((all) => all.map((one) => one.id.replace("category-", "")));
+  const [first, second] = await page
+    .locator("section.category")
+    .evaluateAll((all) => all.map((one) => one.id.replace("category-", "")));
   await page.locator(`#category-${second}`).getByRole("combobox").selectOption("ro");
   await changeLabels(service.base, map, { assignment: { [first]: "un" } });
   await page.getByRole("button", { name: "Save" }).click();
@@ -190,7 +207,10 @@ test("locations are listed, sorted and filtered; files are offered with their op
   await lif.getByLabel("footprintRadiusM").fill("0.35");
   await lif.getByRole("button", { name: "Preview" }).click();
   await lif.locator("pre", { hasText: "metaInformation" }).waitFor();
-  const [download] = await Promise.all([page.waitForEvent("download"), lif.getByRole("link", { name: "Download" }).click()]);
+  const [download] = await Promise.all([
+    page.waitForEvent("download"),
+    lif.getByRole("link", { name: "Download" }).click(),
+  ]);
   assert.equal(download.suggestedFilename(), "lif.json");
 });
 

@@ -20,7 +20,11 @@ after(async () => {
   await service?.stop();
 });
 
-const files = (...names) => page.setInputFiles("#files", names.map((name) => EXAMPLE[name].pathname));
+const files = (...names) =>
+  page.setInputFiles(
+    "#files",
+    names.map((name) => EXAMPLE[name].pathname),
+  );
 
 test("an empty service says what to do", async () => {
   await page.getByText("There is no map yet").waitFor();

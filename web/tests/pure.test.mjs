@@ -9,15 +9,33 @@ let vite;
 const load = (path) => vite.ssrLoadModule(`/src/${path}`);
 
 before(async () => {
-  vite = await createServer({ server: { middlewareMode: true, ws: false, watch: null }, appType: "custom", logLevel: "error" });
+  vite = await createServer({
+    server: { middlewareMode: true, ws: false, watch: null },
+    appType: "custom",
+    logLevel: "error",
+  });
 });
 after(() => vite.close());
 
 test("an address names a map, a tool and a view", async () => {
   const { read, ofMap } = await load("address.ts");
   const id = "01a22711-7884-74c4-958b-49286e02bea9";
-  const address = ofMap(id, "routes", new Map([["x", "1.50"], ["layers", "faces,edges"]]));
-  assert.deepEqual(read(address), { map: id, tool: "routes", view: new Map([["x", "1.50"], ["layers", "faces,edges"]]) });
+  const address = ofMap(
+    id,
+    "routes",
+    new Map([
+      ["x", "1.50"],
+      ["layers", "faces,edges"],
+    ]),
+  );
+  assert.deepEqual(read(address), {
+    map: id,
+    tool: "routes",
+    view: new Map([
+      ["x", "1.50"],
+      ["layers", "faces,edges"],
+    ]),
+  });
   assert.equal(read("#/").map, null);
   assert.equal(read("#/maps/../x").map, null);
 });
@@ -25,11 +43,19 @@ test("an address names a map, a tool and a view", async () => {
 test("pixels of a turned grid lie in the map frame", async () => {
   const { ofPixel, boxOf, lengthOf } = await load("map/frame.ts");
   const grid = { frame: { resolutionM: 0.5, originM: [10, 20], yawRad: Math.PI / 2 }, width: 4, height: 2 };
-  const near = (point, wanted) => point.forEach((value, axis) => assert.ok(Math.abs(value - wanted[axis]) < 1e-9, `${point}`));
+  const near = (point, wanted) =>
+    point.forEach((value, axis) => assert.ok(Math.abs(value - wanted[axis]) < 1e-9, `${point}`));
   near(ofPixel(grid, [0, 2]), [10, 20]);
   near(ofPixel(grid, [4, 2]), [10, 22]);
   near(boxOf(grid), [9, 20, 10, 22]);
-  assert.equal(lengthOf([[0, 0], [3, 4], [3, 5]]), 6);
+  assert.equal(
+    lengthOf([
+      [0, 0],
+      [3, 4],
+      [3, 5],
+    ]),
+    6,
+  );
 });
 
 test("coordinates of a georeferenced map lead there and back", async () => {
@@ -80,7 +106,13 @@ test("undo and redo walk over contents; a new one ends what was undone", async (
 
 test("a rule for two labels is stronger than what follows from them", async () => {
   const { cogencyOf, withCogency } = await load("labels/rule_set_draft.ts");
-  const derived = { labels: [{ id: "a" }, { id: "b" }], cogency: [["invalid", "cogent"], ["cogent", "invalid"]] };
+  const derived = {
+    labels: [{ id: "a" }, { id: "b" }],
+    cogency: [
+      ["invalid", "cogent"],
+      ["cogent", "invalid"],
+    ],
+  };
   const draft = { id: "x", labels: [], cogency: [{ when: ["*", "b"], then: "storage-access" }] };
   assert.equal(cogencyOf({ ...draft, cogency: [] }, derived, "a", "b"), "cogent");
   assert.equal(cogencyOf(draft, derived, "b", "a"), "storage-access");
@@ -102,14 +134,19 @@ test("files are told apart by their names", async () => {
 test("codes that begin as typed come before those that contain it", async () => {
   const { matches } = await load("pages/map/look/matches.ts");
   const all = ["11-010", "01-010", "01-002", "01"].map((name) => ({ names: [name] }));
-  assert.deepEqual(matches(all, "01", 9).map(({ names }) => names[0]), ["01", "01-002", "01-010", "11-010"]);
+  assert.deepEqual(
+    matches(all, "01", 9).map(({ names }) => names[0]),
+    ["01", "01-002", "01-010", "11-010"],
+  );
   assert.deepEqual(matches(all, " ", 9), []);
 });
 
 test("a route is asked for in the coordinates of the service", async () => {
   const { routeQuery } = await load("pages/map/routes/route_request.ts");
   const { coordinatesOf } = await load("map/coordinates.ts");
-  const query = new URLSearchParams(routeQuery("1.5, -2", "03-012", 0.4, "shortest", coordinatesOf({ status: "nominal" })));
+  const query = new URLSearchParams(
+    routeQuery("1.5, -2", "03-012", 0.4, "shortest", coordinatesOf({ status: "nominal" })),
+  );
   assert.deepEqual([query.get("from"), query.get("to"), query.get("crs")], ["1.5,-2", "location:03-012", "EPSG:3857"]);
 });
 
@@ -133,19 +170,41 @@ test("every text is there in both languages, with the same values to fill in", a
 test("options come from the document with their meaning and their range", async () => {
   const { optionFields, optionDocument } = await load("service/options.ts");
   const schemas = {
-    AnalysisOptions: { properties: { seed: { type: "integer", description: "Seed.", default: 1, minimum: 0 }, grid: { $ref: "#/x/GridOptions" } } },
+    AnalysisOptions: {
+      properties: {
+        seed: { type: "integer", description: "Seed.", default: 1, minimum: 0 },
+        grid: { $ref: "#/x/GridOptions" },
+      },
+    },
     GridOptions: { properties: { mode: { $ref: "#/x/Mode", description: "The `mode`.", default: "a" } } },
     Mode: { type: "string", enum: ["a", "b"] },
   };
   const [seed, mode] = optionFields(schemas);
   assert.deepEqual([seed.kind, seed.standard, seed.minimum], ["number", "1", 0]);
-  assert.deepEqual([mode.kind, mode.path, mode.meaning, mode.values], ["choice", ["grid", "mode"], "The mode.", ["a", "b"]]);
-  assert.deepEqual(optionDocument(new Map([["seed", 7], ["grid/mode", "b"]])), { seed: 7, grid: { mode: "b" } });
+  assert.deepEqual(
+    [mode.kind, mode.path, mode.meaning, mode.values],
+    ["choice", ["grid", "mode"], "The mode.", ["a", "b"]],
+  );
+  assert.deepEqual(
+    optionDocument(
+      new Map([
+        ["seed", 7],
+        ["grid/mode", "b"],
+      ]),
+    ),
+    { seed: 7, grid: { mode: "b" } },
+  );
 });
 
 test("only so many jobs are followed that a browser has connections left", async () => {
   const { watchedJobs } = await load("service/jobs.ts");
   const job = (jobID, status) => ({ jobID, status, created: `2026-01-01T00:00:0${jobID}Z` });
-  const jobs = [job("5", "accepted"), job("4", "accepted"), job("3", "accepted"), job("2", "running"), job("1", "successful")];
+  const jobs = [
+    job("5", "accepted"),
+    job("4", "accepted"),
+    job("3", "accepted"),
+    job("2", "running"),
+    job("1", "successful"),
+  ];
   assert.deepEqual([...watchedJobs(jobs)], ["2", "3", "4"]);
 });

@@ -79,7 +79,8 @@ export async function startBrowser(options = {}) {
   page.on("pageerror", (error) => complaints.push(error.message));
   page.on("console", (message) => {
     // A refusal is part of many tests; the browser logs it as a failed resource.
-    if (message.type() === "error" && !message.text().startsWith("Failed to load resource")) complaints.push(message.text());
+    if (message.type() === "error" && !message.text().startsWith("Failed to load resource"))
+      complaints.push(message.text());
   });
   return { browser, page, complaints };
 }

@@ -14,7 +14,13 @@ const { browser, page } = await startBrowser();
 
 const square = (column, row) => {
   const [x, y] = [column * 0.45, row * 0.3];
-  return [[x, y], [x + 0.4, y], [x + 0.4, y + 0.25], [x, y + 0.25], [x, y]];
+  return [
+    [x, y],
+    [x + 0.4, y],
+    [x + 0.4, y + 0.25],
+    [x, y + 0.25],
+    [x, y],
+  ];
 };
 const cells = Array.from({ length: SIDE * SIDE }, (_, index) => square(index % SIDE, Math.floor(index / SIDE)));
 const collection = (features) => JSON.stringify({ type: "FeatureCollection", features, links: [] });
@@ -29,7 +35,12 @@ const edges = cells.flatMap((ring, id) =>
     type: "Feature",
     id: id * 2 + side,
     geometry: { type: "LineString", coordinates: [ring[side], end] },
-    properties: { id: id * 2 + side, cogency: ["cogent", "storage-access", "invalid"][id % 3], faceLeft: id, faceRight: null },
+    properties: {
+      id: id * 2 + side,
+      cogency: ["cogent", "storage-access", "invalid"][id % 3],
+      faceLeft: id,
+      faceRight: null,
+    },
   })),
 );
 const answer = (body) => (route) => route.fulfill({ contentType: "application/geo+json", body });
@@ -38,7 +49,9 @@ await page.route("**/collections/edges/items?**", answer(collection(edges)));
 
 const begin = Date.now();
 await openMap(page, service.base, map);
-console.log(`first view, ${faces.length} faces and ${edges.length} edges: ${Date.now() - begin} ms (half a second of it waits for silence)`);
+console.log(
+  `first view, ${faces.length} faces and ${edges.length} edges: ${Date.now() - begin} ms (half a second of it waits for silence)`,
+);
 
 /** Frames while something is done with the mouse. */
 async function frames(name, act) {
@@ -56,9 +69,14 @@ async function frames(name, act) {
     globalThis.times = undefined;
     return times;
   });
-  const steps = times.slice(1).map((time, index) => time - times[index]).sort((left, right) => left - right);
+  const steps = times
+    .slice(1)
+    .map((time, index) => time - times[index])
+    .sort((left, right) => left - right);
   const at = (share) => steps[Math.floor(steps.length * share)]?.toFixed(0);
-  console.log(`${name}: median ${at(0.5)} ms, 95 % below ${at(0.95)} ms, longest ${at(0.999)} ms, ${steps.length} frames`);
+  console.log(
+    `${name}: median ${at(0.5)} ms, 95 % below ${at(0.95)} ms, longest ${at(0.999)} ms, ${steps.length} frames`,
+  );
 }
 
 const drag = async () => {

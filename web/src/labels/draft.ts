@@ -21,7 +21,9 @@ export function isEmpty(draft: Draft): boolean {
 }
 
 export function changeCount(draft: Draft): number {
-  return Object.keys(draft.assignment).length + Object.keys(draft.overrides).length + (draft.ruleSet === undefined ? 0 : 1);
+  return (
+    Object.keys(draft.assignment).length + Object.keys(draft.overrides).length + (draft.ruleSet === undefined ? 0 : 1)
+  );
 }
 
 /** The merge patch that saves a draft. */
@@ -34,7 +36,12 @@ export function patchOf({ ruleSet, assignment, overrides }: Draft): Record<strin
 }
 
 /** The label of a face under a draft. `read` is the label that the service told. */
-export function labelUnder(draft: Draft, inForce: Semantics, face: { id: number; category: number }, read: string): string {
+export function labelUnder(
+  draft: Draft,
+  inForce: Semantics,
+  face: { id: number; category: number },
+  read: string,
+): string {
   const wanted = draft.overrides[face.id];
   if (typeof wanted === "string") return wanted;
   const isOverridden = inForce.overrides.some((override) => override.face === face.id);
@@ -53,14 +60,16 @@ export interface Difference {
 
 export function differences(before: Semantics, after: Semantics): Difference[] {
   const list: Difference[] = [];
-  if (before.ruleSet !== after.ruleSet) list.push({ what: "ruleSet", key: "", before: before.ruleSet, after: after.ruleSet });
+  if (before.ruleSet !== after.ruleSet)
+    list.push({ what: "ruleSet", key: "", before: before.ruleSet, after: after.ruleSet });
   const compare = (what: "category" | "face", old: Record<string, string>, now: Record<string, string>): void => {
     for (const key of new Set([...Object.keys(old), ...Object.keys(now)])) {
       const [was, is] = [old[key] ?? "", now[key] ?? ""];
       if (was !== is) list.push({ what, key, before: was, after: is });
     }
   };
-  const byFace = (semantics: Semantics) => Object.fromEntries(semantics.overrides.map(({ face, label }) => [face, label]));
+  const byFace = (semantics: Semantics) =>
+    Object.fromEntries(semantics.overrides.map(({ face, label }) => [face, label]));
   compare("category", before.assignment, after.assignment);
   compare("face", byFace(before), byFace(after));
   return list;

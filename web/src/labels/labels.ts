@@ -30,7 +30,10 @@ export class Labels implements Reading {
     this.track = trackOf(read.body.version);
   }
 
-  static async of(map: string, faceRow: (id: number) => Readonly<Record<string, unknown>> | undefined): Promise<Labels> {
+  static async of(
+    map: string,
+    faceRow: (id: number) => Readonly<Record<string, unknown>> | undefined,
+  ): Promise<Labels> {
     const read = await getTagged<Semantics>(`v1/maps/${map}/semantics`);
     const [ruleSet, matrix] = await rulesOf(read.body.ruleSet);
     return new Labels(map, read, ruleSet, matrix, faceRow);
@@ -80,7 +83,12 @@ export class Labels implements Reading {
 
   /** Saves the draft as a new version, over exactly the version that was read: 412 where another one is in force. */
   async save(): Promise<void> {
-    const saved = await send<Semantics>("PATCH", `v1/maps/${this.map}/semantics`, patchOf(this.draftNow), this.read.tag);
+    const saved = await send<Semantics>(
+      "PATCH",
+      `v1/maps/${this.map}/semantics`,
+      patchOf(this.draftNow),
+      this.read.tag,
+    );
     this.track = changed(this.track, saved.body.version);
     await this.accept(saved);
     this.discard();
@@ -117,7 +125,12 @@ export class Labels implements Reading {
   }
 
   private sendRestore(version: number): Promise<Tagged<Semantics>> {
-    return send<Semantics>("POST", `v1/maps/${this.map}/semantics/versions/${version}/restore`, undefined, this.read.tag);
+    return send<Semantics>(
+      "POST",
+      `v1/maps/${this.map}/semantics/versions/${version}/restore`,
+      undefined,
+      this.read.tag,
+    );
   }
 
   private async accept(read: Tagged<Semantics>): Promise<void> {
@@ -147,7 +160,9 @@ export class Labels implements Reading {
     const row = rowOf(feature);
     const read = String(row["cogency"]) as keyof typeof COLORS;
     if (isEmpty(this.draftNow)) return read;
-    const sides = [row["faceLeft"], row["faceRight"]].map((id) => (typeof id === "number" ? this.faceRow(id) : undefined));
+    const sides = [row["faceLeft"], row["faceRight"]].map((id) =>
+      typeof id === "number" ? this.faceRow(id) : undefined,
+    );
     const [left, right] = sides.map((side) => side && this.labelOf(side));
     const isChanged = sides.some((side) => side && this.labelOf(side) !== side["label"]);
     if (!isChanged || !left || !right) return read;

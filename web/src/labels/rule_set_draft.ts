@@ -2,7 +2,14 @@
 
 import type { Cogency, CogencyMatrix, CogencyRule, Functionality, Label, RuleSet } from "../service/types";
 
-export const FUNCTIONALITIES: readonly Functionality[] = ["drivable", "storage-access", "connection", "access", "storage", "work-place"];
+export const FUNCTIONALITIES: readonly Functionality[] = [
+  "drivable",
+  "storage-access",
+  "connection",
+  "access",
+  "storage",
+  "work-place",
+];
 export const COGENCIES: readonly Cogency[] = ["cogent", "storage-access", "invalid"];
 
 export interface RuleSetDraft {
@@ -28,7 +35,12 @@ export function toggled<T>(list: readonly T[] | undefined, value: T, isIn: boole
 }
 
 /** What an edge between two labels means: the first rule that names them, else what follows from the labels. */
-export function cogencyOf(draft: RuleSetDraft, derived: CogencyMatrix, left: string, right: string): Cogency | undefined {
+export function cogencyOf(
+  draft: RuleSetDraft,
+  derived: CogencyMatrix,
+  left: string,
+  right: string,
+): Cogency | undefined {
   const rule = draft.cogency.find(({ when }) => fits(when, left, right));
   if (rule) return rule.then;
   const [row, column] = [left, right].map((id) => derived.labels.findIndex((label) => label.id === id));
@@ -41,14 +53,23 @@ function fits([first = "", second = ""]: readonly string[], left: string, right:
 }
 
 /** The rule for exactly these two labels comes first; no value takes it away. */
-export function withCogency(draft: RuleSetDraft, left: string, right: string, value: Cogency | undefined): RuleSetDraft {
+export function withCogency(
+  draft: RuleSetDraft,
+  left: string,
+  right: string,
+  value: Cogency | undefined,
+): RuleSetDraft {
   const isSame = ({ when }: CogencyRule): boolean => [...when].sort().join() === [left, right].sort().join();
   const others = draft.cogency.filter((rule) => !isSame(rule));
   return { ...draft, cogency: value === undefined ? others : [{ when: [left, right], then: value }, ...others] };
 }
 
 /** The document that the service reads. */
-export function documentOf(draft: RuleSetDraft): { id: string; labels: readonly Label[]; cogency?: readonly CogencyRule[] } {
+export function documentOf(draft: RuleSetDraft): {
+  id: string;
+  labels: readonly Label[];
+  cogency?: readonly CogencyRule[];
+} {
   const { id, labels, cogency } = draft;
   return { id, labels, ...(cogency.length > 0 ? { cogency } : {}) };
 }

@@ -21,7 +21,10 @@ export function changed({ contents, position }: Track, version: number): Track {
 }
 
 /** The version to restore for a step back (-1) or forth (1), and the track after it. */
-export function step({ contents, position }: Track, by: -1 | 1): { readonly version: number; readonly track: Track } | undefined {
+export function step(
+  { contents, position }: Track,
+  by: -1 | 1,
+): { readonly version: number; readonly track: Track } | undefined {
   const version = contents[position + by];
   return version === undefined ? undefined : { version, track: { contents, position: position + by } };
 }

@@ -23,7 +23,12 @@ export function ofPixel(grid: Grid, [column, row]: Point): Point {
 
 /** The box around a grid. */
 export function boxOf(grid: Grid): Box {
-  const corners: Point[] = [[0, 0], [grid.width, 0], [0, grid.height], [grid.width, grid.height]];
+  const corners: Point[] = [
+    [0, 0],
+    [grid.width, 0],
+    [0, grid.height],
+    [grid.width, grid.height],
+  ];
   return boxAround(corners.map((corner) => ofPixel(grid, corner)));
 }
 

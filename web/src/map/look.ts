@@ -30,25 +30,41 @@ function once(key: string, make: () => Style): Style {
 /** A translucent area with a thin border. */
 export function area(color: string, opacity = 0.5): Style {
   return once(`area ${color} ${opacity}`, () => {
-    const alpha = Math.round(opacity * 255).toString(16).padStart(2, "0");
-    return new Style({ fill: new Fill({ color: `${color}${alpha}` }), stroke: new Stroke({ color: `${color}cc`, width: 0.5 }) });
+    const alpha = Math.round(opacity * 255)
+      .toString(16)
+      .padStart(2, "0");
+    return new Style({
+      fill: new Fill({ color: `${color}${alpha}` }),
+      stroke: new Stroke({ color: `${color}cc`, width: 0.5 }),
+    });
   });
 }
 
 export function line(color: string, width: number, dash: number[] = []): Style {
-  return once(`line ${color} ${width} ${dash.join()}`, () => new Style({ stroke: new Stroke({ color, width, lineDash: dash }) }));
+  return once(
+    `line ${color} ${width} ${dash.join()}`,
+    () => new Style({ stroke: new Stroke({ color, width, lineDash: dash }) }),
+  );
 }
 
 export function dot(color: string, radius: number): Style {
   return once(
     `dot ${color} ${radius}`,
-    () => new Style({ image: new Circle({ radius, fill: new Fill({ color }), stroke: new Stroke({ color: "#fff", width: 1 }) }) }),
+    () =>
+      new Style({
+        image: new Circle({ radius, fill: new Fill({ color }), stroke: new Stroke({ color: "#fff", width: 1 }) }),
+      }),
   );
 }
 
 export function label(text: string): Style {
   return new Style({
-    text: new Text({ text, font: "11px sans-serif", fill: new Fill({ color: "#111" }), stroke: new Stroke({ color: "#fff", width: 3 }) }),
+    text: new Text({
+      text,
+      font: "11px sans-serif",
+      fill: new Fill({ color: "#111" }),
+      stroke: new Stroke({ color: "#fff", width: 3 }),
+    }),
   });
 }
 

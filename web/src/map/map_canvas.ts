@@ -44,7 +44,11 @@ export class MapCanvas {
     private readonly failed: (error: unknown) => void,
   ) {
     this.box = boxOf(grid);
-    const projection = new Projection({ code: "map-frame", units: "m", getPointResolution: (resolution) => resolution });
+    const projection = new Projection({
+      code: "map-frame",
+      units: "m",
+      getPointResolution: (resolution) => resolution,
+    });
     this.raster = rasterLayer(grid, picture, projection);
     this.map = new OlMap({
       target,
@@ -82,7 +86,11 @@ export class MapCanvas {
   }
 
   /** A layer of a tool, above the map's own. */
-  overlay(source: VectorSource, zIndex = 50, style: ConstructorParameters<typeof VectorLayer>[0] = { style: CHOSEN }): VectorLayer {
+  overlay(
+    source: VectorSource,
+    zIndex = 50,
+    style: ConstructorParameters<typeof VectorLayer>[0] = { style: CHOSEN },
+  ): VectorLayer {
     const layer = new VectorLayer({ source, zIndex, ...style });
     this.map.addLayer(layer);
     return layer;
@@ -133,9 +141,14 @@ export class MapCanvas {
 
 /** Areas around a point, and the line or dot nearest to it within reach. */
 function featuresNear(source: VectorSource, point: Point, reach: number): Feature[] {
-  const around = source.getFeaturesAtCoordinate([...point]).filter((feature) => feature.getGeometry()?.getType().endsWith("Polygon"));
+  const around = source
+    .getFeaturesAtCoordinate([...point])
+    .filter((feature) => feature.getGeometry()?.getType().endsWith("Polygon"));
   if (around.length > 0) return around;
-  const nearest = source.getClosestFeatureToCoordinate([...point], (feature) => !feature.getGeometry()?.getType().endsWith("Polygon"));
+  const nearest = source.getClosestFeatureToCoordinate(
+    [...point],
+    (feature) => !feature.getGeometry()?.getType().endsWith("Polygon"),
+  );
   const at = nearest?.getGeometry()?.getClosestPoint([...point]);
   if (!nearest || !at) return [];
   return Math.hypot((at[0] ?? 0) - point[0], (at[1] ?? 0) - point[1]) <= reach ? [nearest] : [];

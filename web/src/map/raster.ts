@@ -28,7 +28,12 @@ export function rasterLayer(grid: Grid, path: string, projection: Projection): I
       const right = place(ofPixel(grid, [1, 0]));
       const down = place(ofPixel(grid, [0, 1]));
       context.setTransform(
-        right[0] - corner[0], right[1] - corner[1], down[0] - corner[0], down[1] - corner[1], corner[0], corner[1],
+        right[0] - corner[0],
+        right[1] - corner[1],
+        down[0] - corner[0],
+        down[1] - corner[1],
+        corner[0],
+        corner[1],
       );
       context.imageSmoothingEnabled = grid.frame.resolutionM * scale < SQUARES_FROM;
       context.drawImage(picture, 0, 0, grid.width, grid.height);

@@ -26,7 +26,9 @@ const MOST_STREAMS = 3;
 
 /** Ids of the jobs that are followed: those that came first and are not over. The list is read anew when one ends. */
 export function watchedJobs(jobs: readonly Job[]): ReadonlySet<string> {
-  const unfinished = jobs.filter((job) => !isOver(job)).sort((left, right) => left.created.localeCompare(right.created));
+  const unfinished = jobs
+    .filter((job) => !isOver(job))
+    .sort((left, right) => left.created.localeCompare(right.created));
   return new Set(unfinished.slice(0, MOST_STREAMS).map((job) => job.jobID));
 }
 

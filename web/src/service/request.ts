@@ -56,7 +56,13 @@ async function problemOf(response: Response, path: string): Promise<Problem> {
   } catch {
     // What stands between the browser and the service answered in its own words.
   }
-  return { type: "about:blank", title: response.statusText, status: response.status, detail: text.slice(0, 300), instance: path };
+  return {
+    type: "about:blank",
+    title: response.statusText,
+    status: response.status,
+    detail: text.slice(0, 300),
+    instance: path,
+  };
 }
 
 /** The JSON that a path answers. */

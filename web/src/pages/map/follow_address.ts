@@ -29,9 +29,16 @@ export function follow(workspace: Workspace, showTool: (tool: string) => void, l
     if (id !== map.id) return;
     const now = new Map(view);
     const [x = 0, y = 0] = canvas.map.getView().getCenter() ?? [];
-    now.set("x", x.toFixed(2)).set("y", y.toFixed(2)).set("r", (canvas.map.getView().getResolution() ?? 1).toPrecision(4));
-    const shown = LAYERS.filter((kind) => canvas.isShown(kind.id)).map((kind) => kind.id).join();
-    const usual = LAYERS.filter((kind) => kind.isShown).map((kind) => kind.id).join();
+    now
+      .set("x", x.toFixed(2))
+      .set("y", y.toFixed(2))
+      .set("r", (canvas.map.getView().getResolution() ?? 1).toPrecision(4));
+    const shown = LAYERS.filter((kind) => canvas.isShown(kind.id))
+      .map((kind) => kind.id)
+      .join();
+    const usual = LAYERS.filter((kind) => kind.isShown)
+      .map((kind) => kind.id)
+      .join();
     if (shown === usual) now.delete("layers");
     else now.set("layers", shown);
     history.replaceState(null, "", address.ofMap(id, tool, now));

@@ -7,7 +7,10 @@ import { number, t } from "../../language";
 import { rowOf } from "../../map/geojson";
 import type { MapCanvas } from "../../map/map_canvas";
 
-export function inspector(map: string, canvas: MapCanvas): { readonly element: HTMLElement; choose(features: readonly Feature[]): void } {
+export function inspector(
+  map: string,
+  canvas: MapCanvas,
+): { readonly element: HTMLElement; choose(features: readonly Feature[]): void } {
   const element = h("aside", { class: "inspector card", "aria-label": t("properties"), hidden: true });
 
   function choose(features: readonly Feature[]): void {
@@ -44,7 +47,15 @@ function section(map: string, feature: Feature, isOpen: boolean, opened: () => v
         .filter(([, value]) => value !== null && !(Array.isArray(value) && value.length === 0))
         .map(([key, value]) => h("tr", {}, h("th", { scope: "row" }, key), h("td", {}, readable(value)))),
     ),
-    h("a", { href: `v1/maps/${map}/collections/${collection}/items/${encodeURIComponent(name)}?f=json`, target: "_blank", rel: "noopener" }, "JSON"),
+    h(
+      "a",
+      {
+        href: `v1/maps/${map}/collections/${collection}/items/${encodeURIComponent(name)}?f=json`,
+        target: "_blank",
+        rel: "noopener",
+      },
+      "JSON",
+    ),
   );
   details.addEventListener("toggle", () => details.open && opened());
   return details;

@@ -9,14 +9,19 @@ export function layerSwitch(workspace: Workspace): { readonly element: HTMLEleme
   const { canvas, labels } = workspace;
   const list = h("div", {});
   const opacity = h("input", {
-    type: "range", min: 0, max: 100, value: 100, "aria-label": t("picture"),
+    type: "range",
+    min: 0,
+    max: 100,
+    value: 100,
+    "aria-label": t("picture"),
     oninput: () => canvas.raster.setOpacity(opacity.valueAsNumber / 100),
   });
 
   const row = (kind: LayerKind): HTMLElement => {
     const isShown = canvas.isShown(kind.id);
     const box = h("input", {
-      type: "checkbox", checked: isShown,
+      type: "checkbox",
+      checked: isShown,
       onchange: () => {
         canvas.setShown(kind.id, box.checked);
         canvas.target.dispatchEvent(new Event("layerschanged"));
@@ -34,7 +39,9 @@ export function layerSwitch(workspace: Workspace): { readonly element: HTMLEleme
       "div",
       {},
       h("label", { class: "line" }, box, t(kind.name), only && swatch(only[0])),
-      isShown && !only && h("ul", { class: "legend" }, ...entries.map(([color, name]) => h("li", {}, swatch(color), name))),
+      isShown &&
+        !only &&
+        h("ul", { class: "legend" }, ...entries.map(([color, name]) => h("li", {}, swatch(color), name))),
     );
   };
 
@@ -44,6 +51,12 @@ export function layerSwitch(workspace: Workspace): { readonly element: HTMLEleme
 
   labels.onChange(update);
   const title = h("summary", {}, t("layers"));
-  const element = h("details", { class: "layers card", open: innerWidth > 900 }, title, h("label", { class: "line" }, t("picture"), opacity), list);
+  const element = h(
+    "details",
+    { class: "layers card", open: innerWidth > 900 },
+    title,
+    h("label", { class: "line" }, t("picture"), opacity),
+    list,
+  );
   return { element, update };
 }

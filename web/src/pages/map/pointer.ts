@@ -34,7 +34,9 @@ export function pointer(workspace: Workspace, opened: () => OpenTool | undefined
     else choose(features);
   };
   const key = (event: KeyboardEvent): void => {
-    const isInField = event.target instanceof HTMLElement && event.target.matches("input:not([type=checkbox]):not([type=range]), textarea, select");
+    const isInField =
+      event.target instanceof HTMLElement &&
+      event.target.matches("input:not([type=checkbox]):not([type=range]), textarea, select");
     if (isInField || event.ctrlKey || event.metaKey || event.altKey) return;
     if (event.key === "Escape") choose([]);
     opened()?.key?.(event);

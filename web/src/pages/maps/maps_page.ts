@@ -26,7 +26,11 @@ export function mapsPage(): Page {
     if (isLeft) return;
     clear(problems);
     stopFollowing();
-    const events = { changed: () => void read().catch(failed), failed, following: (stop: () => void) => void following.push(stop) };
+    const events = {
+      changed: () => void read().catch(failed),
+      failed,
+      following: (stop: () => void) => void following.push(stop),
+    };
     const watched = watchedJobs([...jobs.values()]);
     const card = (map: MapView): HTMLElement => {
       const job = jobs.get(map.id);
@@ -43,7 +47,12 @@ export function mapsPage(): Page {
     { class: "page" },
     h("h1", {}, t("maps")),
     problems,
-    h("div", { class: "columns" }, list, uploadForm(() => void read().catch(failed))),
+    h(
+      "div",
+      { class: "columns" },
+      list,
+      uploadForm(() => void read().catch(failed)),
+    ),
     h("p", {}, h("a", { href: "assets/licenses.txt" }, h("small", {}, t("licenses")))),
   );
   const leave = (): void => {

@@ -50,7 +50,8 @@ function fieldset(name: string, fields: readonly OptionField[], chosen: Map<stri
 function input(option: OptionField, chosen: Map<string, unknown>): HTMLElement {
   const path = option.path.join("/");
   const standard = option.standard === "" ? t("automatic") : t("standard", { value: option.standard });
-  const set = (text: string, value: unknown): void => void (text === "" ? chosen.delete(path) : chosen.set(path, value));
+  const set = (text: string, value: unknown): void =>
+    void (text === "" ? chosen.delete(path) : chosen.set(path, value));
   if (option.kind === "choice" || option.kind === "switch") {
     const values = option.kind === "switch" ? ["true", "false"] : option.values;
     const options = [["", standard] as const, ...values.map((value) => [value, value] as const)];

@@ -14,7 +14,13 @@ export function uploadForm(uploaded: (job: Job) => void): HTMLElement {
   const files = new Map<string, File>();
   const problems = problemBox();
   const chosen = h("p", { role: "status" });
-  const input = h("input", { type: "file", multiple: true, id: "files", class: "visually-hidden", onchange: () => add(input.files) });
+  const input = h("input", {
+    type: "file",
+    multiple: true,
+    id: "files",
+    class: "visually-hidden",
+    onchange: () => add(input.files),
+  });
   const name = h("input", { type: "text", maxlength: 200, autocomplete: "off" });
   const options = optionsForm();
   const submit = h("button", { type: "submit", class: "primary" }, t("upload"));
@@ -47,7 +53,12 @@ export function uploadForm(uploaded: (job: Job) => void): HTMLElement {
   async function tellFiles(): Promise<void> {
     clear(problems);
     const names = [...files.keys()].map((file) =>
-      h("span", { class: "chip" }, file, button("×", () => (files.delete(file), void tellFiles()), { "aria-label": t("remove", { name: file }) })),
+      h(
+        "span",
+        { class: "chip" },
+        file,
+        button("×", () => (files.delete(file), void tellFiles()), { "aria-label": t("remove", { name: file }) }),
+      ),
     );
     const found = await ready();
     replace(chosen, ...names, typeof found === "string" && files.size > 0 && t(found));
@@ -55,7 +66,8 @@ export function uploadForm(uploaded: (job: Job) => void): HTMLElement {
 
   async function ready(): Promise<Upload | Missing> {
     const found = classify([...files.values()]);
-    if (typeof found === "object" && found.kind === "message" && (await waitsForPicture(found.message))) return "missingImage";
+    if (typeof found === "object" && found.kind === "message" && (await waitsForPicture(found.message)))
+      return "missingImage";
     return found;
   }
 

@@ -7,7 +7,11 @@ import type { Category } from "../../../service/types";
 import type { Workspace } from "../workspace";
 import type { FaceSelection } from "./face_selection";
 
-export function categoryList(workspace: Workspace, categories: readonly Category[], selection: FaceSelection): HTMLElement[] {
+export function categoryList(
+  workspace: Workspace,
+  categories: readonly Category[],
+  selection: FaceSelection,
+): HTMLElement[] {
   const used = categories.filter((category) => category.faces > 0);
   used.sort((left, right) => right.facesAreaM2 - left.facesAreaM2);
   return used.map((category) => card(workspace, category, selection));
@@ -27,7 +31,9 @@ function card({ labels, collections, canvas }: Workspace, category: Category, se
   const showFaces = (): void => {
     const faces = collections.source("faces").getFeatures();
     canvas.chosen.clear();
-    canvas.chosen.addFeatures(faces.filter((face) => rowOf(face)["category"] === category.id).map((face) => face.clone()));
+    canvas.chosen.addFeatures(
+      faces.filter((face) => rowOf(face)["category"] === category.id).map((face) => face.clone()),
+    );
   };
   const element = h(
     "section",
@@ -56,8 +62,13 @@ function card({ labels, collections, canvas }: Workspace, category: Category, se
     h(
       "p",
       {},
-      t("suggested", { label: labels.label(suggestion.label)?.name ?? suggestion.label, percent: number(suggestion.confidence * 100) }),
-      suggestion.label !== label && suggestion.label !== category.label && button(t("take"), () => assign(suggestion.label)),
+      t("suggested", {
+        label: labels.label(suggestion.label)?.name ?? suggestion.label,
+        percent: number(suggestion.confidence * 100),
+      }),
+      suggestion.label !== label &&
+        suggestion.label !== category.label &&
+        button(t("take"), () => assign(suggestion.label)),
     ),
     h("details", {}, h("summary", {}, t("why")), h("p", {}, h("small", {}, suggestion.reason))),
   );

@@ -5,13 +5,25 @@ import { t } from "../../../language";
 import { COGENCIES, cogencyOf, withCogency, type RuleSetDraft } from "../../../labels/rule_set_draft";
 import type { Cogency, CogencyMatrix, Label } from "../../../service/types";
 
-export function cogencyTable(draft: RuleSetDraft, derived: CogencyMatrix, change: (draft: RuleSetDraft) => void): HTMLElement {
+export function cogencyTable(
+  draft: RuleSetDraft,
+  derived: CogencyMatrix,
+  change: (draft: RuleSetDraft) => void,
+): HTMLElement {
   const head = ({ name, color }: Label, scope: string): HTMLElement => h("th", { scope }, swatch(color), " ", name);
   const cell = (left: Label, right: Label): HTMLElement => {
     const values = [["", t("fromLabels")] as const, ...COGENCIES.map((value) => [value, value] as const)];
-    const set = (value: string): void => change(withCogency(draft, left.id, right.id, value === "" ? undefined : (value as Cogency)));
+    const set = (value: string): void =>
+      change(withCogency(draft, left.id, right.id, value === "" ? undefined : (value as Cogency)));
     const name = t("cogencyBetween", { left: left.name, right: right.name });
-    return h("td", {}, choice(values, cogencyOf(draft, derived, left.id, right.id) ?? "", set, { "aria-label": name, id: `cogency-${left.id}-${right.id}` }));
+    return h(
+      "td",
+      {},
+      choice(values, cogencyOf(draft, derived, left.id, right.id) ?? "", set, {
+        "aria-label": name,
+        id: `cogency-${left.id}-${right.id}`,
+      }),
+    );
   };
   return h(
     "div",
@@ -21,7 +33,13 @@ export function cogencyTable(draft: RuleSetDraft, derived: CogencyMatrix, change
       { class: "matrix" },
       h("thead", {}, h("tr", {}, h("td", {}), ...draft.labels.map((label) => head(label, "col")))),
       // The order of two labels makes no difference: one half says it all.
-      h("tbody", {}, ...draft.labels.map((left, row) => h("tr", {}, head(left, "row"), ...draft.labels.slice(0, row + 1).map((right) => cell(left, right))))),
+      h(
+        "tbody",
+        {},
+        ...draft.labels.map((left, row) =>
+          h("tr", {}, head(left, "row"), ...draft.labels.slice(0, row + 1).map((right) => cell(left, right))),
+        ),
+      ),
     ),
   );
 }

@@ -40,7 +40,10 @@ function open(workspace: Workspace): OpenTool {
 
   /** Reads what follows from labels that are in force now. */
   async function reread(): Promise<void> {
-    const [read] = await Promise.all([get<{ categories: Category[] }>(`v1/maps/${map.id}/categories`), collections.refresh()]);
+    const [read] = await Promise.all([
+      get<{ categories: Category[] }>(`v1/maps/${map.id}/categories`),
+      collections.refresh(),
+    ]);
     if (isClosed) return;
     categories = read.categories;
     show();
@@ -48,10 +51,7 @@ function open(workspace: Workspace): OpenTool {
 
   const stop = labels.onChange(() => categories.length > 0 && show());
   selection.onChange(show);
-  collections
-    .read("faces")
-    .then(reread)
-    .catch(failed);
+  collections.read("faces").then(reread).catch(failed);
   return {
     element,
     click: (_point, features) => selection.click(features),

@@ -15,7 +15,10 @@ export function historyList(workspace: Workspace, isOpen: boolean, restored: () 
   async function read(): Promise<void> {
     const path = `v1/maps/${map.id}/semantics/versions`;
     // The list has what people decided; before all of it comes the suggestion.
-    const [decided, suggestion] = await Promise.all([get<{ versions: Semantics[] }>(path), get<Semantics>(`${path}/0`)]);
+    const [decided, suggestion] = await Promise.all([
+      get<{ versions: Semantics[] }>(path),
+      get<Semantics>(`${path}/0`),
+    ]);
     const versions = [...decided.versions, suggestion];
     replace(list, ...versions.map((version, index) => line(version, versions[index + 1])));
   }
@@ -28,7 +31,8 @@ export function historyList(workspace: Workspace, isOpen: boolean, restored: () 
       "li",
       {},
       `${version.version} · ${moment(version.created)} · ${origin} ${changes} `,
-      version.version !== labels.inForce.version && button(t("restore"), restore, { "aria-label": t("restoreOne", { version: version.version }) }),
+      version.version !== labels.inForce.version &&
+        button(t("restore"), restore, { "aria-label": t("restoreOne", { version: version.version }) }),
     );
   }
 

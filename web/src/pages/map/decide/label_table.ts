@@ -22,10 +22,19 @@ export function labelTable(draft: RuleSetDraft, change: (draft: RuleSetDraft) =>
 function row(draft: RuleSetDraft, label: Label, index: number, change: (draft: RuleSetDraft) => void): HTMLElement {
   const set = (part: Partial<Label>): void => change(withLabel(draft, index, part));
   const text = (name: "id" | "name" | "color", type: string, title: string): HTMLElement => {
-    const input = h("input", { type, value: label[name], id: `${name}-${index}`, "aria-label": `${title} ${index + 1}`, onchange: () => set({ [name]: input.value }) });
+    const input = h("input", {
+      type,
+      value: label[name],
+      id: `${name}-${index}`,
+      "aria-label": `${title} ${index + 1}`,
+      onchange: () => set({ [name]: input.value }),
+    });
     return input;
   };
-  const boxes = (name: "functionality" | "connectsTo", values: readonly (readonly [value: string, title: string])[]): HTMLElement[] =>
+  const boxes = (
+    name: "functionality" | "connectsTo",
+    values: readonly (readonly [value: string, title: string])[],
+  ): HTMLElement[] =>
     values.map(([value, title]) => {
       const list = label[name] as readonly string[] | undefined;
       const box = h("input", {
@@ -43,8 +52,22 @@ function row(draft: RuleSetDraft, label: Label, index: number, change: (draft: R
     h("td", {}, text("id", "text", t("labelId"))),
     h("td", {}, text("name", "text", t("name"))),
     h("td", {}, text("color", "color", t("color"))),
-    h("td", {}, ...boxes("functionality", FUNCTIONALITIES.map((value) => [value, value]))),
-    h("td", {}, ...boxes("connectsTo", draft.labels.map(({ id, name }) => [id, name || id]))),
+    h(
+      "td",
+      {},
+      ...boxes(
+        "functionality",
+        FUNCTIONALITIES.map((value) => [value, value]),
+      ),
+    ),
+    h(
+      "td",
+      {},
+      ...boxes(
+        "connectsTo",
+        draft.labels.map(({ id, name }) => [id, name || id]),
+      ),
+    ),
     h("td", {}, button("×", remove, { "aria-label": t("remove", { name: label.name || label.id }) })),
   );
 }

@@ -26,7 +26,11 @@ export function ruleSetChoice(workspace: Workspace, saved: () => Promise<void>):
     return h(
       "div",
       {},
-      field(t("ruleSet"), choice(names, wanted, choose, { id: "rule-set" }), labels.draft.ruleSet === undefined ? undefined : t("ruleSetDrafted")),
+      field(
+        t("ruleSet"),
+        choice(names, wanted, choose, { id: "rule-set" }),
+        labels.draft.ruleSet === undefined ? undefined : t("ruleSetDrafted"),
+      ),
       button(t("editRules"), () => void editRuleSet(wanted, edited).catch(failed)),
     );
   }

@@ -12,7 +12,10 @@ import { labelTable } from "./label_table";
 /** Opens the editor for a rule set; tells the id of what was saved. */
 export async function editRuleSet(id: string, saved: (id: string) => Promise<void>): Promise<void> {
   const path = `v1/rule-sets/${encodeURIComponent(id)}`;
-  const [{ body: ruleSet, tag }, derived] = await Promise.all([getTagged<RuleSet>(path), get<CogencyMatrix>(`${path}/matrix`)]);
+  const [{ body: ruleSet, tag }, derived] = await Promise.all([
+    getTagged<RuleSet>(path),
+    get<CogencyMatrix>(`${path}/matrix`),
+  ]);
   const problems = problemBox();
   const content = h("div", {});
   let draft = draftOf(ruleSet);
@@ -24,7 +27,13 @@ export async function editRuleSet(id: string, saved: (id: string) => Promise<voi
     if (focused) document.getElementById(focused)?.focus();
   };
   const update = (): void =>
-    replace(content, labelTable(draft, change), h("h3", {}, t("matrix")), h("p", {}, h("small", {}, t("matrixMeaning"))), cogencyTable(draft, derived, change));
+    replace(
+      content,
+      labelTable(draft, change),
+      h("h3", {}, t("matrix")),
+      h("p", {}, h("small", {}, t("matrixMeaning"))),
+      cogencyTable(draft, derived, change),
+    );
 
   const name = h("input", { type: "text", value: draft.id });
   const save = async (): Promise<void> => {
@@ -41,7 +50,10 @@ export async function editRuleSet(id: string, saved: (id: string) => Promise<voi
   };
   const add = (): void => {
     const id = `l${draft.labels.length + 1}`;
-    change({ ...draft, labels: [...draft.labels, { id, name: "", color: "#888888", functionality: [], connectsTo: [] }] });
+    change({
+      ...draft,
+      labels: [...draft.labels, { id, name: "", color: "#888888", functionality: [], connectsTo: [] }],
+    });
   };
   update();
   const dialog = h(
@@ -52,10 +64,15 @@ export async function editRuleSet(id: string, saved: (id: string) => Promise<voi
     field(t("ruleSetId"), name, t("ruleSetIdMeaning")),
     content,
     problems,
-    h("div", { class: "actions" }, button(t("addLabel"), add), button(t("cancel"), () => dialog.close()), button(t("saveRules"), () => void save(), { class: "primary" })),
+    h(
+      "div",
+      { class: "actions" },
+      button(t("addLabel"), add),
+      button(t("cancel"), () => dialog.close()),
+      button(t("saveRules"), () => void save(), { class: "primary" }),
+    ),
   );
   dialog.addEventListener("close", () => dialog.remove());
   document.body.append(dialog);
   dialog.showModal();
 }
-

@@ -7,7 +7,10 @@ import { get, Refused } from "../../../service/request";
 import type { Semantics } from "../../../service/types";
 import type { Workspace } from "../workspace";
 
-export function saveBar(workspace: Workspace, saved: () => Promise<void>): { readonly element: HTMLElement; update(): void } {
+export function saveBar(
+  workspace: Workspace,
+  saved: () => Promise<void>,
+): { readonly element: HTMLElement; update(): void } {
   const { map, labels, failed } = workspace;
   const conflict = h("div", { role: "alert" });
   const count = h("span", { role: "status" });
@@ -61,7 +64,10 @@ export function saveBar(workspace: Workspace, saved: () => Promise<void>): { rea
 
   function update(): void {
     const changes = changeCount(labels.draft);
-    replace(count, changes === 0 ? t("version", { version: labels.inForce.version }) : t("changes", { count: changes }));
+    replace(
+      count,
+      changes === 0 ? t("version", { version: labels.inForce.version }) : t("changes", { count: changes }),
+    );
     [save.disabled, discard.disabled] = [changes === 0, changes === 0];
     [undo.disabled, redo.disabled] = [changes > 0 || !labels.canStep(-1), changes > 0 || !labels.canStep(1)];
   }

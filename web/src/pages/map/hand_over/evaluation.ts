@@ -54,8 +54,12 @@ function drawn({ geometry }: GeoJsonFeature): Feature {
 }
 
 function scores({ geometry, automatic, assigned }: Evaluation): HTMLElement {
-  const columns = [["suggestedLabels", automatic] as const, ...(assigned ? [["decidedLabels", assigned] as const] : [])];
-  const share = (value: number | null | undefined): string => (value === null || value === undefined ? "–" : `${number(value * 100, 1)} %`);
+  const columns = [
+    ["suggestedLabels", automatic] as const,
+    ...(assigned ? [["decidedLabels", assigned] as const] : []),
+  ];
+  const share = (value: number | null | undefined): string =>
+    value === null || value === undefined ? "–" : `${number(value * 100, 1)} %`;
   const rows: [string, (scores: LabelScores) => string][] = [
     [t("placesFound"), ({ places }) => share(places?.strict)],
     [t("placesSystematic"), ({ places }) => share(places?.systematic)],
@@ -72,7 +76,13 @@ function scores({ geometry, automatic, assigned }: Evaluation): HTMLElement {
       "table",
       {},
       h("thead", {}, h("tr", {}, h("td", {}), ...columns.map(([name]) => h("th", { scope: "col" }, t(name))))),
-      h("tbody", {}, ...rows.map(([name, value]) => h("tr", {}, h("th", { scope: "row" }, name), ...columns.map(([, one]) => h("td", {}, value(one)))))),
+      h(
+        "tbody",
+        {},
+        ...rows.map(([name, value]) =>
+          h("tr", {}, h("th", { scope: "row" }, name), ...columns.map(([, one]) => h("td", {}, value(one)))),
+        ),
+      ),
     ),
     h("p", {}, t("borders", { found: share(geometry.boundaryRecall), right: share(geometry.boundaryPrecision) })),
   );

@@ -59,7 +59,12 @@ function exportEntry(map: string, { name, purpose, mediaType, options }: Export)
     h("summary", {}, h("strong", {}, name), " ", h("small", {}, purpose)),
     ...fields,
     problems,
-    h("div", { class: "line" }, download, button(t("preview"), () => void check())),
+    h(
+      "div",
+      { class: "line" },
+      download,
+      button(t("preview"), () => void check()),
+    ),
     preview,
   );
 }

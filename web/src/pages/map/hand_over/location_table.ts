@@ -25,7 +25,11 @@ export function locationTable(workspace: Workspace): HTMLElement {
     replace(
       table,
       h("thead", {}, h("tr", {}, ...COLUMNS.map(head))),
-      h("tbody", {}, ...shown.slice(0, MOST).map((row) => h("tr", {}, ...COLUMNS.map((column) => h("td", {}, cell(row, column)))))),
+      h(
+        "tbody",
+        {},
+        ...shown.slice(0, MOST).map((row) => h("tr", {}, ...COLUMNS.map((column) => h("td", {}, cell(row, column))))),
+      ),
     );
   }
 
@@ -38,7 +42,11 @@ export function locationTable(workspace: Workspace): HTMLElement {
     };
     const direction = !isSorted ? "none" : order.isDescending ? "descending" : "ascending";
     const arrow = !isSorted ? "" : order.isDescending ? " ▼" : " ▲";
-    return h("th", { scope: "col", "aria-sort": direction }, button(`${column}${arrow}`, sort, { id: `sort-${column}` }));
+    return h(
+      "th",
+      { scope: "col", "aria-sort": direction },
+      button(`${column}${arrow}`, sort, { id: `sort-${column}` }),
+    );
   }
 
   function cell(row: Properties, column: Column): HTMLElement | string {
@@ -66,7 +74,12 @@ export function locationTable(workspace: Workspace): HTMLElement {
     field(t("filter"), filter),
     count,
     h("div", { class: "scroll big", tabindex: 0, role: "group", "aria-label": t("locationTable") }, table),
-    h("p", {}, h("a", { href: `v1/maps/${map.id}/exports/locations.csv`, download: "locations.csv" }, t("downloadCsv")), " · ",
-      h("a", { href: `v1/maps/${map.id}/exports/locations.xlsx`, download: "locations.xlsx" }, t("downloadSheet"))),
+    h(
+      "p",
+      {},
+      h("a", { href: `v1/maps/${map.id}/exports/locations.csv`, download: "locations.csv" }, t("downloadCsv")),
+      " · ",
+      h("a", { href: `v1/maps/${map.id}/exports/locations.xlsx`, download: "locations.xlsx" }, t("downloadSheet")),
+    ),
   );
 }

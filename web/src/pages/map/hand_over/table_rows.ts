@@ -14,7 +14,12 @@ export interface Order {
 /** The rows with a text in some column, in an order. */
 export function shownRows(rows: readonly Properties[], text: string, { column, isDescending }: Order): Properties[] {
   const wanted = text.trim().toLowerCase();
-  const has = (row: Properties): boolean => COLUMNS.some((name) => String(row[name] ?? "").toLowerCase().includes(wanted));
+  const has = (row: Properties): boolean =>
+    COLUMNS.some((name) =>
+      String(row[name] ?? "")
+        .toLowerCase()
+        .includes(wanted),
+    );
   const sorted = rows.filter(has).sort((left, right) => compare(left[column], right[column]));
   return isDescending ? sorted.reverse() : sorted;
 }

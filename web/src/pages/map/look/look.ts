@@ -11,7 +11,9 @@ export const look: Tool = { id: "look", name: "look", open };
 function open(workspace: Workspace): OpenTool {
   const { map, canvas } = workspace;
   const measure = measuring(workspace);
-  const toggle = button(t("measure"), () => toggle.setAttribute("aria-pressed", String(measure.toggle())), { "aria-pressed": "false" });
+  const toggle = button(t("measure"), () => toggle.setAttribute("aria-pressed", String(measure.toggle())), {
+    "aria-pressed": "false",
+  });
   const size = t("size", {
     width: number(map.width * map.resolutionM, 1),
     height: number(map.height * map.resolutionM, 1),
@@ -21,7 +23,12 @@ function open(workspace: Workspace): OpenTool {
     "div",
     {},
     searchField(workspace),
-    h("div", { class: "line" }, toggle, button(t("showAll"), () => canvas.fit(canvas.box, 250))),
+    h(
+      "div",
+      { class: "line" },
+      toggle,
+      button(t("showAll"), () => canvas.fit(canvas.box, 250)),
+    ),
     measure.element,
     h("p", {}, size),
     h("p", {}, h("small", {}, t("lookMeaning"))),

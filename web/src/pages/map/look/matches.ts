@@ -19,5 +19,8 @@ export function matches<T extends Named>(all: readonly T[], typed: string, most:
   const ranked = all.map((one) => [rank(one), one] as const).filter(([value]) => value < 3);
   const byRankThenName = (left: readonly [number, T], right: readonly [number, T]): number =>
     left[0] - right[0] || (left[1].names[0] ?? "").localeCompare(right[1].names[0] ?? "", undefined, { numeric: true });
-  return ranked.sort(byRankThenName).slice(0, most).map(([, one]) => one);
+  return ranked
+    .sort(byRankThenName)
+    .slice(0, most)
+    .map(([, one]) => one);
 }

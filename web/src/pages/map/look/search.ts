@@ -27,10 +27,21 @@ export function searchField({ collections, canvas, choose, failed }: Workspace):
 
   async function search(): Promise<void> {
     const sources = await Promise.all(SEARCHED.map((collection) => collections.read(collection)));
-    const all: Found[] = sources.flatMap((source) => source.getFeatures()).map((feature) => ({ feature, names: namesOf(feature) }));
+    const all: Found[] = sources
+      .flatMap((source) => source.getFeatures())
+      .map((feature) => ({ feature, names: namesOf(feature) }));
     const found = matches(all, input.value, MOST);
     replace(status, input.value && t("foundCount", { count: found.length }));
-    replace(answers, ...found.map((one) => h("li", {}, button(one.names.join(" · "), () => fly(one.feature)))));
+    replace(
+      answers,
+      ...found.map((one) =>
+        h(
+          "li",
+          {},
+          button(one.names.join(" · "), () => fly(one.feature)),
+        ),
+      ),
+    );
   }
 
   function fly(feature: Feature): void {
@@ -39,7 +50,10 @@ export function searchField({ collections, canvas, choose, failed }: Workspace):
     choose([feature]);
   }
 
-  const form = h("form", { role: "search", onsubmit: (event: Event) => (event.preventDefault(), answers.querySelector("button")?.click()) });
+  const form = h("form", {
+    role: "search",
+    onsubmit: (event: Event) => (event.preventDefault(), answers.querySelector("button")?.click()),
+  });
   form.append(field(t("search"), input), status, answers);
   return form;
 }

@@ -27,16 +27,46 @@ export function graphReport({ map, canvas, failed }: Workspace): { readonly elem
   async function read(): Promise<void> {
     const report = await get<GraphReport>(`v1/maps/${map.id}/graph-report`);
     const groups: [string, Finding[]][] = [
-      [t("unreachableLocations"), report.unreachableLocations.map(({ code, detail, position, centre }) => ({ text: `${code}: ${detail}`, position: position ?? centre, color: COLORS.chosen }))],
-      [t("deadEnds"), report.deadEnds.map(({ lengthM, position, locations }) => ({ text: t("deadEnd", { metres: number(lengthM, 1), count: locations.length }), position, color: COLORS["storage-access"] }))],
-      [t("narrowPassages"), report.narrowPassages.map(({ widthM, lengthM, position }) => ({ text: t("narrowPassage", { width: number(widthM, 2), metres: number(lengthM, 1) }), position, color: COLORS.connected }))],
+      [
+        t("unreachableLocations"),
+        report.unreachableLocations.map(({ code, detail, position, centre }) => ({
+          text: `${code}: ${detail}`,
+          position: position ?? centre,
+          color: COLORS.chosen,
+        })),
+      ],
+      [
+        t("deadEnds"),
+        report.deadEnds.map(({ lengthM, position, locations }) => ({
+          text: t("deadEnd", { metres: number(lengthM, 1), count: locations.length }),
+          position,
+          color: COLORS["storage-access"],
+        })),
+      ],
+      [
+        t("narrowPassages"),
+        report.narrowPassages.map(({ widthM, lengthM, position }) => ({
+          text: t("narrowPassage", { width: number(widthM, 2), metres: number(lengthM, 1) }),
+          position,
+          color: COLORS.connected,
+        })),
+      ],
     ];
     source.clear();
     for (const [, findings] of groups) findings.forEach((finding, index) => draw(finding, index + 1));
     const { numNodes, numEdges, numSubgraphs, pathSuccessRate } = report.figures;
     replace(
       content,
-      h("p", {}, t("graphFigures", { nodes: numNodes, lanes: numEdges, parts: numSubgraphs, share: number((pathSuccessRate ?? 0) * 100, 1) })),
+      h(
+        "p",
+        {},
+        t("graphFigures", {
+          nodes: numNodes,
+          lanes: numEdges,
+          parts: numSubgraphs,
+          share: number((pathSuccessRate ?? 0) * 100, 1),
+        }),
+      ),
       ...groups.map(([title, findings]) => group(title, findings)),
       h("a", { href: `v1/maps/${map.id}/graph-report.png`, target: "_blank", rel: "noopener" }, t("asPicture")),
     );
@@ -54,7 +84,17 @@ export function graphReport({ map, canvas, failed }: Workspace): { readonly elem
       "section",
       { class: "list" },
       h("h2", {}, `${title}: ${findings.length}`),
-      h("ol", {}, ...findings.map((finding) => h("li", {}, button(finding.text, () => fly(finding))))),
+      h(
+        "ol",
+        {},
+        ...findings.map((finding) =>
+          h(
+            "li",
+            {},
+            button(finding.text, () => fly(finding)),
+          ),
+        ),
+      ),
     );
   }
 

@@ -39,7 +39,8 @@ export function routeForm(workspace: Workspace): RouteForm {
   const told = h("output", {});
   let timer = 0;
   const radius = h("input", {
-    type: "range", ...RADII,
+    type: "range",
+    ...RADII,
     oninput: () => {
       tellRadius();
       clearTimeout(timer);
@@ -47,10 +48,17 @@ export function routeForm(workspace: Workspace): RouteForm {
     },
   });
   let profile = "shortest";
-  const profiles = choice([["shortest", t("shortest")], ["clearance", t("clearance")]], profile, (value) => {
-    profile = value;
-    ask();
-  });
+  const profiles = choice(
+    [
+      ["shortest", t("shortest")],
+      ["clearance", t("clearance")],
+    ],
+    profile,
+    (value) => {
+      profile = value;
+      ask();
+    },
+  );
   let latest: AbortController | undefined;
 
   function tellRadius(): void {
@@ -73,7 +81,10 @@ export function routeForm(workspace: Workspace): RouteForm {
 
   function drawEnds(): void {
     source.clear();
-    for (const [end, name] of [[from.value, t("from")], [to.value, t("to")]] as const) {
+    for (const [end, name] of [
+      [from.value, t("from")],
+      [to.value, t("to")],
+    ] as const) {
       const point = pointOf(end);
       if (point) mark(point, [dot(COLORS.route, 6), label(name)]);
     }
@@ -94,7 +105,8 @@ export function routeForm(workspace: Workspace): RouteForm {
       show(problems, error);
       const position = error instanceof Refused ? error.problem.position : undefined;
       const [x, y] = position ?? [];
-      if (x !== undefined && y !== undefined) mark(coordinates.toMap([x, y]), [dot(COLORS.chosen, 8), label(t("here"))]);
+      if (x !== undefined && y !== undefined)
+        mark(coordinates.toMap([x, y]), [dot(COLORS.chosen, 8), label(t("here"))]);
     }
   }
 
@@ -109,8 +121,26 @@ export function routeForm(workspace: Workspace): RouteForm {
     if (last) mark(coordinates.toMap(last), [dot(COLORS.route, 6), label(t("to"))]);
     replace(
       answer,
-      h("p", {}, h("strong", {}, t("routeFigures", { length: number(lengthM, 1), time: number(timeS, 0), clearance: number(clearanceM, 2) }))),
-      h("ol", { class: "steps" }, ...instructions.map(({ text, pose }) => h("li", {}, button(text, () => showPose(pose))))),
+      h(
+        "p",
+        {},
+        h(
+          "strong",
+          {},
+          t("routeFigures", { length: number(lengthM, 1), time: number(timeS, 0), clearance: number(clearanceM, 2) }),
+        ),
+      ),
+      h(
+        "ol",
+        { class: "steps" },
+        ...instructions.map(({ text, pose }) =>
+          h(
+            "li",
+            {},
+            button(text, () => showPose(pose)),
+          ),
+        ),
+      ),
     );
   }
 

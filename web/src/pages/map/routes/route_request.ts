@@ -25,6 +25,12 @@ export function routeQuery(from: End, to: End, radiusM: number, profile: string,
     if (point) return coordinates.ofMap(point).join(",");
     return text.includes(":") ? text.trim() : `location:${text.trim()}`;
   };
-  const query = new URLSearchParams({ from: end(from), to: end(to), crs: coordinates.crs, footprintRadiusM: String(radiusM), profile });
+  const query = new URLSearchParams({
+    from: end(from),
+    to: end(to),
+    crs: coordinates.crs,
+    footprintRadiusM: String(radiusM),
+    profile,
+  });
   return query.toString();
 }
