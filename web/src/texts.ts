@@ -60,8 +60,8 @@ export const texts = {
   deleteOne: ["Delete {name}", "{name} löschen"],
   deleteQuestion: ["Delete “{name}”?", "„{name}“ löschen?"],
   deleteMeaning: [
-    "The map goes with its analyses, its labels and their versions. This cannot be undone.",
-    "Die Karte wird mit ihren Analysen, ihren Labels und deren Versionen gelöscht. Das lässt sich nicht rückgängig machen.",
+    "The map goes with its analyses, its labels and their versions.",
+    "Die Karte wird mit ihren Analysen, ihren Labels und deren Versionen gelöscht.",
   ],
 
   // A map

@@ -1,4 +1,4 @@
-/** A question before something that cannot be taken back. */
+/** A question before something that is lost. */
 
 import { button, h } from "../dom";
 import { t } from "../language";
