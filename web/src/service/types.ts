@@ -4,7 +4,7 @@ import type { components } from "./openapi";
 
 type Schemas = components["schemas"];
 
-export type MapView = Schemas["Map"];
+export type MapView = Schemas["MapSummary"];
 export type Job = Schemas["Job"];
 export type Category = Schemas["Category"];
 export type Semantics = Schemas["Semantics"];
@@ -15,7 +15,7 @@ export type CogencyMatrix = Schemas["CogencyMatrix"];
 export type CogencyRule = Schemas["CogencyRule"];
 export type Functionality = Schemas["Functionality"];
 export type Diagnostics = Schemas["Diagnostics"];
-export type Frame = Schemas["FrameView"];
+export type Frame = Schemas["Frame"];
 export type Georeference = Schemas["Georeference"];
 export type Route = Schemas["Route"];
 export type GraphReport = Schemas["GraphReport"];
