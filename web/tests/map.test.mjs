@@ -107,7 +107,7 @@ test("a category is decided: seen at once, saved as a version, undone, redone", 
   assert.equal((await semantics()).assignment[id], before);
 });
 
-test("a focused category takes its label by a key, and a draft outlives the page", async () => {
+test("a focused category takes its label by a key; a draft outlives the page and a service that is gone", async () => {
   const category = page.locator("section.category").nth(1);
   const select = category.getByRole("combobox");
   const other = (await select.inputValue()) === "ro" ? "1" : "4";
@@ -116,6 +116,11 @@ test("a focused category takes its label by a key, and a draft outlives the page
   await page.getByText("Changes: 1").waitFor();
   await page.reload();
   await page.getByText("Changes: 1").waitFor();
+  await page.route("**/semantics", (route) => route.abort());
+  await page.getByRole("button", { name: "Save" }).click();
+  await page.getByText("The service does not answer").waitFor();
+  await page.getByText("Changes: 1").waitFor();
+  await page.unroute("**/semantics");
   await page.getByRole("button", { name: "Discard" }).click();
   await page.getByText("Version 4 is in force").waitFor();
 });

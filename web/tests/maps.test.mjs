@@ -63,6 +63,20 @@ test("a map is uploaded, watched, and there", async () => {
   await picture(page, "maps");
 });
 
+test("a message is uploaded under its name", async () => {
+  const side = 40;
+  const data = Array.from({ length: side * side }, (_, cell) => (cell < side || cell % side === 0 ? 100 : 0));
+  const message = {
+    info: { resolution: 0.1, width: side, height: side, origin: { position: { x: 0, y: 0, z: 0 } } },
+    data,
+  };
+  const buffer = Buffer.from(JSON.stringify(message));
+  await page.setInputFiles("#files", { name: "grid.json", mimeType: "application/json", buffer });
+  await page.getByLabel("Name", { exact: true }).fill("From a robot");
+  await page.getByRole("button", { name: "Upload and analyse" }).click();
+  await page.getByRole("link", { name: "From a robot" }).waitFor();
+});
+
 test("of many jobs that wait, the last is cancelled", async () => {
   const jobs = [];
   for (const number of [2, 3, 4, 5, 6]) jobs.push(await upload(service.base, `Hall ${number}`));
