@@ -121,8 +121,11 @@ test("a focused category takes its label by a key; a draft outlives the page and
   await page.getByText("The service does not answer").waitFor();
   await page.getByText("Changes: 1").waitFor();
   await page.unroute("**/semantics");
-  await page.getByRole("button", { name: "Discard" }).click();
-  await page.getByText("Version 4 is in force").waitFor();
+  await page.getByRole("button", { name: "Save" }).click();
+  await page.getByText("Version 5 is in force").waitFor();
+  assert.equal(await page.getByText("The service does not answer").count(), 0);
+  await page.getByRole("button", { name: "Undo" }).click();
+  await page.getByText("Version 6 is in force").waitFor();
 });
 
 test("faces get a label of their own", async () => {
@@ -131,13 +134,13 @@ test("faces get a label of their own", async () => {
   await page.keyboard.press("4");
   await page.getByText("1 faces changed, not saved").waitFor();
   await page.getByRole("button", { name: "Save" }).click();
-  await page.getByText("Version 5 is in force").waitFor();
+  await page.getByText("Version 7 is in force").waitFor();
   assert.deepEqual(
     (await semantics()).overrides.map(({ label }) => label),
     ["ro"],
   );
   await page.getByRole("button", { name: "Undo" }).click();
-  await page.getByText("Version 6 is in force").waitFor();
+  await page.getByText("Version 8 is in force").waitFor();
 });
 
 test("where somebody else saved meanwhile, their change is shown and nothing is lost", async () => {
@@ -152,12 +155,12 @@ test("where somebody else saved meanwhile, their change is shown and nothing is 
   await page.getByText("Changes: 1").waitFor();
   await picture(page, "conflict");
   await page.getByRole("button", { name: "Save" }).click();
-  await page.getByText("Version 8 is in force").waitFor();
+  await page.getByText("Version 10 is in force").waitFor();
   const { assignment } = await semantics();
   assert.deepEqual([assignment[first], assignment[second]], ["un", "ro"]);
   await page.getByText("History").click();
   await page.getByRole("button", { name: "Restore version 0" }).click();
-  await page.getByText("Version 9 is in force").waitFor();
+  await page.getByText("Version 11 is in force").waitFor();
 });
 
 test("a rule set is made of a built-in one, with a rule of its own", async () => {
@@ -173,7 +176,7 @@ test("a rule set is made of a built-in one, with a rule of its own", async () =>
   assert.deepEqual(body.cogency, [{ when: ["ro", "co"], then: "cogent" }]);
   assert.equal(body.labels[3].name, "workshop");
   await page.getByRole("button", { name: "Save", exact: true }).click();
-  await page.getByText("Version 10 is in force").waitFor();
+  await page.getByText("Version 12 is in force").waitFor();
   assert.equal((await semantics()).ruleSet, "hall");
   await changeLabels(service.base, map, { ruleSet: "site" });
 });

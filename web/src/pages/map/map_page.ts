@@ -60,7 +60,16 @@ async function open(id: string, panel: HTMLElement, target: HTMLElement, problem
   const grid = { frame: diagnostics.frame, width: map.width, height: map.height };
   const canvas = new MapCanvas(target, grid, `v1/maps/${id}/image.png`, collections, labels, failed);
   const details = inspector(id, canvas);
-  const workspace: Workspace = { map, collections, coordinates, canvas, labels, failed, choose: details.choose };
+  const workspace: Workspace = {
+    map,
+    collections,
+    coordinates,
+    canvas,
+    labels,
+    failed,
+    clearProblems: () => clear(problems),
+    choose: details.choose,
+  };
 
   let opened: OpenTool | undefined;
   const content = h("div", { class: "tool", role: "tabpanel", tabindex: -1, "aria-labelledby": "open-tab" });

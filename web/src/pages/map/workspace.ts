@@ -18,6 +18,8 @@ export interface Workspace {
   readonly labels: Labels;
   /** Shows what went wrong. */
   failed(error: unknown): void;
+  /** Takes away what was shown of it: something is tried anew. */
+  clearProblems(): void;
   /** Chooses a feature: marks it and shows what is known of it. */
   choose(features: readonly Feature[]): void;
 }

@@ -21,6 +21,7 @@ export function saveBar(
 
   function run(act: () => Promise<void>): void {
     replace(conflict);
+    workspace.clearProblems();
     for (const one of [save, undo, redo]) one.disabled = true;
     const work = async (): Promise<void> => {
       try {
