@@ -139,7 +139,7 @@ mod tests {
             r#"422 Unprocessable Entity /options/labels/1/a~1b: must be a whole number from 0 to 255, and is the text "x""#
         ]]
         .assert_eq(&refusal(r#"{"labels":[{},{"a/b":"x"}]}"#));
-        expect_test::expect!["422 Unprocessable Entity /options/color: has no member color: it is labels"]
+        expect_test::expect!["422 Unprocessable Entity /options/color: color is not known here: it is labels"]
             .assert_eq(&refusal(r#"{"color":1}"#));
         let long = refusal(&format!(r#"{{"labels":"{}"}}"#, "x".repeat(10_000)));
         assert!(long.len() < 400 && long.contains("xxx ... xxx"), "{long}");

@@ -88,20 +88,20 @@ fn misfit(text: &str) -> Option<String> {
 
 /// A member that is missing, unknown or there twice, or a word that is none of those that it may be.
 fn member(text: &str) -> Option<String> {
-    let (what, name) = [
-        ("missing field `", "needs the member "),
-        ("duplicate field `", "has a member twice: "),
-        ("unknown field `", "is unknown: "),
-        ("unknown variant `", "may not be "),
+    let (before, after, name) = [
+        ("missing field `", "needs the member ", ""),
+        ("duplicate field `", "has a member twice: ", ""),
+        ("unknown field `", "", " is not known here"),
+        ("unknown variant `", "may not be ", ""),
     ]
     .into_iter()
-    .find_map(|(serde, plain)| Some((plain, text.strip_prefix(serde)?)))?;
+    .find_map(|(serde, before, after)| Some((before, after, text.strip_prefix(serde)?)))?;
     // The list of what is known comes last: the name may hold anything.
     let (name, known) = match name.rsplit_once("`, expected ") {
         Some((name, known)) => (name, format!(": it is {}", or(&known.trim_start_matches("one of ").replace('`', "")))),
         None => (name.strip_suffix("`, there are no fields").or_else(|| name.strip_suffix('`'))?, String::new()),
     };
-    Some(format!("{what}{name}{known}"))
+    Some(format!("{before}{name}{after}{known}"))
 }
 
 /// A list with an "or" before its last word.
@@ -177,14 +177,14 @@ mod tests {
             ("7", "must be an object, and is the number 7"),
             ("{}", "needs the member cell"),
             (r#"{"cell": [1, 2.0], "cell": 1}"#, "has a member twice: cell"),
-            (r#"{"cel": 1}"#, "has no member cel: it is cell or kind"),
+            (r#"{"cel": 1}"#, "cel is not known here: it is cell or kind"),
             (r#"{"cell": "a"}"#, "must be an array of 2 entries, and is the text \"a\""),
             (r#"{"cell": [1]}"#, "must be an array of 2 entries, and has 1 entries"),
             (r#"{"cell": [-1, 2]}"#, "must be a whole number from 0 to 255, and is the number -1"),
             (r#"{"cell": [1, null]}"#, "must be a number, and is null"),
             (r#"{"cell": [1, 2], "kind": "x`, expected `y"}"#, "may not be x`, expected `y: it is rack or floor"),
             (r#"{"cell": [1, 2], "kind": "shelf"}"#, "may not be shelf: it is rack or floor"),
-            (r#"{"cell": 1 2}"#, "is no JSON: something else must stand there (line 1, column 12)"),
+            (r#"{"cell": [1, 2] 2}"#, "is no JSON: something else must stand there (line 1, column 17)"),
             (r#"{"cell": [1, 2]"#, "is no JSON: it ends too early (line 1, column 15)"),
             (r#"{"cell": [1, 2],}"#, "is no JSON: a comma stands before an end (line 1, column 17)"),
         ] {

@@ -76,7 +76,8 @@ pub async fn create(
     let pairs = body.from.len() * body.to.as_ref().unwrap_or(&body.from).len();
     if pairs == 0 || pairs > MOST_PAIRS {
         let detail = format!("{pairs} pairs of ends: give 1 to {MOST_PAIRS}, in several requests if need be");
-        return Err(Problem::invalid("/from", detail));
+        let culprit = if body.to.as_deref().is_some_and(<[End]>::is_empty) { "/to" } else { "/from" };
+        return Err(Problem::invalid(culprit, detail));
     }
     let context = app.context(&caller, path.map_id.0).await?;
     off_the_runtime(move || measure(&context, &body).map(Json).map_err(Problem::in_body)).await
