@@ -89,6 +89,14 @@ impl AppError {
         Self::Invalid { detail: field.detail.clone(), fields: vec![field] }
     }
 
+    /// The same of values that lie below a pointer in the request.
+    pub(crate) fn below(mut self, pointer: &str) -> Self {
+        if let Self::Invalid { fields, .. } = &mut self {
+            fields.iter_mut().for_each(|field| field.pointer.insert_str(0, pointer));
+        }
+        self
+    }
+
     pub(crate) fn not_found(kind: &'static str, id: impl Into<String>) -> Self {
         Self::NotFound { kind, id: id.into() }
     }

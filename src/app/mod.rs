@@ -66,5 +66,5 @@ pub use label_preview::LabelPreview;
 pub use map_context::MapContext;
 pub use name_import::{NameChange, NameReport};
 pub use names::{Nameable, area_kind};
-pub use semantics_change::{SemanticsChange, Unnamed};
+pub use semantics_change::{RuleSetChoice, SemanticsChange, Unnamed};
 pub use service::App;

@@ -18,7 +18,7 @@ use uuid::Uuid;
 
 use super::context::read_rule_set;
 use super::registries::site_to_grid;
-use super::{App, AppError, Caller, MapContext, SemanticsChange, SemanticsOrigin, SemanticsRecord};
+use super::{App, AppError, Caller, MapContext, RuleSetChoice, SemanticsChange, SemanticsOrigin, SemanticsRecord};
 use crate::blocking::off_the_runtime;
 use crate::store::{NewSemanticsRow, now};
 
@@ -36,6 +36,10 @@ impl App {
         change: SemanticsChange,
         if_match: Option<u64>,
     ) -> Result<SemanticsRecord, AppError> {
+        if matches!(change.rule_set, Some(RuleSetChoice::Unsaved(_))) {
+            let detail = "must be the id of a stored rule set: POST /v1/rule-sets stores one";
+            return Err(AppError::invalid("/ruleSet", detail));
+        }
         let context = self.context_at(caller, map, if_match).await?;
         let row = self.checked_semantics(caller, &context, change).await?;
         self.decide(caller, &context, row).await
@@ -137,7 +141,8 @@ impl App {
     ) -> Result<NewSemanticsRow, AppError> {
         let (rule_set, draft) = match change.rule_set.clone() {
             None => (context.semantics.rule_set.clone(), context.semantics.draft.clone()),
-            Some(id) => match self.rule_set(caller, &id).await {
+            Some(RuleSetChoice::Unsaved(draft)) => (context.semantics.rule_set.clone(), draft),
+            Some(RuleSetChoice::Stored(id)) => match self.rule_set(caller, &id).await {
                 Ok(record) => (record.id, record.draft),
                 Err(AppError::NotFound { .. }) => {
                     return Err(AppError::invalid("/ruleSet", format!("there is no rule set {id}")));
@@ -145,7 +150,7 @@ impl App {
                 Err(error) => return Err(error),
             },
         };
-        let checked = read_rule_set(&draft)?;
+        let checked = read_rule_set(&draft).map_err(|error| error.below("/ruleSet"))?;
         let on = Arc::clone(context);
         let (assignment, layout) = off_the_runtime(move || {
             let suggested = Assignment::suggested(&semantics::suggest(&on.analysis, &checked), &checked);

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use stillage_core::layout::LayoutOptions;
-use stillage_core::semantics::{Assignment, RuleSet};
+use stillage_core::semantics::{Assignment, RuleSet, RuleSetDraft};
 
 use super::{AppError, SemanticsOrigin, SemanticsRecord};
 
@@ -11,7 +11,7 @@ use super::{AppError, SemanticsOrigin, SemanticsRecord};
 #[derive(Debug, Clone, Default)]
 pub struct SemanticsChange {
     /// The rule set; the one in force when absent.
-    pub rule_set: Option<String>,
+    pub rule_set: Option<RuleSetChoice>,
     /// Label id by category; `None` gives the category its suggested label.
     pub categories: BTreeMap<u8, Option<String>>,
     /// What becomes of the categories that are not named.
@@ -22,6 +22,21 @@ pub struct SemanticsChange {
     pub other_overrides: Unnamed,
     /// How locations are cut and numbered; as in force when absent.
     pub layout: Option<LayoutOptions>,
+}
+
+/// The rule set that labels are of.
+#[derive(Debug, Clone)]
+pub enum RuleSetChoice {
+    /// A stored one, by its id.
+    Stored(String),
+    /// One that is not stored: it can be tried, not decided on.
+    Unsaved(RuleSetDraft),
+}
+
+impl From<&str> for RuleSetChoice {
+    fn from(id: &str) -> Self {
+        Self::Stored(id.to_owned())
+    }
 }
 
 /// What becomes of what a change does not name.

@@ -293,3 +293,26 @@ async fn a_preview_tells_what_would_change_and_changes_nothing() {
     let problem = api.send_json(Method::POST, &format!("{path}/preview"), &[], &wrong).await.problem(422, "invalid");
     assert_eq!(problem["errors"][0]["pointer"], "/overrides/1");
 }
+
+#[tokio::test]
+async fn a_rule_set_is_tried_before_it_is_stored() {
+    let api = Api::new().await;
+    let map = api.hall().await;
+    let (path, preview) = (format!("{map}/semantics"), format!("{map}/semantics/preview"));
+    let mut rule_set = api.get("/v1/rule-sets/site").await.json();
+    rule_set["cogency"] = json!([{"when": ["*", "*"], "then": "cogent"}]);
+    let answer = api.send_json(Method::POST, &preview, &[], &json!({"ruleSet": rule_set})).await;
+    assert_eq!(answer.status, 200, "{}", answer.text());
+    let counts = answer.json()["counts"].take();
+    let edges = api.get(&format!("{map}/collections/edges/items")).await.json()["numberMatched"].take();
+    assert_eq!((&counts["edges"]["cogent"]["after"], &answer.json()["numberMatched"]), (&edges, &json!(0)));
+    assert_ne!(counts["edges"]["cogent"]["before"], edges);
+
+    let stored = change(&api, &map, Method::PATCH, &json!({"ruleSet": rule_set})).await.problem(422, "invalid");
+    assert_eq!(stored["errors"][0]["pointer"], "/ruleSet");
+    assert_eq!(api.get(&path).await.json()["version"], 0);
+    rule_set["labels"][0]["color"] = json!("green");
+    let wrong = json!({"ruleSet": rule_set});
+    let problem = api.send_json(Method::POST, &preview, &[], &wrong).await.problem(422, "invalid");
+    assert_eq!(problem["errors"][0]["pointer"], "/ruleSet/labels/0/color");
+}

@@ -40,7 +40,8 @@ pub struct PreviewQuery {
 
 /// Preview labels
 ///
-/// What a change of the labels would do, which is as in `PATCH …/semantics` (labels as they are read may be sent, too):
+/// What a change of the labels would do, which is as in `PATCH …/semantics` (labels as they are read may be sent, too, and a
+/// rule set that is not stored in the place of its id):
 /// counts of faces, locations, edges and links before and after, and the faces whose label would change as GeoJSON features
 /// with `label` and `previousLabel`. Nothing is stored.
 #[utoipa::path(post, path = "/v1/maps/{mapId}/semantics/preview", tag = "semantics", operation_id = "previewSemantics",

@@ -4,17 +4,18 @@ use std::collections::BTreeMap;
 use std::fmt;
 
 use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
-use serde::de::{IgnoredAny, MapAccess, SeqAccess, Visitor};
+use serde::de::{Error, IgnoredAny, MapAccess, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 use serde_json::{Map, Value};
 use stillage_core::Point;
 use stillage_core::layout::LayoutOptions;
 use utoipa::ToSchema;
 
-use crate::app::{MapContext, SemanticsChange, Unnamed};
+use crate::app::{MapContext, RuleSetChoice, SemanticsChange, Unnamed};
 use crate::http::extract::{parse_json, pointer_step, present};
 use crate::http::problem::Problem;
 use crate::views::layout::LayoutView;
+use crate::views::rule_set::RuleSetBody;
 use crate::views::semantics::{OverrideView, SemanticsBody};
 
 /// Changes to the labels of a map, as a JSON merge patch (RFC 7396): what is not named stays. What a read adds (`version`,
@@ -25,7 +26,7 @@ use crate::views::semantics::{OverrideView, SemanticsBody};
 pub struct SemanticsPatchBody {
     /// Another rule set.
     #[schema(example = "site")]
-    rule_set: Option<String>,
+    rule_set: Option<RuleSetChoiceBody>,
     /// Label by category; null gives a category its suggested label, and instead of the object gives it to all of them.
     #[serde(default, deserialize_with = "present")]
     #[schema(value_type = Option<BTreeMap<String, Option<String>>>, example = json!({"0": "co", "1": null}))]
@@ -62,6 +63,48 @@ impl SemanticsPatchBody {
         match &self.overrides {
             Some(Some(OverridesPatch::All(list))) => list.iter().map(|entry| entry.face).collect(),
             _ => Vec::new(),
+        }
+    }
+}
+
+/// A rule set.
+#[derive(Debug, ToSchema)]
+#[schema(as = RuleSetChoice)]
+#[serde(untagged)]
+pub enum RuleSetChoiceBody {
+    /// The id of a stored one.
+    Stored(String),
+    /// One that is not stored: for previews only.
+    Unsaved(RuleSetBody),
+}
+
+impl<'de> Deserialize<'de> for RuleSetChoiceBody {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Either;
+        impl<'de> Visitor<'de> for Either {
+            type Value = RuleSetChoiceBody;
+
+            fn expecting(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+                formatter.write_str("the id of a rule set, or a rule set")
+            }
+
+            fn visit_str<E: Error>(self, id: &str) -> Result<RuleSetChoiceBody, E> {
+                Ok(RuleSetChoiceBody::Stored(id.to_owned()))
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<RuleSetChoiceBody, A::Error> {
+                Deserialize::deserialize(MapAccessDeserializer::new(map)).map(RuleSetChoiceBody::Unsaved)
+            }
+        }
+        deserializer.deserialize_any(Either)
+    }
+}
+
+impl RuleSetChoiceBody {
+    fn into_choice(self) -> RuleSetChoice {
+        match self {
+            Self::Stored(id) => RuleSetChoice::Stored(id),
+            Self::Unsaved(rule_set) => RuleSetChoice::Unsaved(rule_set.into_draft()),
         }
     }
 }
@@ -103,7 +146,7 @@ impl<'de> Deserialize<'de> for OverridesPatch {
 pub fn of_put(body: SemanticsBody, context: &MapContext) -> Result<SemanticsChange, Problem> {
     let other_overrides = if body.overrides.is_some() { Unnamed::IsForgotten } else { Unnamed::Stays };
     Ok(SemanticsChange {
-        rule_set: body.rule_set,
+        rule_set: body.rule_set.map(RuleSetChoice::Stored),
         categories: categories(body.assignment.into_iter().map(|(category, label)| (category, Some(label))))?,
         other_categories: Unnamed::Stays,
         overrides: all_overrides(body.overrides.unwrap_or_default())?,
@@ -119,7 +162,7 @@ pub fn of_patch(body: SemanticsPatchBody, context: &MapContext) -> Result<Semant
     let (overrides, other_overrides) =
         parts(body.overrides, if is_list { Unnamed::IsForgotten } else { Unnamed::Stays });
     Ok(SemanticsChange {
-        rule_set: body.rule_set,
+        rule_set: body.rule_set.map(RuleSetChoiceBody::into_choice),
         categories: categories(assignment.unwrap_or_default())?,
         other_categories,
         overrides: match overrides {
