@@ -289,7 +289,7 @@ impl RouteWriter<'_> {
             let ahead = if step.length > 0.0 { format!(", drive {:.1} m", step.length) } else { String::new() };
             InstructionView {
                 action,
-                text: format!("{words}{}{ahead}", self.ground_after(step)),
+                text: format!("{words}{}{ahead}", self.ground_of(step)),
                 pose: self.pose(step.at, step.heading),
                 length_m: rounded(step.length),
             }
@@ -297,15 +297,12 @@ impl RouteWriter<'_> {
         steps.iter().map(step).collect()
     }
 
-    /// What lies ahead of a step: ` into the corridor (place 12)`.
-    fn ground_after(&self, step: &routing::Instruction) -> String {
-        /// How far ahead the ground is read, metres: beyond the turn.
-        const AHEAD_M: f64 = 1.0;
+    /// Where a step leads along: ` in the corridor (place 12)`.
+    fn ground_of(&self, step: &routing::Instruction) -> String {
         if step.length == 0.0 {
             return String::new();
         }
-        let ahead = stillage_core::Vector::new(step.heading.cos(), step.heading.sin()) * AHEAD_M.min(step.length);
-        let face = self.context.site().face_at(step.at + ahead);
+        let face = self.context.site().face_at(step.middle);
         let place = self.context.semantic.face_places.get(face.index()).copied().flatten();
         match place {
             Some(place) => format!(" in the {} (place {place})", self.context.semantic.label(face).name.to_lowercase()),

@@ -43,6 +43,8 @@ pub struct Instruction {
     pub heading: f64,
     /// Way to the next instruction, metres; 0 at the goal.
     pub length: f64,
+    /// Half way to the next instruction, grid frame, metres: the ground of this step is here.
+    pub middle: Point,
 }
 
 /// How a vehicle drives.
@@ -110,7 +112,7 @@ pub fn instructions(route: &Route) -> Vec<Instruction> {
     let legs = legs(&route.path);
     let start = route.path[0];
     let heading = legs.first().map(|leg| leg.1).or(route.goal_heading).unwrap_or(0.0);
-    let mut steps = vec![Instruction { action: Action::Depart, at: start, heading, length: 0.0 }];
+    let mut steps = vec![Instruction { action: Action::Depart, at: start, heading, length: 0.0, middle: start }];
     let mut at = start;
     // A turn that goes on: where it began, and by how much it has turned.
     let mut turn: Option<(Point, f64)> = None;
@@ -129,8 +131,27 @@ pub fn instructions(route: &Route) -> Vec<Instruction> {
         }
     }
     let heading = route.goal_heading.or(legs.last().map(|leg| leg.1)).unwrap_or(heading);
-    steps.push(Instruction { action: Action::Arrive, at, heading, length: 0.0 });
+    steps.push(Instruction { action: Action::Arrive, at, heading, length: 0.0, middle: at });
+    let mut passed = 0.0;
+    for step in &mut steps {
+        step.middle = point_at(&route.path, passed + step.length / 2.0);
+        passed += step.length;
+    }
     steps
+}
+
+/// The point of a path that is reached after a length, metres; its end beyond it.
+fn point_at(path: &[Point], length: f64) -> Point {
+    let mut left = length;
+    for pair in path.windows(2) {
+        let way = pair[1] - pair[0];
+        let here = way.norm();
+        if left < here {
+            return pair[0] + way * (left / here);
+        }
+        left -= here;
+    }
+    path[path.len() - 1]
 }
 
 /// Adds a turn, where it is one.
@@ -142,7 +163,7 @@ fn finish(steps: &mut Vec<Instruction>, turn: Option<(Point, f64)>, heading: f64
         _ => Action::Right,
     };
     // The way through the turn was counted to the step before it.
-    steps.push(Instruction { action, at, heading, length: 0.0 });
+    steps.push(Instruction { action, at, heading, length: 0.0, middle: at });
 }
 
 #[cfg(test)]
@@ -162,6 +183,15 @@ mod tests {
             instructions(&route).iter().map(|step| (step.action, (step.length * 10.0).round() / 10.0)).collect();
         let expected = [(Action::Depart, 9.5), (Action::Left, 5.0), (Action::Left, 7.0), (Action::Arrive, 0.0)];
         assert_eq!(steps, expected);
+    }
+
+    #[test]
+    fn the_middle_of_a_step_lies_on_the_path() {
+        let steps = instructions(&route(&[(0.0, 0.0), (8.0, 0.0), (8.7, 0.3), (9.0, 1.0), (9.0, 7.0)]));
+        let middles: Vec<Point> = steps.iter().map(|step| step.middle).collect();
+        assert!((middles[0] - Point::new(4.76, 0.0)).norm() < 0.01, "{middles:?}");
+        assert!((middles[1] - Point::new(9.0, 4.0)).norm() < 1e-9, "{middles:?}");
+        assert!((middles[2] - Point::new(9.0, 7.0)).norm() < 1e-9, "{middles:?}");
     }
 
     #[test]
