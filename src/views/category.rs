@@ -112,7 +112,7 @@ impl CategoryView {
             area_m2: cells as f64 * analysis.frame.resolution * analysis.frame.resolution,
             mean_features: names.zip(means).map(|(name, &mean)| (name.clone(), mean.into())).collect(),
             faces: faces().count(),
-            faces_area_m2: faces().map(|face| face.area).sum(),
+            faces_area_m2: faces().fold(0.0, |sum, face| sum + face.area),
             free_fraction: evidence.free_fraction,
             occupied_fraction: evidence.occupied_fraction,
             unknown_fraction: evidence.unknown_fraction,

@@ -35,9 +35,9 @@ pub struct LayoutView {
     #[schema(minimum = 0.05, maximum = 10)]
     vehicle_radius_m: Option<f64>,
     /// Rules about the navigation graph. Nodes and lanes are named by where they lie, so rules outlive analyses and scans.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     #[schema(max_items = 1000)]
-    lane_rules: Vec<LaneRuleView>,
+    lane_rules: Option<Vec<LaneRuleView>>,
 }
 
 /// A rule about a node or a lane of the navigation graph. Places are x and y, metres of the map frame, within
@@ -108,12 +108,14 @@ impl LayoutView {
     /// A layout as people see it, in the frame of a map that `to_site` carries to that of its site.
     #[must_use]
     pub fn new(options: &LayoutOptions, to_site: &RigidMotion) -> Self {
+        let lane_rules: Vec<LaneRuleView> =
+            options.lane_rules.iter().map(|rule| LaneRuleView::new(rule, to_site)).collect();
         Self {
             code_template: Some(options.code_template.as_str().to_owned()),
             entrance: options.entrance.map(|entrance| seen(entrance, to_site)),
             place_width_m: options.place_width_m,
             vehicle_radius_m: options.vehicle_radius_m,
-            lane_rules: options.lane_rules.iter().map(|rule| LaneRuleView::new(rule, to_site)).collect(),
+            lane_rules: Some(lane_rules).filter(|rules| !rules.is_empty()),
         }
     }
 
@@ -125,13 +127,14 @@ impl LayoutView {
 
     /// The rules that are wished. Those that were read from the ones in force stay exactly what they were.
     fn lane_rules(&self, in_force: &LayoutOptions, to_site: &RigidMotion) -> Result<Vec<LaneRule>, UnusableLayout> {
-        if self.lane_rules.len() > MOST_RULES {
-            let detail = format!("{} rules: give {MOST_RULES} at most", self.lane_rules.len());
+        let rules = self.lane_rules.as_deref().unwrap_or_default();
+        if rules.len() > MOST_RULES {
+            let detail = format!("{} rules: give {MOST_RULES} at most", rules.len());
             return Err(UnusableLayout { pointer: "/laneRules", detail });
         }
         let kept =
             |given: &LaneRuleView| in_force.lane_rules.iter().find(|rule| LaneRuleView::new(rule, to_site) == *given);
-        Ok(self.lane_rules.iter().map(|given| kept(given).copied().unwrap_or_else(|| given.read(to_site))).collect())
+        Ok(rules.iter().map(|given| kept(given).copied().unwrap_or_else(|| given.read(to_site))).collect())
     }
 
     /// The layout that is wished. An entrance that was read from the one in force stays exactly what it was.

@@ -1,0 +1,13 @@
+//! What the service stores, as plain data. `store`, `jobs`, `app` and the edges pass these types to each other.
+
+mod analysis;
+mod job;
+mod map;
+mod semantics;
+mod tenant;
+
+pub use analysis::{AnalysisRecord, AnalysisTicket};
+pub use job::{JobFilter, JobRecord, JobState, StageReport};
+pub use map::{AlignmentRecord, MapPatch, MapRecord, NewMap};
+pub use semantics::{CarryRecord, LostDecision, RuleSetRecord, SemanticsOrigin, SemanticsRecord};
+pub use tenant::Tenant;
