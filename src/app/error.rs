@@ -92,7 +92,9 @@ impl AppError {
     /// The same of values that lie below a pointer in the request.
     pub(crate) fn below(mut self, pointer: &str) -> Self {
         if let Self::Invalid { fields, .. } = &mut self {
-            fields.iter_mut().for_each(|field| field.pointer.insert_str(0, pointer));
+            for field in fields {
+                field.pointer.insert_str(0, pointer);
+            }
         }
         self
     }

@@ -80,8 +80,8 @@ pub enum RuleSetChoiceBody {
 
 impl<'de> Deserialize<'de> for RuleSetChoiceBody {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct Either;
-        impl<'de> Visitor<'de> for Either {
+        struct IdOrRuleSet;
+        impl<'de> Visitor<'de> for IdOrRuleSet {
             type Value = RuleSetChoiceBody;
 
             fn expecting(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -96,7 +96,7 @@ impl<'de> Deserialize<'de> for RuleSetChoiceBody {
                 Deserialize::deserialize(MapAccessDeserializer::new(map)).map(RuleSetChoiceBody::Unsaved)
             }
         }
-        deserializer.deserialize_any(Either)
+        deserializer.deserialize_any(IdOrRuleSet)
     }
 }
 
