@@ -24,8 +24,8 @@ use crate::views::semantics::{OverrideView, SemanticsBody};
 #[schema(as = SemanticsPatch)]
 #[serde(deny_unknown_fields, rename_all = "camelCase")]
 pub struct SemanticsPatchBody {
-    /// Another rule set.
-    #[schema(example = "site")]
+    /// Another rule set, by its id; a preview takes a rule set that is not stored, too.
+    #[schema(value_type = Option<String>, example = "site")]
     rule_set: Option<RuleSetChoiceBody>,
     /// Label by category; null gives a category its suggested label, and instead of the object gives it to all of them.
     #[serde(default, deserialize_with = "present")]
@@ -68,9 +68,7 @@ impl SemanticsPatchBody {
 }
 
 /// A rule set.
-#[derive(Debug, ToSchema)]
-#[schema(as = RuleSetChoice)]
-#[serde(untagged)]
+#[derive(Debug)]
 pub enum RuleSetChoiceBody {
     /// The id of a stored one.
     Stored(String),
