@@ -2,8 +2,10 @@
 //!
 //! Method: the storage-access edges of a face (paper, section II-C) are grouped by the direction they face. A side counts
 //! by the length along which a vehicle finds room before it. Places of one row are reached from one side: a place follows
-//! its neighbours beside it where it has a side that faces their way. Cost: O(edges x samples). Limits: three rounds of
-//! following, so only the two places at each end of a row can be mended.
+//! its neighbours beside it where it has a side that faces their way. A place that no rule gives access to, and that lies
+//! behind none that has, is reached from any drivable ground on which a vehicle finds room before it: that of a crossing,
+//! or that behind a narrow strip. Cost: O(edges x samples). Limits: three rounds of following, so only the two places at
+//! each end of a row can be mended.
 
 use std::f64::consts::{FRAC_PI_4, PI};
 
@@ -25,11 +27,13 @@ const ROUNDS: usize = 3;
 /// A side that nothing can drive up to counts as this share of its length: better than none.
 const BLOCKED_SIDE: f64 = 0.01;
 
-/// One side of a storage face that borders drivable ground.
+/// One side of a storage face with drivable ground before it.
 #[derive(Debug, Clone)]
 pub(super) struct AccessSide {
     /// Direction out of the face, radians.
     pub outward: f64,
+    /// The drivable face before it.
+    pub from: FaceId,
     /// Its half-edges, those with the most room first; the storage face lies on their left.
     pub halves: Vec<HalfEdgeId>,
     /// Length along which there is room before it, metres.
@@ -43,37 +47,81 @@ impl AccessSide {
     }
 }
 
-/// The sides of each face from which it can be reached, that from which it is reached first.
+/// The sides of each face from which it can be reached by the rules, that from which it is reached first.
 pub(super) fn sides_of(map: &SiteMap<'_>, faces: &[FaceId], radius: f64) -> Vec<Vec<AccessSide>> {
-    let mut sides: Vec<Vec<AccessSide>> = faces.par_iter().map(|&face| sides_of_face(map, face, radius)).collect();
-    follow_neighbours(map, faces, &mut sides);
-    agree_along_rows(map, faces, &mut sides);
+    let mut sides: Vec<Vec<AccessSide>> =
+        faces.par_iter().map(|&face| sides_of_face(map, face, |half| access_by_rule(map, half, radius))).collect();
+    agree(map, faces, &mut sides);
     sides
 }
 
-fn sides_of_face(map: &SiteMap<'_>, face: FaceId, radius: f64) -> Vec<AccessSide> {
-    let subdivision = &map.analysis.subdivision;
-    let gives_access = |half: &HalfEdgeId| {
-        let before = subdivision.half_edge(half.twin()).face;
-        map.semantic.cogency[half.edge().index()] == Cogency::StorageAccess && map.is_drivable(before)
-    };
-    let mut measured: Vec<(f64, f64, HalfEdgeId)> = subdivision
-        .boundary(face)
-        .filter(gives_access)
-        .map(|half| {
-            let out = outward(map, half);
-            (room_before(map, half, out, radius), out.y.atan2(out.x), half)
-        })
+/// Gives the faces at these indices the sides before which a vehicle finds room on any drivable ground.
+pub(super) fn reach_from_any_ground(
+    map: &SiteMap<'_>,
+    faces: &[FaceId],
+    without: &[usize],
+    radius: f64,
+    sides: &mut [Vec<AccessSide>],
+) {
+    let found: Vec<Vec<AccessSide>> = without
+        .par_iter()
+        .map(|&index| sides_of_face(map, faces[index], |half| any_access(map, half, radius)))
         .collect();
-    measured.sort_by(|first, second| second.0.total_cmp(&first.0).then(first.2.cmp(&second.2)));
+    for (&index, found) in without.iter().zip(found) {
+        sides[index] = found;
+    }
+    agree(map, faces, sides);
+}
+
+/// Lets the places of one row be reached from one side.
+fn agree(map: &SiteMap<'_>, faces: &[FaceId], sides: &mut [Vec<AccessSide>]) {
+    follow_neighbours(map, faces, sides);
+    agree_along_rows(map, faces, sides);
+}
+
+/// What lies before an edge.
+#[derive(Debug, Clone, Copy)]
+struct Before {
+    /// The drivable face.
+    from: FaceId,
+    /// Length of the edge along which a vehicle finds room there, metres.
+    room: f64,
+}
+
+/// What lies before an edge through which the rules give access.
+fn access_by_rule(map: &SiteMap<'_>, half: HalfEdgeId, radius: f64) -> Option<Before> {
+    let from = map.analysis.subdivision.half_edge(half.twin()).face;
+    let gives_access = map.semantic.cogency[half.edge().index()] == Cogency::StorageAccess && map.is_drivable(from);
+    let length = map.analysis.subdivision.length(half.edge());
+    gives_access.then(|| Before { from, room: length * room_before(map, half, radius).0.max(BLOCKED_SIDE) })
+}
+
+/// What lies before an edge where a vehicle finds room, whatever the rules say.
+fn any_access(map: &SiteMap<'_>, half: HalfEdgeId, radius: f64) -> Option<Before> {
+    let across = map.analysis.subdivision.half_edge(half.twin()).face;
+    if across == FaceId::OUTER || map.semantic.label(across).is_storage() {
+        return None;
+    }
+    let (share, stand) = room_before(map, half, radius);
+    Some(Before { from: map.face_at(stand?), room: map.analysis.subdivision.length(half.edge()) * share })
+}
+
+fn sides_of_face(map: &SiteMap<'_>, face: FaceId, before: impl Fn(HalfEdgeId) -> Option<Before>) -> Vec<AccessSide> {
+    let measure = |half| {
+        let out = outward(map, half);
+        Some((before(half)?, out.y.atan2(out.x), half))
+    };
+    let mut measured: Vec<(Before, f64, HalfEdgeId)> =
+        map.analysis.subdivision.boundary(face).filter_map(measure).collect();
+    measured.sort_by(|first, second| second.0.room.total_cmp(&first.0.room).then(first.2.cmp(&second.2)));
     let mut sides: Vec<AccessSide> = Vec::new();
-    for (room, out, half) in measured {
+    for (Before { from, room }, out, half) in measured {
         match sides.iter_mut().find(|side| turn_between(side.outward, out) < SAME_WAY) {
             Some(side) => {
                 side.room += room;
                 side.halves.push(half);
             }
-            None => sides.push(AccessSide { outward: out, halves: vec![half], room }),
+            None => sides.push(AccessSide { outward: out, from, halves: vec![half], room }),
         }
     }
     sides.sort_by(|first, second| second.room.total_cmp(&first.room).then(first.halves[0].cmp(&second.halves[0])));
@@ -89,21 +137,21 @@ pub(super) fn outward(map: &SiteMap<'_>, half: HalfEdgeId) -> Vector {
     Vector::new(along.y, -along.x).try_normalize(0.0).unwrap_or_else(Vector::x)
 }
 
-/// Length of an edge before which a vehicle can stand, metres.
-fn room_before(map: &SiteMap<'_>, half: HalfEdgeId, out: Vector, radius: f64) -> f64 {
+/// Share of an edge before which a vehicle can stand, and the first such point.
+fn room_before(map: &SiteMap<'_>, half: HalfEdgeId, radius: f64) -> (f64, Option<Point>) {
+    let out = outward(map, half);
     let [start, end] = map.analysis.subdivision.segment(half.edge());
-    let length = (end - start).norm();
-    let samples = (length / SAMPLE_M).ceil().max(1.0) as usize;
-    let has_room = |&sample: &usize| {
+    let samples = ((end - start).norm() / SAMPLE_M).ceil().max(1.0) as usize;
+    let steps = (REACH_M / map.grid.resolution()).ceil() as usize;
+    let stand_before = |sample: usize| {
         let place = start + (end - start) * ((sample as f64 + 0.5) / samples as f64);
-        let steps = (REACH_M / map.grid.resolution()).ceil() as usize;
-        (0..=steps).any(|step| {
-            let stand = place + out * (radius + step as f64 * map.grid.resolution());
-            map.clearance.at(stand) >= radius && map.is_drivable(map.face_at(stand))
-        })
+        let mut stands = (0..=steps).map(|step| place + out * (radius + step as f64 * map.grid.resolution()));
+        stands.find(|&stand| map.clearance.at(stand) >= radius && map.is_drivable(map.face_at(stand)))
     };
-    let open = (0..samples).filter(has_room).count();
-    length * (open as f64 / samples as f64).max(BLOCKED_SIDE)
+    let mut stands = (0..samples).filter_map(stand_before);
+    let first = stands.next();
+    let open = usize::from(first.is_some()) + stands.count();
+    (open as f64 / samples as f64, first)
 }
 
 /// The angle between two directions, radians.

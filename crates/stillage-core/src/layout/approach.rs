@@ -1,12 +1,12 @@
 //! Where a vehicle stands to serve a location.
 //!
-//! Method: of the points before the front, in the corridor, on which the vehicle touches nothing, the one nearest to the
-//! usual standing distance, and nearest to the middle of the front. They are tried in that order ([`Stands`]), which is the
-//! same for all fronts. Cost: one point of most fronts, at worst all candidates (some hundreds). Limits: the vehicle is a
-//! disc.
+//! Method: of the points before the front, in the corridor, on which the vehicle touches nothing and from which it can drive
+//! off, the one nearest to the usual standing distance, and nearest to the middle of the front. They are tried in that order
+//! ([`Stands`]), which is the same for all fronts. Cost: one point of most fronts, at worst all candidates (some hundreds).
+//! Limits: the vehicle is a disc; one that can drive its own width may still be shut in.
 
 use super::location::{ApproachPose, Location};
-use crate::geometry::{Point, direction, normal};
+use crate::geometry::{Point, Vector, direction, normal};
 use crate::site_map::SiteMap;
 
 /// Distance between the vehicle and the front, metres: our choice, so that it can still turn.
@@ -66,9 +66,20 @@ impl Stands {
         let (outward, aside) = (-direction(heading), normal(heading));
         let reach = f64::from(reach(width, self.step)) * self.step;
         let before = self.candidates.iter().filter(|[_, offset]| offset.abs() <= reach);
-        let mut points = before.map(|&[distance, offset]| middle + outward * distance + aside * offset);
-        let position = points.find_map(|point| standing(map, point, self.radius))?;
+        let points = before.map(|&[distance, offset]| middle + outward * distance + aside * offset);
+        let mut stands = points.filter_map(|point| standing(map, point, self.radius));
+        let position =
+            stands.find(|&stand| [outward, aside, -aside].iter().any(|&way| self.is_open(map, stand, way)))?;
         Some(ApproachPose { position, heading })
+    }
+
+    /// Whether the vehicle can drive its own width from a point in a direction.
+    fn is_open(&self, map: &SiteMap<'_>, from: Point, way: Vector) -> bool {
+        let steps = (2.0 * self.radius / self.step).ceil() as i32;
+        (1..=steps).all(|count| {
+            let point = from + way * (f64::from(count) * self.step);
+            map.clearance.at(point) >= self.radius && map.is_drivable(map.face_at(point))
+        })
     }
 }
 

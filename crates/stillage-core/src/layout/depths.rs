@@ -1,13 +1,14 @@
 //! Which places lie behind others: the second place of a drive-in lane, and so on.
 //!
-//! Method: from every place that is reached from an aisle, straight on in its heading, place by place. Cost: O(edges).
-//! Limits: a place behind two others belongs to the one whose middle it continues best.
+//! Method: from every place that is reached from an aisle, straight on in its heading, place by place. Where that ends, it
+//! goes on over ground that is neither storage nor drivable, and no deeper than the place before it: a gap in the stored
+//! goods. Cost: O(edges). Limits: a place behind two others belongs to the one whose middle it continues best.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::draft::Draft;
 use crate::arrangement::FaceId;
-use crate::geometry::{Point, direction, normal};
+use crate::geometry::{Point, Vector, direction, normal};
 use crate::site_map::SiteMap;
 
 /// How a location lies in its row.
@@ -32,18 +33,8 @@ pub(super) fn depths(map: &SiteMap<'_>, drafts: &mut [Draft]) -> Vec<Option<Dept
         .map(|(index, draft)| draft.front.is_some().then_some(DepthInRow { number: 1, first: index }))
         .collect();
     let mut open: Vec<usize> = (0..drafts.len()).filter(|&index| found[index].is_some()).collect();
+    let mut claims = claims_of(map, &of_face, drafts, &found, &open, Between::Border);
     while !open.is_empty() {
-        // (offset from the middle of the place in front, place behind, place in front)
-        let mut claims: Vec<(f64, usize, usize)> = Vec::new();
-        for &front in &open {
-            let behind = map.analysis.graph.links(drafts[front].face).iter().filter_map(|(_, face)| of_face.get(face));
-            for &index in behind.flatten().filter(|&&index| found[index].is_none()) {
-                claims.extend(offset_behind(&drafts[front], &drafts[index]).map(|offset| (offset, index, front)));
-            }
-        }
-        claims.sort_by(|first, second| {
-            first.0.total_cmp(&second.0).then(first.1.cmp(&second.1)).then(first.2.cmp(&second.2))
-        });
         open.clear();
         for (_, index, front) in claims {
             let Some(before) = found[front].filter(|_| found[index].is_none()) else { continue };
@@ -51,8 +42,74 @@ pub(super) fn depths(map: &SiteMap<'_>, drafts: &mut [Draft]) -> Vec<Option<Dept
             turn(drafts, index, drafts[front].heading);
             open.push(index);
         }
+        claims = claims_of(map, &of_face, drafts, &found, &open, Between::Border);
+        if claims.is_empty() {
+            open = (0..drafts.len()).filter(|&index| found[index].is_some()).collect();
+            claims = claims_of(map, &of_face, drafts, &found, &open, Between::Gap);
+            if claims.is_empty() {
+                break;
+            }
+        }
     }
     found
+}
+
+/// What may lie between a place and the next one behind it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Between {
+    /// A border.
+    Border,
+    /// A face that is neither storage nor drivable.
+    Gap,
+}
+
+/// A place that lies behind another: its offset from the middle of that, metres, its index and that of the other.
+type Claim = (f64, usize, usize);
+
+/// The places without a depth that lie behind those in `open`, the best claims first.
+fn claims_of(
+    map: &SiteMap<'_>,
+    of_face: &BTreeMap<FaceId, Vec<usize>>,
+    drafts: &[Draft],
+    found: &[Option<DepthInRow>],
+    open: &[usize],
+    between: Between,
+) -> Vec<Claim> {
+    let beside = |face: FaceId| map.analysis.graph.links(face).iter().map(|&(_, other)| other);
+    let is_gap =
+        |face: &FaceId| *face != FaceId::OUTER && !map.is_drivable(*face) && !map.semantic.label(*face).is_storage();
+    let mut claims: Vec<Claim> = Vec::new();
+    for &front in open {
+        let face = drafts[front].face;
+        let behind: BTreeSet<FaceId> = match between {
+            Between::Border => beside(face).collect(),
+            Between::Gap => beside(face).filter(is_gap).flat_map(beside).collect(),
+        };
+        let places = behind.iter().filter_map(|face| of_face.get(face)).flatten();
+        for &index in places.filter(|&&index| found[index].is_none()) {
+            let offset = offset_behind(&drafts[front], &drafts[index]).filter(|_| {
+                between == Between::Border || gap_between(&drafts[front], &drafts[index]) <= drafts[front].depth
+            });
+            claims.extend(offset.map(|offset| (offset, index, front)));
+        }
+    }
+    claims.sort_by(|first, second| {
+        first.0.total_cmp(&second.0).then(first.1.cmp(&second.1)).then(first.2.cmp(&second.2))
+    });
+    claims
+}
+
+/// How much ground lies between two places along the heading of the front one, metres.
+fn gap_between(front: &Draft, behind: &Draft) -> f64 {
+    let [_, end] = extent(&front.outline, direction(front.heading));
+    let [start, _] = extent(&behind.outline, direction(front.heading));
+    start - end
+}
+
+/// The least and greatest coordinate of an outline along an axis, metres.
+fn extent(outline: &[Point], axis: Vector) -> [f64; 2] {
+    let places = outline.iter().map(|point| axis.dot(&point.coords));
+    [places.clone().fold(f64::INFINITY, f64::min), places.fold(f64::NEG_INFINITY, f64::max)]
 }
 
 /// How far the middle of a place is aside of the way into another; `None` when it does not lie behind it.
@@ -64,12 +121,12 @@ fn offset_behind(front: &Draft, behind: &Draft) -> Option<f64> {
 
 /// Gives a place another heading.
 fn turn(drafts: &mut [Draft], index: usize, heading: f64) {
-    let extent = |axis: crate::geometry::Vector, outline: &[Point]| {
-        let places = outline.iter().map(|point| axis.dot(&point.coords));
-        places.clone().fold(f64::NEG_INFINITY, f64::max) - places.fold(f64::INFINITY, f64::min)
+    let length = |axis: Vector, outline: &[Point]| {
+        let [start, end] = extent(outline, axis);
+        (end - start).max(0.0)
     };
     let draft = &mut drafts[index];
     draft.heading = heading;
-    draft.width = extent(normal(heading), &draft.outline).max(0.0);
-    draft.depth = extent(direction(heading), &draft.outline).max(0.0);
+    draft.width = length(normal(heading), &draft.outline);
+    draft.depth = length(direction(heading), &draft.outline);
 }

@@ -58,10 +58,7 @@ pub(super) fn drafts_of(
     let inward = side.map_or(annotation.heading, |side| heading_from(side.outward));
     let bounds = OrientedBox::around(outline.iter().copied(), inward);
     let [depth, width] = bounds.map_or([0.0; 2], |bounds| bounds.half_extents.map(|half| 2.0 * half));
-    let front = side.map(|side| Front {
-        middle: front_middle(map, side, bounds),
-        from: map.analysis.subdivision.half_edge(side.halves[0].twin()).face,
-    });
+    let front = side.map(|side| Front { middle: front_middle(map, side, bounds), from: side.from });
     let whole = Draft {
         face,
         part: 0,

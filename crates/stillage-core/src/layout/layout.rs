@@ -1,8 +1,10 @@
 //! The storage layout of a map: locations, aisles and rows, numbered.
 
+use std::collections::BTreeSet;
+
 use rayon::prelude::*;
 
-use super::access;
+use super::access::{self, AccessSide};
 use super::aisle::{Aisle, Row};
 use super::aisles::{AisleFront, FrontLine, aisles_of};
 use super::approach::{ApproachFront, Stands};
@@ -43,19 +45,37 @@ struct Numbers {
 pub fn layout(map: &SiteMap<'_>, spec: &LayoutSpec) -> Layout {
     let subdivision = &map.analysis.subdivision;
     let faces: Vec<FaceId> = subdivision.faces().filter(|&face| map.semantic.label(face).is_storage()).collect();
-    let sides = access::sides_of(map, &faces, spec.vehicle_radius);
-    let mut drafts: Vec<Draft> = faces
-        .par_iter()
-        .zip(&sides)
-        .flat_map_iter(|(&face, sides)| drafts_of(map, face, sides.first(), spec.place_width))
-        .collect();
-    let depths = depths(map, &mut drafts);
+    let mut sides = access::sides_of(map, &faces, spec.vehicle_radius);
+    let (mut drafts, mut depths) = drafted(map, &faces, &sides, spec);
+    let is_reached: BTreeSet<FaceId> =
+        drafts.iter().zip(&depths).filter(|(_, depth)| depth.is_some()).map(|(draft, _)| draft.face).collect();
+    let without: Vec<usize> = (0..faces.len()).filter(|&index| !is_reached.contains(&faces[index])).collect();
+    if !without.is_empty() {
+        access::reach_from_any_ground(map, &faces, &without, spec.vehicle_radius, &mut sides);
+        (drafts, depths) = drafted(map, &faces, &sides, spec);
+    }
     let mut numbering = Numbering::new(&drafts, &depths);
     for line in aisles_of(fronts(map, &drafts), spec.entrance) {
         numbering.add_aisle(map, &line, 2.0 * spec.vehicle_radius);
     }
     numbering.number_the_rest();
     numbering.finish(map, spec)
+}
+
+/// The locations of storage faces that are reached from these sides, and how they lie in their rows.
+fn drafted(
+    map: &SiteMap<'_>,
+    faces: &[FaceId],
+    sides: &[Vec<AccessSide>],
+    spec: &LayoutSpec,
+) -> (Vec<Draft>, Vec<Option<DepthInRow>>) {
+    let mut drafts: Vec<Draft> = faces
+        .par_iter()
+        .zip(sides)
+        .flat_map_iter(|(&face, sides)| drafts_of(map, face, sides.first(), spec.place_width))
+        .collect();
+    let depths = depths(map, &mut drafts);
+    (drafts, depths)
 }
 
 fn fronts(map: &SiteMap<'_>, drafts: &[Draft]) -> Vec<AisleFront> {

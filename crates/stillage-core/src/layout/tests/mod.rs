@@ -1,5 +1,7 @@
 //! Locations of drawn warehouses.
 
+mod access;
+
 use super::*;
 use crate::geometry::Point;
 use crate::semantics::RuleSet;
@@ -191,34 +193,6 @@ fn one_place_of_many_corridors_falls_into_its_aisles() {
 }
 
 #[test]
-fn a_location_behind_another_is_reached_through_it() {
-    let map = DrawnMap::new(
-        "
-        ##
-        ##
-        ..
-        ..
-        ",
-        "
-        pp
-        qq
-        cc
-        cc
-        ",
-    );
-    let locations = check(
-        &map,
-        &expect![[r#"
-            01-001 at 0.5,1.2 1.0x0.5   90 Occupied from 0.8,0.8
-            01-001-2 at 0.5,1.8 1.0x0.5   90 Occupied from 0.8,0.8
-        "#]],
-    );
-    let depths: Vec<u32> = locations.iter().map(|location| location.depth_in_row).collect();
-    assert_eq!(depths, [1, 2]);
-    assert_eq!(locations[0].access_edges, locations[1].access_edges);
-}
-
-#[test]
 fn the_robot_stands_inside_a_face_too_narrow_for_its_distance() {
     let map = DrawnMap::new(
         "
@@ -288,37 +262,4 @@ fn a_long_rack_is_cut_into_places_for_a_load() {
     let lines: Vec<String> = places.iter().map(line).collect();
     assert_eq!(lines, ["01-001 2.0 m at 1.0", "01-003 2.0 m at 3.0", "01-005 2.0 m at 5.0"]);
     assert!(places.iter().all(|place| (place.area - 2.0).abs() < 1e-9 && place.outline.len() == 4));
-}
-
-#[test]
-fn places_at_the_end_of_a_row_are_reached_like_the_others() {
-    // A row alone on open floor: the outer places have a long side to the left and the right.
-    let map = DrawnMap::new(
-        "
-        ............
-        ............
-        ............
-        ...######...
-        ...######...
-        ...######...
-        ............
-        ............
-        ............
-        ",
-        "
-        cccccccccccc
-        cccccccccccc
-        cccccccccccc
-        cccppqqppccc
-        cccppqqppccc
-        cccppqqppccc
-        cccccccccccc
-        cccccccccccc
-        cccccccccccc
-        ",
-    );
-    let locations = map.layout(&map.semantic(&RuleSet::warehouse())).locations;
-    let headings: BTreeSet<i32> = locations.iter().map(|place| place.heading.to_degrees().round() as i32).collect();
-    assert_eq!((locations.len(), headings.len()), (3, 1), "{headings:?}");
-    assert_eq!(headings.into_iter().next().map(i32::abs), Some(90));
 }
