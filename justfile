@@ -52,6 +52,6 @@ measure *WHAT="real drawings offices":
 
 # Fill all tables of docs/accuracy.md: those above, the zoo, turned sites, maps of generate.py in MAPS/{seen,unseen,paper}.
 accuracy MAPS:
-    cargo run --release --example accuracy -- real drawings offices steadiness --rooms --write \
+    cargo run --release --example accuracy -- real drawings offices steadiness --rooms --write --layout 1..2 \
         --zoo seen=1..2 --zoo unseen=5..6 --rotation 1 \
         --generated seen={{MAPS}}/seen --generated unseen={{MAPS}}/unseen --paper-size {{MAPS}}/paper

@@ -7,6 +7,8 @@
 #[path = "../../crates/stillage-core/examples/paper_scale/clock.rs"]
 #[allow(dead_code, reason = "only its costs are used here")]
 mod clock;
+#[path = "../../crates/stillage-core/examples/paper_scale/labelled.rs"]
+mod labelled;
 #[path = "../../crates/stillage-core/examples/paper_scale/site.rs"]
 mod site;
 
@@ -14,25 +16,17 @@ use std::path::PathBuf;
 
 use clock::Cost;
 use jiff::Timestamp;
+use labelled::LabelledSite;
 use stillage::exports::{ExportOptions, ExportSource, list, write};
 use stillage::features::MapNames;
 use stillage_core::graph::navigation_graph;
 use stillage_core::layout::{LayoutSpec, layout};
 use stillage_core::routing::Router;
-use stillage_core::semantics::{self, Assignment, RuleSet};
-use stillage_core::{AnalysisOptions, SiteCells, Watch, analyze};
+use stillage_core::SiteCells;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let folder = std::env::args().nth(1).map(PathBuf::from);
-    let grid = site::warehouse([0..site::SIZE[0], 0..site::SIZE[1]]);
-    let mut options = AnalysisOptions::default();
-    // The categories of cells do not matter here.
-    options.categorization.stride = 4;
-    let spec = options.check().expect("the options are valid");
-    let analysis = analyze(&grid, &spec, &Watch::unwatched())?;
-    let rules = RuleSet::default();
-    let assignment = Assignment::suggested(&semantics::suggest(&analysis, &rules), &rules);
-    let semantic = semantics::apply(&analysis, &rules, &assignment).expect("suggestions can be applied");
+    let LabelledSite { grid, analysis, semantic } = LabelledSite::new()?;
     let cells = SiteCells::of(&grid, &analysis);
     let map = cells.map(&grid, &analysis, &semantic);
     let spec = LayoutSpec::of(&analysis.options);

@@ -8,28 +8,22 @@
 #[path = "../paper_scale/clock.rs"]
 #[allow(dead_code, reason = "only its costs are used here")]
 mod clock;
+#[path = "../paper_scale/labelled.rs"]
+mod labelled;
 #[path = "../paper_scale/site.rs"]
 mod site;
 
 use clock::Cost;
+use labelled::LabelledSite;
 use stillage_core::graph::navigation_graph;
 use stillage_core::graph_report::{ReportOptions, graph_report};
 use stillage_core::layout::{LayoutSpec, layout};
 use stillage_core::routing::Router;
-use stillage_core::semantics::{self, Assignment, RuleSet};
-use stillage_core::{AnalysisOptions, SiteCells, Watch, analyze};
+use stillage_core::{SiteCells, Watch};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let radius: f64 = std::env::args().nth(1).map_or(Ok(0.4), |radius| radius.parse())?;
-    let grid = site::warehouse([0..site::SIZE[0], 0..site::SIZE[1]]);
-    let mut options = AnalysisOptions::default();
-    // The categories of cells do not matter here.
-    options.categorization.stride = 4;
-    let spec = options.check().expect("the options are valid");
-    let analysis = analyze(&grid, &spec, &Watch::unwatched())?;
-    let rules = RuleSet::default();
-    let assignment = Assignment::suggested(&semantics::suggest(&analysis, &rules), &rules);
-    let semantic = semantics::apply(&analysis, &rules, &assignment).expect("suggestions can be applied");
+    let LabelledSite { grid, analysis, semantic } = LabelledSite::new()?;
     let cells = SiteCells::of(&grid, &analysis);
     let map = cells.map(&grid, &analysis, &semantic);
     let storage = layout(&map, &LayoutSpec::of(&analysis.options));

@@ -11,6 +11,8 @@ mod cells;
 #[path = "../paper_scale/clock.rs"]
 #[allow(dead_code, reason = "only its costs are used here")]
 mod clock;
+#[path = "../paper_scale/labelled.rs"]
+mod labelled;
 #[path = "../paper_scale/site.rs"]
 mod site;
 
@@ -18,11 +20,11 @@ use std::time::Instant;
 
 use cells::CellPaths;
 use clock::Cost;
+use labelled::LabelledSite;
 use stillage_core::graph::{NavigationGraph, navigation_graph};
 use stillage_core::layout::{LayoutSpec, Location, layout};
 use stillage_core::routing::{Preferences, Route, Router, Waypoint};
-use stillage_core::semantics::{self, Assignment, RuleSet};
-use stillage_core::{AnalysisOptions, OccupancyGrid, Point, SiteCells, SiteMap, Watch, analyze};
+use stillage_core::{OccupancyGrid, Point, SiteCells, SiteMap};
 
 /// Starts, and goals for each.
 const STARTS: usize = 20;
@@ -30,15 +32,7 @@ const GOALS: usize = 50;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let radius: f64 = std::env::args().nth(1).map_or(Ok(0.4), |radius| radius.parse())?;
-    let grid = site::warehouse([0..site::SIZE[0], 0..site::SIZE[1]]);
-    let mut options = AnalysisOptions::default();
-    // The categories of cells do not matter here.
-    options.categorization.stride = 4;
-    let spec = options.check().expect("the options are valid");
-    let analysis = analyze(&grid, &spec, &Watch::unwatched())?;
-    let rules = RuleSet::default();
-    let assignment = Assignment::suggested(&semantics::suggest(&analysis, &rules), &rules);
-    let semantic = semantics::apply(&analysis, &rules, &assignment).expect("suggestions can be applied");
+    let LabelledSite { grid, analysis, semantic } = LabelledSite::new()?;
     let (cells, read) = Cost::of(|| SiteCells::of(&grid, &analysis));
     let map = cells.map(&grid, &analysis, &semantic);
     print_cost("cells of faces, clearance", &read);
