@@ -121,7 +121,8 @@ impl Document {
 pub struct Documents {
     version_3_1: Document,
     version_3_0: Document,
-    /// That of a map, in version 3.0; [`of_map::SERVER`] stands for the address of the map.
+    /// That of a map, in version 3.0, without spaces: GDAL reads it whenever it opens a layer. [`of_map::SERVER`] stands for
+    /// the address of the map.
     of_map: String,
 }
 
@@ -129,16 +130,23 @@ impl Documents {
     /// Those of a document in version 3.1.
     #[must_use]
     pub fn of(version_3_1: &Value) -> Self {
-        let texts = Texts::of(version_3_1);
+        let [version_3_0, of_map] = in_version_3_0(version_3_1);
         Self {
-            version_3_1: Document::new(texts.version_3_1),
-            version_3_0: Document::new(texts.version_3_0),
-            of_map: texts.of_map,
+            version_3_1: Document::new(openapi::text(version_3_1)),
+            version_3_0: Document::new(openapi::text(&version_3_0)),
+            of_map: of_map.to_string(),
         }
     }
 }
 
-/// The OpenAPI documents as they are served and stored.
+/// The document of the service and that of a map in version 3.0.
+fn in_version_3_0(version_3_1: &Value) -> [Value; 2] {
+    let version_3_0 = for_clients::for_clients(version_3_0::down_convert(version_3_1));
+    let of_map = of_map::of_map(&version_3_0);
+    [version_3_0, of_map]
+}
+
+/// The OpenAPI documents as they are stored.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Texts {
     /// The API in OpenAPI 3.1.
@@ -153,8 +161,7 @@ impl Texts {
     /// Those of a document in version 3.1.
     #[must_use]
     pub fn of(version_3_1: &Value) -> Self {
-        let version_3_0 = for_clients::for_clients(version_3_0::down_convert(version_3_1));
-        let of_map = of_map::of_map(&version_3_0);
+        let [version_3_0, of_map] = in_version_3_0(version_3_1);
         let [version_3_1, version_3_0, of_map] = [version_3_1, &version_3_0, &of_map].map(openapi::text);
         Self { version_3_1, version_3_0, of_map }
     }
