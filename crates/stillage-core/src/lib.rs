@@ -87,6 +87,7 @@ pub mod relaxation;
 pub mod analysis;
 
 // The human level.
+pub mod corrections;
 pub mod semantics;
 
 pub mod clearance;

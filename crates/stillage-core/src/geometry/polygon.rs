@@ -45,6 +45,52 @@ pub fn centroid(rings: &[Vec<Point>]) -> Option<Point> {
     (area != 0.0).then(|| anchor + sides(rings).map(moment).sum::<Vector>() / (6.0 * area))
 }
 
+/// Two sides of a ring, by the numbers of their first corners, that have more in common than the corner between them;
+/// `None` for a simple ring. A sweep over the sides by their least x: O(n log n), and the pairs that overlap along x.
+#[must_use]
+pub fn crossing_sides(ring: &[Point]) -> Option<[usize; 2]> {
+    let side = |number: usize| [ring[number], ring[(number + 1) % ring.len()]];
+    let range = |number: usize| {
+        let [start, end] = side(number);
+        (start.x.min(end.x), start.x.max(end.x))
+    };
+    let mut order: Vec<usize> = (0..ring.len()).collect();
+    order.sort_by(|&one, &other| range(one).0.total_cmp(&range(other).0));
+    let mut current: Vec<usize> = Vec::new();
+    for number in order {
+        current.retain(|&other| range(other).1 >= range(number).0);
+        let is_crossed = |&other: &usize| {
+            let (one, next) = (side(number), side(other));
+            match (number + 1) % ring.len() == other || (other + 1) % ring.len() == number {
+                // Neighbours share a corner; they cross where one turns back along the other.
+                true => {
+                    let [first, second] = if one[1] == next[0] { [one, next] } else { [next, one] };
+                    let (way, on) = (first[1] - first[0], second[1] - second[0]);
+                    way.perp(&on) == 0.0 && way.dot(&on) <= 0.0
+                }
+                false => meet(one, next),
+            }
+        };
+        if let Some(&other) = current.iter().find(|other| is_crossed(other)) {
+            return Some([number.min(other), number.max(other)]);
+        }
+        current.push(number);
+    }
+    None
+}
+
+/// Whether two segments have a point in common.
+fn meet([a, b]: [Point; 2], [c, d]: [Point; 2]) -> bool {
+    let turn = |from: Point, to: Point, point: Point| (to - from).perp(&(point - from));
+    let (at_c, at_d, at_a, at_b) = (turn(a, b, c), turn(a, b, d), turn(c, d, a), turn(c, d, b));
+    let is_between = |low: Point, high: Point, point: Point| (low - point).dot(&(high - point)) <= 0.0;
+    (at_c * at_d < 0.0 && at_a * at_b < 0.0)
+        || (at_c == 0.0 && is_between(a, b, c))
+        || (at_d == 0.0 && is_between(a, b, d))
+        || (at_a == 0.0 && is_between(c, d, a))
+        || (at_b == 0.0 && is_between(c, d, b))
+}
+
 /// Cuts a closed walk into rings wherever it comes back to a place: a ring that touches itself in a corner becomes two.
 /// What has fewer than three places (a dangling edge, walked there and back) bounds nothing and is dropped.
 /// O(n log n) for n places.
@@ -104,6 +150,20 @@ mod tests {
         let found = centroid(&with_a_hole()).expect("it has an area");
         assert!((found - Point::new(expected, expected)).norm() < 1e-12);
         assert_eq!(centroid(&[square(1.0, 1.0)]), None);
+    }
+
+    #[test]
+    fn a_ring_is_simple_unless_its_sides_meet() {
+        let ring = |corners: &[(f64, f64)]| corners.iter().map(|&(x, y)| Point::new(x, y)).collect::<Vec<_>>();
+        assert_eq!(crossing_sides(&square(0.0, 4.0)), None);
+        let bow = ring(&[(0.0, 0.0), (4.0, 4.0), (4.0, 0.0), (0.0, 4.0)]);
+        assert_eq!(crossing_sides(&bow), Some([0, 2]));
+        let touching = ring(&[(0.0, 0.0), (4.0, 0.0), (4.0, 4.0), (2.0, 0.0), (0.0, 4.0)]);
+        assert!(crossing_sides(&touching).is_some());
+        let turning_back = ring(&[(0.0, 0.0), (4.0, 0.0), (2.0, 0.0), (2.0, 3.0)]);
+        assert!(crossing_sides(&turning_back).is_some());
+        let with_a_corner_twice = ring(&[(0.0, 0.0), (0.0, 0.0), (4.0, 0.0), (4.0, 4.0)]);
+        assert!(crossing_sides(&with_a_corner_twice).is_some());
     }
 
     #[test]

@@ -1,0 +1,140 @@
+//! Whether a correction makes sense on its own, before it meets a map.
+
+use super::correction::Correction;
+use crate::geometry::{Point, polygon, ring_area};
+use crate::registry::checked_name;
+
+/// Most faces that one correction may make, and most points that it may have: a row of all places of the largest
+/// warehouses (about 100,000 places). Callers may allow fewer.
+pub(super) const MOST_FACES: usize = 100_000;
+/// Least area of a polygon or rectangle, square metres: 1 cm by 1 cm, far below the smallest place.
+const LEAST_AREA_M2: f64 = 1e-4;
+/// Longest side of the world, metres: beyond it coordinates are taken for degrees or pixels of something else, and no
+/// longer tell centimetres apart.
+const FARTHEST_M: f64 = 1e7;
+
+/// Why a correction cannot be applied, in plain words.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("{pointer}: {message}")]
+pub struct CorrectionProblem {
+    /// JSON pointer into the correction; empty for the whole of it.
+    pub pointer: String,
+    /// What is wrong, and what would be right.
+    pub message: String,
+}
+
+impl CorrectionProblem {
+    pub(super) fn new(pointer: impl Into<String>, message: impl Into<String>) -> Self {
+        Self { pointer: pointer.into(), message: message.into() }
+    }
+}
+
+impl Correction {
+    /// Checks what can be checked without a map: points that are numbers, polygons that do not cross themselves, rows of
+    /// at most `most_faces` places, names.
+    ///
+    /// # Errors
+    /// The first problem, with its place in the correction.
+    pub fn check(&self, most_faces: usize) -> Result<(), CorrectionProblem> {
+        let most_faces = most_faces.min(MOST_FACES);
+        if self.points().len() > MOST_FACES {
+            let message = format!(
+                "{} points are more than {MOST_FACES}: leave out points that lie on straight sides",
+                self.points().len()
+            );
+            return Err(CorrectionProblem::new(self.member(), message));
+        }
+        let is_far = |point: &Point| !point.iter().all(|side| side.abs() <= FARTHEST_M);
+        if let Some(far) = self.points().iter().position(is_far) {
+            let message = "must be metres of the map frame, [x, y], within 10,000 km";
+            return Err(CorrectionProblem::new(self.pointer(far), message));
+        }
+        match self {
+            Self::Draw { ring, .. } | Self::Erase { ring } => check_ring(open_ring(ring), "/ring")?,
+            Self::Split { line } if line.len() < 2 => {
+                return Err(CorrectionProblem::new("/line", "a line has two points or more"));
+            }
+            Self::Merge { at } if at.len() < 2 => {
+                return Err(CorrectionProblem::new("/at", "name a point in each of two faces or more"));
+            }
+            Self::Door { line: [start, end], .. } if start == end => {
+                return Err(CorrectionProblem::new("/line", "the two jambs of a door lie apart"));
+            }
+            Self::Row { rectangle, .. } => {
+                check_ring(rectangle, "/rectangle")?;
+                self.check_row(most_faces)?;
+            }
+            _ => {}
+        }
+        self.name().map_or(Ok(()), |name| {
+            checked_name(name).map(drop).map_err(|demand| CorrectionProblem::new("/name", format!("a name {demand}")))
+        })
+    }
+
+    fn check_row(&self, most_faces: usize) -> Result<(), CorrectionProblem> {
+        let &Self::Row { places, pitch_m, layers, .. } = self else { return Ok(()) };
+        match (places, pitch_m) {
+            (Some(0), _) => return Err(CorrectionProblem::new("/places", "a row has one place or more")),
+            (Some(_), Some(_)) | (None, None) => {
+                let message = "say either how many places the row has (places) or how far apart they are (pitchM)";
+                return Err(CorrectionProblem::new("", message));
+            }
+            (None, Some(pitch)) if !(pitch.is_finite() && pitch > 0.0) => {
+                return Err(CorrectionProblem::new("/pitchM", "the pitch must be more than 0 m"));
+            }
+            _ => {}
+        }
+        if layers == 0 {
+            return Err(CorrectionProblem::new("/layers", "a row has one layer or more"));
+        }
+        let faces = u64::from(self.places_of_row()) * u64::from(layers);
+        if faces > most_faces as u64 {
+            let pointer = if places.is_some() { "/places" } else { "/pitchM" };
+            let message = format!("{faces} places are more than the {most_faces} that one correction may make");
+            return Err(CorrectionProblem::new(pointer, message));
+        }
+        Ok(())
+    }
+
+    /// How many places a row has side by side; 0 for what is no row.
+    pub(super) fn places_of_row(&self) -> u32 {
+        match self {
+            Self::Row { places: Some(places), .. } => *places,
+            // Saturates.
+            Self::Row { rectangle, pitch_m: Some(pitch), .. } => {
+                ((rectangle[1] - rectangle[0]).norm() / pitch).round().max(1.0) as u32
+            }
+            _ => 0,
+        }
+    }
+
+    /// JSON pointer to the member that holds its points.
+    fn member(&self) -> String {
+        let first = self.pointer(0);
+        first.strip_suffix("/0").map_or_else(|| first.clone(), str::to_owned)
+    }
+}
+
+/// The corners of a ring without the first one repeated at the end.
+pub(super) fn open_ring(ring: &[Point]) -> &[Point] {
+    match ring {
+        [first, between @ .., last] if !between.is_empty() && first == last => &ring[..ring.len() - 1],
+        _ => ring,
+    }
+}
+
+/// Checks that a ring is a polygon.
+pub(super) fn check_ring(ring: &[Point], member: &str) -> Result<(), CorrectionProblem> {
+    if ring.len() < 3 {
+        return Err(CorrectionProblem::new(member, "a polygon has three corners or more"));
+    }
+    if let Some([one, other]) = polygon::crossing_sides(ring) {
+        let message =
+            format!("sides {one} and {other} cross or touch: put the corners in their order around the polygon");
+        return Err(CorrectionProblem::new(member, message));
+    }
+    if ring_area(ring).abs() < LEAST_AREA_M2 {
+        return Err(CorrectionProblem::new(member, "the polygon has no area: its corners lie on one line"));
+    }
+    Ok(())
+}

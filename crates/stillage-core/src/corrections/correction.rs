@@ -1,0 +1,146 @@
+//! One correction as data.
+
+use serde::{Deserialize, Serialize};
+
+use crate::geometry::{Point, RigidMotion};
+
+/// What a person says about a map. Points are metres of the map frame.
+///
+/// As JSON: `{"kind": "split", "line": [[0, 1.5], [4, 1.5]]}`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "kind", rename_all = "camelCase", rename_all_fields = "camelCase", deny_unknown_fields)]
+pub enum Correction {
+    /// What lies inside a polygon is one face.
+    Draw {
+        /// The corners; the first one may be repeated at the end.
+        ring: Vec<Point>,
+        /// Id of its label.
+        label: String,
+        /// Its name.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        name: Option<String>,
+    },
+    /// The faces that a line crosses are cut along it.
+    Split {
+        /// Two points or more.
+        line: Vec<Point>,
+    },
+    /// Faces become one.
+    Merge {
+        /// A point inside each of them. The first one gives the label and the name.
+        at: Vec<Point>,
+    },
+    /// A rectangle is cut into places.
+    Row {
+        /// Its corners; the first side, from the first corner to the second, runs along the row.
+        rectangle: [Point; 4],
+        /// How many places there are side by side; this or the pitch is given.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        places: Option<u32>,
+        /// Distance from place to place, metres; the number of places is the nearest whole one.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        pitch_m: Option<f64>,
+        /// How many places there are one behind the other.
+        #[serde(default = "one_layer")]
+        layers: u32,
+        /// Id of their label. Without one they have the label of their category.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        label: Option<String>,
+    },
+    /// What was found inside a polygon is nothing: it joins the ground around it.
+    Erase {
+        /// The corners; the first one may be repeated at the end.
+        ring: Vec<Point>,
+    },
+    /// A face has a label.
+    Label {
+        /// A point inside it.
+        at: Point,
+        /// Id of its label.
+        label: String,
+    },
+    /// The border along a line is a door, or is shut.
+    Door {
+        /// From jamb to jamb.
+        line: [Point; 2],
+        /// Whether vehicles may pass.
+        is_open: bool,
+    },
+    /// A face has a name.
+    Name {
+        /// A point inside it.
+        at: Point,
+        /// Its name.
+        name: String,
+    },
+}
+
+const fn one_layer() -> u32 {
+    1
+}
+
+impl Correction {
+    /// The correction in another frame.
+    #[must_use]
+    pub fn moved(mut self, motion: &RigidMotion) -> Self {
+        for point in self.points_mut() {
+            *point = motion.apply(*point);
+        }
+        self
+    }
+
+    /// All its points.
+    #[must_use]
+    pub fn points(&self) -> &[Point] {
+        match self {
+            Self::Draw { ring, .. } | Self::Erase { ring } => ring,
+            Self::Split { line } => line,
+            Self::Merge { at } => at,
+            Self::Row { rectangle, .. } => rectangle,
+            Self::Label { at, .. } | Self::Name { at, .. } => std::slice::from_ref(at),
+            Self::Door { line, .. } => line,
+        }
+    }
+
+    fn points_mut(&mut self) -> &mut [Point] {
+        match self {
+            Self::Draw { ring, .. } | Self::Erase { ring } => ring,
+            Self::Split { line } => line,
+            Self::Merge { at } => at,
+            Self::Row { rectangle, .. } => rectangle,
+            Self::Label { at, .. } | Self::Name { at, .. } => std::slice::from_mut(at),
+            Self::Door { line, .. } => line,
+        }
+    }
+
+    /// JSON pointer to one of its points.
+    pub(super) fn pointer(&self, point: usize) -> String {
+        match self {
+            Self::Draw { .. } | Self::Erase { .. } => format!("/ring/{point}"),
+            Self::Split { .. } | Self::Door { .. } => format!("/line/{point}"),
+            Self::Merge { .. } => format!("/at/{point}"),
+            Self::Row { .. } => format!("/rectangle/{point}"),
+            Self::Label { .. } | Self::Name { .. } => "/at".to_owned(),
+        }
+    }
+
+    /// Id of the label that it gives.
+    #[must_use]
+    pub fn label(&self) -> Option<&str> {
+        match self {
+            Self::Draw { label, .. } | Self::Label { label, .. } => Some(label),
+            Self::Row { label, .. } => label.as_deref(),
+            _ => None,
+        }
+    }
+
+    /// The name that it gives.
+    #[must_use]
+    pub fn name(&self) -> Option<&str> {
+        match self {
+            Self::Draw { name, .. } => name.as_deref(),
+            Self::Name { name, .. } => Some(name),
+            _ => None,
+        }
+    }
+}

@@ -1,0 +1,27 @@
+//! Corrections: what people say about an analysed map that no automatic reading got right.
+//!
+//! ```text
+//! Analysis, its CellFaces, a list of corrections ── apply ── Corrected: Analysis, CellFaces, labels, names, outcomes
+//! ```
+//!
+//! | item | what it is |
+//! | --- | --- |
+//! | [`Correction`] | one correction as data, in metres of the map frame; it survives another analysis and another scan |
+//! | [`CorrectionProblem`] | why a correction makes no sense, or does not fit onto a map |
+//! | [`Outcome`] | what became of a correction: the faces that it made or touched, or why it did not fit |
+//! | [`apply()`] | an analysis with a list of corrections |
+//!
+//! A list is applied in order, each correction to what those before it left. The result follows from the analysis and
+//! the list alone, on any number of threads.
+
+mod apply;
+mod check;
+mod correction;
+mod outcome;
+#[cfg(test)]
+mod tests;
+
+pub use apply::apply;
+pub use check::CorrectionProblem;
+pub use correction::Correction;
+pub use outcome::{Corrected, Outcome};
