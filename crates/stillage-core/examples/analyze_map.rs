@@ -1,8 +1,10 @@
-//! Analyses a map without the service: `cargo run --release -p stillage-core --example analyze_map -- map.yaml OUT`.
+//! Analyses a map without the service:
+//! `cargo run --release -p stillage-core --example analyze_map -- map.yaml OUT [corrections.json]`.
 //!
 //! Reads the `map_server` metadata beside its PGM or PNG image, writes `OUT/faces.geojson` and `OUT/edges.geojson`
 //! under the default rule set with the suggested labels, and prints the time of every stage. With few beams on few
-//! cells, since it is about the decomposition; `stillage analyze` knows every option.
+//! cells, since it is about the decomposition; `stillage analyze` knows every option. A list of corrections is applied to
+//! the analysis, and what became of each is printed.
 
 #![allow(clippy::print_stdout, reason = "an example prints what it measured")]
 
@@ -13,7 +15,8 @@ use std::path::Path;
 use std::sync::Mutex;
 use std::time::Instant;
 
-use stillage_core::arrangement::FaceId;
+use stillage_core::arrangement::{CellFaces, FaceId};
+use stillage_core::corrections::{self, Corrected, Correction};
 use stillage_core::geometry::Point;
 use stillage_core::grid::{GridFrame, Occupancy, OccupancyGrid};
 use stillage_core::semantics::{self, Assignment, RuleSet};
@@ -22,7 +25,9 @@ use stillage_core::{Analysis, AnalysisOptions, Watch, analyze};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
-    let [path, out] = arguments.as_slice() else { return Err("usage: analyze_map map.yaml OUT".into()) };
+    let [path, out, corrections @ ..] = arguments.as_slice() else {
+        return Err("usage: analyze_map map.yaml OUT [corrections.json]".into());
+    };
     let grid = read(Path::new(path))?;
     let mut options = AnalysisOptions::default();
     options.categorization.stride = 4;
@@ -30,12 +35,20 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let spec = options.check().map_err(|problems| problems[0].to_string())?;
     let (flag, clock) = (StopFlag::default(), Clock::default());
     let analysis = analyze(&grid, &spec, &Watch::new(&flag, &clock))?;
+    let list: Vec<Correction> = match corrections.first() {
+        Some(path) => serde_json::from_str(&fs::read_to_string(path)?)?,
+        None => Vec::new(),
+    };
+    let cells = CellFaces::of_grid(&analysis.subdivision, &grid);
+    let Corrected { analysis, labels, outcomes, .. } = corrections::apply(&grid, &analysis, &cells, &list);
+    outcomes.iter().zip(1..).for_each(|(outcome, number)| println!("correction {number}: {outcome:?}"));
     let rules = RuleSet::default();
     let assignment = semantics::suggest(&analysis, &rules)
         .into_iter()
         .map(|suggestion| (suggestion.category, rules.label(suggestion.label).id.clone()))
         .collect();
-    let assignment = Assignment { assignment, ..Assignment::default() };
+    let overrides = labels.into_iter().map(|(face, label)| (face.0, label)).collect();
+    let assignment = Assignment { assignment, overrides };
     let semantic = semantics::apply(&analysis, &rules, &assignment).map_err(|problems| problems[0].to_string())?;
 
     fs::create_dir_all(out)?;

@@ -101,7 +101,7 @@ pub fn read(view: &AnalysedMap<'_>) -> Vec<(Geometry, EdgeRow)> {
         let [start, end] = subdivision.segment(edge);
         let along = end - start;
         let line = match subdivision.source(edge) {
-            EdgeSource::Boundary => None,
+            EdgeSource::Boundary | EdgeSource::Drawn => None,
             EdgeSource::Line(line) => Some(line),
         };
         let row = EdgeRow {

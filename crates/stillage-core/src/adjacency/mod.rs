@@ -35,10 +35,23 @@ impl AdjacencyGraph {
     /// # Errors
     /// [`Stopped`] when the watch says so.
     pub fn dual(subdivision: &Subdivision, watch: &Watch<'_>) -> Result<Self, Stopped> {
+        Self::with_positions(subdivision, |_| None, watch)
+    }
+
+    /// The dual of a redrawn subdivision; `known` are the positions of the faces that were not redrawn.
+    ///
+    /// # Errors
+    /// [`Stopped`] when the watch says so.
+    pub(crate) fn with_positions(
+        subdivision: &Subdivision,
+        known: impl Fn(FaceId) -> Option<Point> + Sync,
+        watch: &Watch<'_>,
+    ) -> Result<Self, Stopped> {
         let mut positions = vec![Point::origin(); subdivision.face_count()];
         positions.par_iter_mut().enumerate().skip(1).try_for_each(|(face, position)| {
             watch.check()?;
-            *position = pole(&subdivision.rings(FaceId(face as u32)));
+            let face = FaceId(face as u32);
+            *position = known(face).unwrap_or_else(|| pole(&subdivision.rings(face)));
             Ok(())
         })?;
         let mut neighbors = vec![Vec::new(); subdivision.face_count()];

@@ -61,7 +61,8 @@ pub fn annotate(
 ) -> Result<Annotations, Stopped> {
     let Subject { grid, categorization, regions, subdivision, graph, cells, plots, grounds } = *subject;
     let categories = &categorization.map;
-    let mut faces = faces::annotate_faces(grid, categories, regions, subdivision, cells, watch)?;
+    let measured = faces::annotate_faces(grid, categories, regions, subdivision, cells, |_| true, watch)?;
+    let mut faces: Vec<FaceAnnotation> = measured.into_iter().flatten().collect();
     let kinds = plot_kinds::of_faces(graph, &faces, plots, grounds);
     faces.iter_mut().zip(kinds).for_each(|(face, kind)| face.kind = kind);
     let votes = FaceCategories::from(categories);

@@ -73,28 +73,33 @@ impl FaceAnnotation {
     }
 }
 
-/// Annotates every face; entry 0, the unbounded face, is empty.
+/// Annotates some faces, or all: by face id, `None` for those that are not selected. Entry 0, the unbounded face, is
+/// empty.
 pub(super) fn annotate_faces(
     grid: &OccupancyGrid,
     categories: &CategoryMap,
     regions: &RegionMap,
     subdivision: &Subdivision,
     cells: &CellFaces,
+    is_selected: impl Fn(FaceId) -> bool + Sync,
     watch: &Watch<'_>,
-) -> Result<Vec<FaceAnnotation>, Stopped> {
-    let table = FaceCountTable::count(grid, categories, regions, subdivision, cells, watch)?;
+) -> Result<Vec<Option<FaceAnnotation>>, Stopped> {
+    let table = FaceCountTable::count(grid, categories, regions, subdivision, cells, &is_selected, watch)?;
     let annotate = |face: usize| {
         if face.is_multiple_of(256) {
             watch.check()?;
         }
         let face = FaceId(face as u32);
+        if !is_selected(face) {
+            return Ok(None);
+        }
         let rings = if face == FaceId::OUTER { Vec::new() } else { subdivision.rings(face) };
         let mut counts = table.of(face);
         if counts.total() == 0 && face != FaceId::OUTER {
             // No cell centre lies in it: its region is that of a point inside.
             counts.regions[region_slot(regions, region_at(grid, regions, pole(&rings)))] += 1;
         }
-        Ok(face_annotation(&counts, &rings, categories))
+        Ok(Some(face_annotation(&counts, &rings, categories)))
     };
     (0..subdivision.face_count()).into_par_iter().map(annotate).collect()
 }
@@ -144,6 +149,7 @@ impl FaceCountTable {
         regions: &RegionMap,
         subdivision: &Subdivision,
         cells: &CellFaces,
+        is_selected: impl Fn(FaceId) -> bool + Sync,
         watch: &Watch<'_>,
     ) -> Result<Self, Stopped> {
         let (category_count, region_count) = (categories.categories.len(), regions.regions.len() + 1);
@@ -161,7 +167,7 @@ impl FaceCountTable {
             for run in faces.chunk_by(PartialEq::eq) {
                 let columns = column..column + run.len();
                 column = columns.end;
-                if run[0] != FaceId::OUTER {
+                if run[0] != FaceId::OUTER && is_selected(run[0]) {
                     let votes = votes.get(columns.clone()).unwrap_or_default();
                     table.add_run(run[0], votes, &grid.row(row)[columns.clone()], &mut votes_by_category);
                     let is_inside = |&column: &usize| cells.holds_around(run[0], column, row, rim);

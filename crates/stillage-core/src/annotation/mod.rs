@@ -10,10 +10,12 @@
 //! | [`clusters`] | categories of faces by clustering the faces |
 //! | [`membership`] | distributions of faces over the categories; their relaxation |
 //! | [`face_categories`] | the numbers of the categories |
+//! | [`anew`] | the annotations of a redrawn subdivision: only what changed is measured again |
 //! | [`merge`] | a subdivision in which faces that nothing divides are one; made before the rest is measured |
 //!
 //! A face gets its category by clustering faces, or by the vote of its cells as in the paper.
 
+mod anew;
 mod annotate;
 mod clusters;
 mod edges;
@@ -27,6 +29,8 @@ mod plot_kinds;
 
 #[cfg(test)]
 mod tests;
+
+pub(crate) use anew::{Redrawn, annotate_anew};
 
 pub use annotate::{Annotations, Subject, annotate};
 pub use edges::EdgeAnnotation;

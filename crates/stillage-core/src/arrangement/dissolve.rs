@@ -19,10 +19,12 @@ impl Subdivision {
     /// [`Stopped`] when the watch says so.
     pub fn dissolve(&self, is_dissolved: impl Fn(EdgeId) -> bool, watch: &Watch<'_>) -> Result<Self, Stopped> {
         let kept = self.edges().filter(|&edge| !is_dissolved(edge));
-        let piece = |edge| {
-            let [low, high] = self.segment(edge).map(|point| LatticePoint::nearest(point, self.step));
-            Piece { segment: LatticeSegment { low, high }, source: self.source(edge) }
-        };
-        builder::build(kept.map(piece).collect(), self.step, watch)
+        builder::build(kept.map(|edge| self.piece(edge)).collect(), self.step, watch)
+    }
+
+    /// An edge on the lattice.
+    pub(super) fn piece(&self, edge: EdgeId) -> Piece {
+        let [low, high] = self.segment(edge).map(|point| LatticePoint::nearest(point, self.step));
+        Piece { segment: LatticeSegment { low, high }, source: self.source(edge) }
     }
 }

@@ -17,10 +17,13 @@ mod builder;
 mod cell_faces;
 mod dissolve;
 mod edges_to_the_left;
+mod face_at;
 mod ids;
 mod invariants;
+mod kept_parts;
 mod lattice;
 mod noding;
+mod redrawing;
 mod sources;
 mod subdivision;
 
@@ -32,6 +35,9 @@ mod golden_tests;
 mod tests;
 
 pub use cell_faces::CellFaces;
+pub(crate) use kept_parts::KeptParts;
+pub(crate) use redrawing::Redrawing;
+
 pub use ids::{EdgeId, FaceId, HalfEdgeId, VertexId};
 pub use sources::{SourceSegment, source_segments};
 pub use subdivision::{EdgeSource, HalfEdge, Subdivision};

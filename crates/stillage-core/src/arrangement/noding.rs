@@ -15,16 +15,16 @@ use crate::watch::{Stopped, Watch};
 
 /// A segment of the lattice and its source. Ordered by place, then source.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) struct Piece {
+pub(super) struct Piece<S = EdgeSource> {
     pub segment: LatticeSegment,
-    pub source: EdgeSource,
+    pub source: S,
 }
 
 /// Segments that are examined between two looks at the stop flag: well below 50 ms of work.
 const CHECK_EVERY: usize = 1_024;
 
 /// Cuts pieces at every point where they meet. The result is sorted, each place once with its least source.
-pub(super) fn node(mut pieces: Vec<Piece>, watch: &Watch<'_>) -> Result<Vec<Piece>, Stopped> {
+pub(super) fn node<S: Copy + Ord>(mut pieces: Vec<Piece<S>>, watch: &Watch<'_>) -> Result<Vec<Piece<S>>, Stopped> {
     keep_least_source(&mut pieces);
     let Some(bounds) = bounds(&pieces) else { return Ok(pieces) };
     let hot = hot_pixels(&pieces, bounds, watch)?;
@@ -53,13 +53,13 @@ pub(super) fn node(mut pieces: Vec<Piece>, watch: &Watch<'_>) -> Result<Vec<Piec
 }
 
 /// Sorts pieces by place and keeps one of each place.
-fn keep_least_source(pieces: &mut Vec<Piece>) {
+pub(super) fn keep_least_source<S: Copy + Ord>(pieces: &mut Vec<Piece<S>>) {
     pieces.sort_unstable();
     pieces.dedup_by_key(|piece| piece.segment);
 }
 
 /// Lower left and upper right corner of all pieces.
-fn bounds(pieces: &[Piece]) -> Option<(LatticePoint, LatticePoint)> {
+fn bounds<S>(pieces: &[Piece<S>]) -> Option<(LatticePoint, LatticePoint)> {
     let ends = || pieces.iter().flat_map(|piece| [piece.segment.low, piece.segment.high]);
     let low = LatticePoint { x: ends().map(|end| end.x).min()?, y: ends().map(|end| end.y).min()? };
     let high = LatticePoint { x: ends().map(|end| end.x).max()?, y: ends().map(|end| end.y).max()? };
@@ -67,8 +67,8 @@ fn bounds(pieces: &[Piece]) -> Option<(LatticePoint, LatticePoint)> {
 }
 
 /// The ends of all pieces and the pixels of their crossings, ascending.
-fn hot_pixels(
-    pieces: &[Piece],
+fn hot_pixels<S>(
+    pieces: &[Piece<S>],
     (low, high): (LatticePoint, LatticePoint),
     watch: &Watch<'_>,
 ) -> Result<Vec<LatticePoint>, Stopped> {

@@ -12,6 +12,8 @@ pub enum EdgeSource {
     Boundary,
     /// The line with this index.
     Line(u32),
+    /// A correction: a person drew it.
+    Drawn,
 }
 
 /// One direction of an edge.

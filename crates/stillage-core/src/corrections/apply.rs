@@ -1,55 +1,107 @@
 //! An analysis with a list of corrections.
 
-use std::collections::BTreeMap;
-
-use super::check::{CorrectionProblem, MOST_FACES};
+use super::assemble::{FacesOfCorrections, assemble};
+use super::check::{CorrectionProblem, MOST_FACES, open_ring};
 use super::correction::Correction;
+use super::draft::{Draft, FaceClaim};
+use super::failure::Failure;
 use super::outcome::{Corrected, Outcome};
+use super::{cut, erase, paint, passage};
 use crate::analysis::Analysis;
-use crate::arrangement::{CellFaces, FaceId};
-use crate::geometry::Point;
+use crate::arrangement::CellFaces;
+use crate::geometry::{Bounds, Point, ring_area};
 use crate::grid::OccupancyGrid;
+use crate::watch::{Stopped, Watch};
 
 /// Applies corrections to an analysis, in order.
 ///
 /// `cells` are the faces of the cells of the analysis. Corrections are points of the map frame; the frame of the
 /// analysis leads from there to the grid. One that does not fit changes nothing and is told in the outcomes.
+///
+/// Faces that were redrawn are measured on `grid` without what the analysis took for clutter; hatched areas and painted
+/// surroundings count there as they were uploaded. O(cells), once, and O(edges) for each correction.
 #[must_use]
 pub fn apply(grid: &OccupancyGrid, analysis: &Analysis, cells: &CellFaces, corrections: &[Correction]) -> Corrected {
-    let mut corrected = Corrected {
-        analysis: analysis.clone(),
-        faces: cells.clone(),
-        labels: BTreeMap::new(),
-        names: BTreeMap::new(),
-        outcomes: Vec::new(),
-    };
-    let back = analysis.frame.motion().inverse();
-    for correction in corrections {
-        let outcome = correction.check(MOST_FACES).and_then(|()| {
-            let correction = correction.clone().moved(&back);
-            match &correction {
-                Correction::Label { at, label } => {
-                    let face = face_at(grid, cells, *at)?;
-                    corrected.labels.insert(face, label.clone());
-                    Ok(vec![face])
-                }
-                _ => Err(CorrectionProblem::new("", "this kind of correction is not applied yet")),
-            }
-        });
-        corrected.outcomes.push(match outcome {
-            Ok(faces) => Outcome::Applied { faces },
-            Err(problem) => Outcome::Unfit(problem),
-        });
-    }
-    corrected
+    applied(grid, analysis, cells, corrections).expect("nobody stops what is unwatched")
 }
 
-fn face_at(grid: &OccupancyGrid, cells: &CellFaces, at: Point) -> Result<FaceId, CorrectionProblem> {
-    let Some((column, row)) = grid.cell_at(at) else {
-        return Err(CorrectionProblem::new("/at", "the point lies outside the map"));
-    };
-    match cells.at(column, row) {
-        FaceId::OUTER => Err(CorrectionProblem::new("/at", "no face lies at this point")),
-        face => Ok(face),
+fn applied(
+    grid: &OccupancyGrid,
+    analysis: &Analysis,
+    cells: &CellFaces,
+    corrections: &[Correction],
+) -> Result<Corrected, Stopped> {
+    let mut draft = Draft::of(grid, analysis, Watch::unwatched());
+    let to_grid = analysis.frame.motion().inverse();
+    let mut problems: Vec<Option<CorrectionProblem>> = Vec::with_capacity(corrections.len());
+    for (number, correction) in (0..).zip(corrections) {
+        let fits = correction.check(MOST_FACES).map_err(Failure::from);
+        let outcome = fits.and_then(|()| draw(&mut draft, correction.clone().moved(&to_grid), number));
+        problems.push(match outcome {
+            Ok(()) => None,
+            Err(Failure::Unfit(problem)) => Some(problem),
+            Err(Failure::Stopped) => return Err(Stopped),
+        });
     }
+    draft.settle()?;
+    let (corrected, mut faces): (Corrected, FacesOfCorrections) = assemble(grid, analysis, cells, draft)?;
+    let outcome = |(number, problem): (u32, Option<CorrectionProblem>)| match problem {
+        Some(problem) => Outcome::Unfit(problem),
+        None => Outcome::Applied { faces: faces.remove(&number).unwrap_or_default() },
+    };
+    let outcomes = (0..).zip(problems).map(outcome).collect();
+    Ok(Corrected { outcomes, ..corrected })
+}
+
+/// Draws one correction, points in the grid frame.
+fn draw(draft: &mut Draft<'_>, correction: Correction, number: u32) -> Result<(), Failure> {
+    check_place(draft, &correction)?;
+    let places = correction.places_of_row();
+    let claim = || FaceClaim { corrections: vec![number], ..FaceClaim::default() };
+    match correction {
+        Correction::Draw { ring, label, name } => {
+            paint::draw(draft, open_ring(&ring), FaceClaim { label: Some(label), name, ..claim() })?;
+        }
+        Correction::Row { rectangle, layers, label, .. } => {
+            paint::row(draft, &rectangle, [places, layers], FaceClaim { label, ..claim() })?;
+        }
+        Correction::Split { line } => cut::split(draft, &line, number)?,
+        Correction::Merge { at } => cut::merge(draft, &at, number)?,
+        Correction::Erase { ring } => erase::erase(draft, &counter_clockwise(open_ring(&ring)), number)?,
+        Correction::Door { line, is_open } => passage::door(draft, line, is_open, number)?,
+        Correction::Label { at, label } => {
+            let face = draft.face_at(at, "/at")?;
+            let claim = &mut draft.claims[face.index()];
+            claim.label = Some(label);
+            claim.touch(number);
+        }
+        Correction::Name { at, name } => {
+            let face = draft.face_at(at, "/at")?;
+            let claim = &mut draft.claims[face.index()];
+            claim.name = Some(name);
+            claim.touch(number);
+        }
+    }
+    Ok(())
+}
+
+/// Checks that all points of a correction lie on the map, or so near to it that they join its border.
+fn check_place(draft: &Draft<'_>, correction: &Correction) -> Result<(), Failure> {
+    let Bounds { low, high } = draft.bounds;
+    for (number, point) in correction.points().iter().enumerate() {
+        let distance = (*point - Point::from(point.coords.sup(&low.coords).inf(&high.coords))).norm();
+        if distance > draft.tolerance {
+            let message = format!("the point lies {distance:.2} m outside the map");
+            return Err(Failure::unfit(correction.pointer(number), message));
+        }
+    }
+    Ok(())
+}
+
+fn counter_clockwise(ring: &[Point]) -> Vec<Point> {
+    let mut ring = ring.to_vec();
+    if ring_area(&ring) < 0.0 {
+        ring.reverse();
+    }
+    ring
 }

@@ -62,6 +62,9 @@ impl Correction {
             }
             Self::Row { rectangle, .. } => {
                 check_ring(rectangle, "/rectangle")?;
+                if !is_convex(rectangle) {
+                    return Err(CorrectionProblem::new("/rectangle", "the four corners are those of no rectangle"));
+                }
                 self.check_row(most_faces)?;
             }
             _ => {}
@@ -113,6 +116,15 @@ impl Correction {
         let first = self.pointer(0);
         first.strip_suffix("/0").map_or_else(|| first.clone(), str::to_owned)
     }
+}
+
+/// Whether a simple ring turns in one direction at all corners.
+fn is_convex(ring: &[Point; 4]) -> bool {
+    let turn = |corner: usize| {
+        let [before, at, after] = [corner, corner + 1, corner + 2].map(|corner| ring[corner % 4]);
+        (at - before).perp(&(after - at))
+    };
+    (0..4).all(|corner| turn(corner) > 0.0) || (0..4).all(|corner| turn(corner) < 0.0)
 }
 
 /// The corners of a ring without the first one repeated at the end.

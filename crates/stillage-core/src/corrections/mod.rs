@@ -15,9 +15,17 @@
 //! the list alone, on any number of threads.
 
 mod apply;
+mod assemble;
 mod check;
 mod correction;
+mod cut;
+mod draft;
+mod erase;
+mod failure;
 mod outcome;
+mod paint;
+mod passage;
+mod snap;
 #[cfg(test)]
 mod tests;
 

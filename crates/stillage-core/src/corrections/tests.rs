@@ -1,11 +1,90 @@
-//! Corrections of maps drawn in characters.
+//! Corrections of maps drawn in characters: a character is a cell of 0.5 m, the lower left corner is [0, 0].
+
+use expect_test::{Expect, expect};
 
 use super::*;
-use crate::semantics::pictures::DrawnMap;
+use crate::arrangement::FaceId;
+use crate::geometry::{Point, RigidMotion, Vector};
+use crate::layout::{LayoutSpec, layout};
+use crate::routing::{Preferences, Router, Waypoint};
+use crate::semantics::pictures::{DrawnMap, VEHICLE_RADIUS};
+use crate::semantics::{self, Assignment, RuleSet, SemanticMap};
+use crate::site_map::SiteCells;
 
 /// Reads a correction as a client writes it.
 fn read(json: &str) -> Correction {
-    serde_json::from_str(json).expect("it is a correction")
+    serde_json::from_str(json).unwrap_or_else(|error| panic!("{json} is no correction: {error}"))
+}
+
+fn read_all(list: &[&str]) -> Vec<Correction> {
+    list.iter().map(|json| read(json)).collect()
+}
+
+fn corrected(map: &DrawnMap, list: &[&str]) -> Corrected {
+    let corrected = apply(&map.grid, &map.analysis, &map.cells.faces, &read_all(list));
+    corrected.analysis.subdivision.check_invariants().expect("the arrangement is sound");
+    assert_eq!(corrected.faces, crate::arrangement::CellFaces::of_grid(&corrected.analysis.subdivision, &map.grid));
+    corrected
+}
+
+/// A letter for each face, what people said of the faces, and what became of the corrections.
+fn told(map: &DrawnMap, corrected: &Corrected) -> String {
+    let letter = |face: FaceId| char::from(b'`' + face.0 as u8);
+    let character = |column: usize, row: usize| match corrected.faces.at(column, row) {
+        FaceId::OUTER => ' ',
+        face => letter(face),
+    };
+    let mut text = map.draw(character);
+    for (face, label) in &corrected.labels {
+        text += &format!("{} is {label}\n", letter(*face));
+    }
+    for (face, name) in &corrected.names {
+        text += &format!("{} is called {name}\n", letter(*face));
+    }
+    for (outcome, number) in corrected.outcomes.iter().zip(1..) {
+        text += &match outcome {
+            Outcome::Applied { faces } => {
+                format!("{number}: {}\n", faces.iter().map(|&face| letter(face)).collect::<String>())
+            }
+            Outcome::Unfit(problem) => format!("{number}: unfit, {problem}\n"),
+        };
+    }
+    text
+}
+
+fn check(map: &DrawnMap, list: &[&str], expected: &Expect) {
+    expected.assert_eq(&told(map, &corrected(map, list)));
+}
+
+/// A floor without anything on it.
+fn floor() -> DrawnMap {
+    DrawnMap::new(&"............\n".repeat(8), &"cccccccccccc\n".repeat(8))
+}
+
+/// Two rooms, o and c, with a wall between them that has a gap of 1 m.
+fn two_rooms() -> DrawnMap {
+    DrawnMap::new(
+        "
+        .....#......
+        .....#......
+        .....#......
+        ............
+        ............
+        .....#......
+        .....#......
+        .....#......
+        ",
+        &"oooooccccccc\n".repeat(8),
+    )
+}
+
+/// What labels the rules and people give.
+fn labelled(corrected: &Corrected) -> SemanticMap {
+    let rules = RuleSet::warehouse();
+    let names = ["co", "ju", "pc", "of"].iter().zip(0..).map(|(id, category)| (category, (*id).to_owned()));
+    let overrides = corrected.labels.iter().map(|(face, label)| (face.0, label.clone())).collect();
+    let assignment = Assignment { assignment: names.collect(), overrides };
+    semantics::apply(&corrected.analysis, &rules, &assignment).expect("labels that exist")
 }
 
 #[test]
@@ -28,12 +107,175 @@ fn a_correction_is_written_as_it_is_read() {
 }
 
 #[test]
-fn a_label_goes_to_the_face_at_its_point() {
-    let map = DrawnMap::new("....\n....", "ccpp\nccpp");
-    let label = read(r#"{"kind":"label","at":[1.6,0.2],"label":"ju"}"#);
-    let outside = read(r#"{"kind":"label","at":[9,0.2],"label":"ju"}"#);
-    let corrected = apply(&map.grid, &map.analysis, &map.cells.faces, &[label, outside]);
-    let Outcome::Applied { faces } = &corrected.outcomes[0] else { panic!("{:?}", corrected.outcomes) };
-    assert_eq!((faces.len(), map.letter(faces[0]), corrected.labels[&faces[0]].as_str()), (1, 'p', "ju"));
-    assert!(matches!(&corrected.outcomes[1], Outcome::Unfit(problem) if problem.pointer == "/at"));
+fn a_polygon_becomes_a_face_whatever_was_there() {
+    let rack = r#"{"kind":"draw","ring":[[2,1],[4,1],[4,3],[2,3]],"label":"pc","name":"Rack 12"}"#;
+    let over_it = r#"{"kind":"draw","ring":[[3,1],[5,1],[5,3],[3,3],[3,1]],"label":"of"}"#;
+    check(&floor(), &[rack], &expect![]);
+    check(&floor(), &[rack, over_it], &expect![]);
+}
+
+#[test]
+fn what_is_drawn_within_a_cell_of_a_border_leaves_no_sliver() {
+    let beside = r#"{"kind":"draw","ring":[[0.2,0.3],[2.1,0.4],[1.9,3.8],[0.1,3.7]],"label":"pc"}"#;
+    let next = r#"{"kind":"draw","ring":[[2.3,0.1],[4,0.2],[4,3.9],[2.2,3.6]],"label":"pc"}"#;
+    let corrected = corrected(&floor(), &[beside, next]);
+    let areas: Vec<f64> = corrected.analysis.faces.iter().skip(1).map(|face| face.area.round()).collect();
+    assert_eq!(areas, [8.0, 8.0, 8.0]);
+    assert_eq!(
+        corrected.analysis.subdivision.faces().map(|face| corrected.analysis.subdivision.rings(face).len()).max(),
+        Some(1)
+    );
+}
+
+#[test]
+fn a_line_cuts_the_faces_that_it_crosses_from_border_to_border() {
+    check(
+        &floor(),
+        &[r#"{"kind":"split","line":[[0,2],[6,2]]}"#, r#"{"kind":"split","line":[[3,4],[3,1]]}"#],
+        &expect![],
+    );
+    check(&floor(), &[r#"{"kind":"split","line":[[1,2],[5,2]]}"#], &expect![]);
+}
+
+#[test]
+fn parts_keep_what_was_said_of_the_whole() {
+    let name = r#"{"kind":"name","at":[1,1],"name":"Cold store"}"#;
+    let label = r#"{"kind":"label","at":[1,1],"label":"of"}"#;
+    check(
+        &floor(),
+        &[name, label, r#"{"kind":"split","line":[[3,0],[3,4]]}"#, r#"{"kind":"label","at":[5,1],"label":"ju"}"#],
+        &expect![],
+    );
+}
+
+#[test]
+fn faces_side_by_side_become_one() {
+    let map = DrawnMap::new(&"............\n".repeat(4), &"ccccjjjjdddd\n".repeat(4));
+    let label = r#"{"kind":"label","at":[3,1],"label":"of"}"#;
+    check(&map, &[label, r#"{"kind":"merge","at":[[1,1],[3,1]]}"#], &expect![]);
+    check(&map, &[r#"{"kind":"merge","at":[[1,1],[5,1]]}"#, r#"{"kind":"merge","at":[[1,1],[1,1.5]]}"#], &expect![]);
+}
+
+#[test]
+fn a_row_is_cut_into_places_that_have_codes_and_access() {
+    let map = floor();
+    let row = r#"{"kind":"row","rectangle":[[0,4],[6,4],[6,2],[0,2]],"pitchM":2,"layers":2,"label":"pc"}"#;
+    let corrected = corrected(&map, &[row]);
+    expect![].assert_eq(&told(&map, &corrected));
+    let semantic = labelled(&corrected);
+    let cells = SiteCells { faces: corrected.faces, clearance: map.cells.clearance.clone() };
+    let spec = LayoutSpec { vehicle_radius: VEHICLE_RADIUS, ..LayoutSpec::of(&corrected.analysis.options) };
+    let layout = layout(&cells.map(&map.grid, &corrected.analysis, &semantic), &spec);
+    let codes: Vec<String> = layout
+        .locations
+        .iter()
+        .map(|location| {
+            format!("{} {:.1}x{:.1} {}", location.code, location.width, location.depth, location.approach.is_some())
+        })
+        .collect();
+    expect![].assert_eq(&(codes.join("\n") + "\n"));
+}
+
+#[test]
+fn what_is_no_rack_joins_the_floor_around_it() {
+    let map = DrawnMap::new(
+        &"............\n".repeat(8),
+        "
+        jjjjjjjjjjjj
+        jjjjjjjjjjjj
+        ccppqqppcccc
+        ccppqqppcccc
+        cccccccccccc
+        cccccccccccc
+        cccccccccccc
+        cccccccccccc
+        ",
+    );
+    let around = r#"{"kind":"erase","ring":[[0.7,1.7],[4.2,1.7],[4.2,3.3],[0.7,3.3]]}"#;
+    check(&map, &[around], &expect![]);
+    let around_a_border = r#"{"kind":"erase","ring":[[0,2.8],[6,2.8],[6,3.2],[0,3.2]]}"#;
+    check(&map, &[around, around_a_border], &expect![]);
+    check(&map, &[r#"{"kind":"erase","ring":[[4.8,0.5],[5.6,0.5],[5.6,1.2]]}"#], &expect![]);
+}
+
+#[test]
+fn vehicles_pass_doors_that_people_drew_unless_they_are_shut() {
+    let map = two_rooms();
+    let length = |list: &[&str]| {
+        let corrected = corrected(&map, list);
+        let semantic = labelled(&corrected);
+        let cells = SiteCells { faces: corrected.faces, clearance: map.cells.clearance.clone() };
+        let site = cells.map(&map.grid, &corrected.analysis, &semantic);
+        let ends = [Point::new(0.75, 2.25), Point::new(5.25, 2.25)].map(Waypoint::Point);
+        let route = Router::new(&site, VEHICLE_RADIUS).route(&site, &ends[0], &ends[1], &Preferences::default());
+        (route.ok().map(|route| route.length), corrected.analysis.rooms.doors.len())
+    };
+    let (drivable, open, shut) = (
+        r#"{"kind":"label","at":[1,1],"label":"co"}"#,
+        r#"{"kind":"door","line":[[2.6,1.5],[2.6,2.5]],"isOpen":true}"#,
+        r#"{"kind":"door","line":[[2.6,1.5],[2.6,2.5]],"isOpen":false}"#,
+    );
+    assert_eq!(length(&[drivable]), (Some(4.5), 0));
+    assert_eq!(length(&[drivable, open]), (Some(4.5), 1));
+    assert_eq!(length(&[drivable, shut]), (None, 0));
+    assert_eq!(length(&[drivable, shut, open]), (Some(4.5), 1));
+    check(&map, &[open, r#"{"kind":"door","line":[[1,1.5],[1,2.5]],"isOpen":true}"#], &expect![]);
+}
+
+#[test]
+fn what_does_not_fit_is_told_and_changes_nothing() {
+    let map = floor();
+    let list = [
+        r#"{"kind":"label","at":[9,1],"label":"co"}"#,
+        r#"{"kind":"draw","ring":[[1,1],[2,1],[2,-3]],"label":"pc"}"#,
+        r#"{"kind":"merge","at":[[1,1],[2,2]]}"#,
+        r#"{"kind":"door","line":[[1,1],[2,1]],"isOpen":false}"#,
+    ];
+    check(&map, &list, &expect![]);
+    assert_eq!(corrected(&map, &list).analysis, map.analysis);
+}
+
+#[test]
+fn what_makes_no_sense_is_told_with_its_place() {
+    let problem =
+        |json: &str| read(json).check(5_000).map_or_else(|problem| problem.to_string(), |()| "fine".to_owned());
+    let told: Vec<String> = [
+        r#"{"kind":"draw","ring":[[0,0],[2,2],[2,0],[0,2]],"label":"pc"}"#,
+        r#"{"kind":"draw","ring":[[0,0],[2,2]],"label":"pc"}"#,
+        r#"{"kind":"draw","ring":[[0,0],[1,0],[2,0.00000001]],"label":"pc"}"#,
+        r#"{"kind":"draw","ring":[[0,0],[1,0],[1,1]],"label":"pc","name":""}"#,
+        r#"{"kind":"label","at":[1e9,1],"label":"pc"}"#,
+        r#"{"kind":"split","line":[[0,0]]}"#,
+        r#"{"kind":"merge","at":[[0,0]]}"#,
+        r#"{"kind":"door","line":[[0,0],[0,0]],"isOpen":true}"#,
+        r#"{"kind":"row","rectangle":[[0,0],[9,0],[9,1],[0,1]],"places":1000000}"#,
+        r#"{"kind":"row","rectangle":[[0,0],[9,0],[9,1],[0,1]],"pitchM":0.000001}"#,
+        r#"{"kind":"row","rectangle":[[0,0],[9,0],[9,1],[0,1]],"pitchM":0}"#,
+        r#"{"kind":"row","rectangle":[[0,0],[9,0],[9,1],[0,1]],"places":0}"#,
+        r#"{"kind":"row","rectangle":[[0,0],[9,0],[9,1],[0,1]],"places":3,"layers":0}"#,
+        r#"{"kind":"row","rectangle":[[0,0],[9,0],[9,1],[0,1]],"places":3,"pitchM":3}"#,
+        r#"{"kind":"row","rectangle":[[0,0],[9,0],[1,1],[0,9]],"places":3}"#,
+        r#"{"kind":"row","rectangle":[[0,0],[9,0],[9,1],[0,1]],"places":3}"#,
+    ]
+    .map(problem)
+    .into();
+    expect![].assert_eq(&(told.join("\n") + "\n"));
+    let not_a_number = Correction::Label { at: Point::new(f64::NAN, 0.0), label: "pc".to_owned() };
+    assert!(not_a_number.check(5_000).is_err());
+}
+
+#[test]
+fn a_correction_is_carried_to_another_frame() {
+    let motion = RigidMotion { shift: Vector::new(1.0, 2.0), turn: std::f64::consts::FRAC_PI_2 };
+    let moved = read(r#"{"kind":"split","line":[[1,0],[3,0]]}"#).moved(&motion);
+    let expected = [Point::new(1.0, 3.0), Point::new(1.0, 5.0)];
+    assert!(moved.points().iter().zip(expected).all(|(point, expected)| (point - expected).norm() < 1e-12));
+}
+
+#[test]
+fn corrections_of_a_scan_fit_onto_the_next_one_or_are_told() {
+    let (split, door) =
+        (r#"{"kind":"split","line":[[0,2],[6,2]]}"#, r#"{"kind":"door","line":[[2.5,1.5],[2.5,2.5]],"isOpen":false}"#);
+    check(&two_rooms(), &[split, door], &expect![]);
+    check(&floor(), &[split, door], &expect![]);
 }

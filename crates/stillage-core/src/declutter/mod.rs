@@ -22,6 +22,8 @@
 
 mod repetition;
 
+use std::borrow::Cow;
+
 use repetition::Repetition;
 use serde::{Deserialize, Serialize};
 
@@ -84,6 +86,20 @@ pub struct Removed {
     pub unknown: Vec<u32>,
     /// Rate of speckle: hits of one cell per free cell of clean floor.
     pub rate: f64,
+}
+
+impl Removed {
+    /// A map without what was taken for clutter: all of it counts as free, as nearly all of it stands on free ground.
+    pub(crate) fn taken_from<'a>(&self, grid: &'a OccupancyGrid) -> Cow<'a, OccupancyGrid> {
+        if self.occupied.is_empty() && self.unknown.is_empty() {
+            return Cow::Borrowed(grid);
+        }
+        let mut cells = grid.cells().to_vec();
+        for &cell in self.occupied.iter().chain(&self.unknown) {
+            cells[cell as usize] = Occupancy::Free;
+        }
+        Cow::Owned(OccupancyGrid::new(grid.width(), grid.height(), *grid.frame(), cells))
+    }
 }
 
 /// Removes single hits, small holes and specks, if the options say so.

@@ -30,7 +30,17 @@ pub fn sides(rings: &[Vec<Point>]) -> impl Iterator<Item = [Point; 2]> + '_ {
 /// either way. O(corners).
 #[must_use]
 pub fn contains(rings: &[Vec<Point>], point: Point) -> bool {
-    sides(rings).filter(|&side| x_at_level(side, point.y).is_some_and(|x| point.x < x)).count() % 2 == 1
+    is_on_the_left_of_an_odd_number(sides(rings), point)
+}
+
+/// Whether a point lies in the polygon that some sides enclose, in any order. O(sides).
+#[must_use]
+pub fn is_within(sides: &[[Point; 2]], point: Point) -> bool {
+    is_on_the_left_of_an_odd_number(sides.iter().copied(), point)
+}
+
+fn is_on_the_left_of_an_odd_number(sides: impl Iterator<Item = [Point; 2]>, point: Point) -> bool {
+    sides.filter(|&side| x_at_level(side, point.y).is_some_and(|x| point.x < x)).count() % 2 == 1
 }
 
 /// Centroid of a polygon; `None` where it has no area.

@@ -4,11 +4,22 @@ use super::point::{Point, Vector};
 
 /// Square of the distance of a point from a segment; a segment of no length is a point.
 #[must_use]
-pub fn squared_distance(point: Point, [start, end]: [Point; 2]) -> f64 {
+pub fn squared_distance(point: Point, segment: [Point; 2]) -> f64 {
+    (nearest_point(point, segment) - point).norm_squared()
+}
+
+/// The point of a segment that is nearest to a point.
+#[must_use]
+pub fn nearest_point(point: Point, segment: [Point; 2]) -> Point {
+    segment[0] + (segment[1] - segment[0]) * share_of_nearest(point, segment)
+}
+
+/// How far along a segment its nearest point to a point lies, 0 to 1; 0 on a segment of no length.
+#[must_use]
+pub fn share_of_nearest(point: Point, [start, end]: [Point; 2]) -> f64 {
     let along = end - start;
     let squared = along.norm_squared();
-    let share = if squared > 0.0 { ((point - start).dot(&along) / squared).clamp(0.0, 1.0) } else { 0.0 };
-    (start + along * share - point).norm_squared()
+    if squared > 0.0 { ((point - start).dot(&along) / squared).clamp(0.0, 1.0) } else { 0.0 }
 }
 
 /// Distance of a point from a segment; a segment of no length is a point.

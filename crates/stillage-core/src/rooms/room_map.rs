@@ -1,10 +1,13 @@
 //! The rooms and doors of a subdivision.
 
+use std::collections::BTreeMap;
+
 use serde::{Deserialize, Serialize};
 
 use super::doors::{self, Door};
 use super::room_cells::{FaceGround, RoomCells};
-use crate::arrangement::{FaceId, Subdivision};
+use crate::arrangement::{EdgeId, FaceId, Subdivision};
+use crate::geometry::Point;
 
 /// The rooms and doors of a subdivision.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
@@ -13,6 +16,10 @@ pub struct RoomMap {
     pub faces: Vec<Option<u32>>,
     /// Narrow doorways between two rooms, or between a room and other ground.
     pub doors: Vec<Door>,
+    /// Edges that people said vehicles may pass (true) or may not (false), whatever the labels say. Corrections say so;
+    /// they are kept beside an analysis, never in it.
+    #[serde(skip)]
+    pub passages: BTreeMap<EdgeId, bool>,
 }
 
 impl RoomMap {
@@ -21,7 +28,14 @@ impl RoomMap {
     pub fn of(rooms: &RoomCells, subdivision: &Subdivision, grounds: &[FaceGround]) -> Self {
         let faces: Vec<Option<u32>> = grounds.iter().map(|ground| ground.room).collect();
         let doors = doors::find(&rooms.doorways, subdivision, &faces);
-        Self { faces, doors }
+        Self { faces, doors, passages: BTreeMap::new() }
+    }
+
+    /// The same doors in a redrawn subdivision with rooms by face id.
+    pub(crate) fn redrawn(&self, subdivision: &Subdivision, faces: Vec<Option<u32>>) -> Self {
+        let doorways: Vec<[Point; 2]> = self.doors.iter().map(|door| door.ends).collect();
+        let doors = doors::find(&doorways, subdivision, &faces);
+        Self { faces, doors, passages: BTreeMap::new() }
     }
 
     /// Room of a face.

@@ -3,7 +3,8 @@
 //! Source: the connectivity of links C(l) in the paper's section II-C, applied to cells.
 //! Cost: O(edges log edges) to set up; a step costs two array reads within a face, a binary search between faces,
 //! O(boundary) where a face thinner than a cell lies between them.
-//! Limits: two faces that share a drivable edge somewhere are taken to share it wherever their cells touch.
+//! Limits: two faces that share a drivable edge somewhere are taken to share it wherever their cells touch, except along
+//! edges that are blocked or that people shut.
 
 use std::collections::BTreeSet;
 
@@ -34,6 +35,7 @@ pub(super) struct FaceSteps {
     drivable: Vec<bool>,
     /// Pairs of faces joined by a drivable link, both ways round, ascending.
     joined: Vec<(FaceId, FaceId)>,
+    /// Edges that a request or a person blocks.
     blocked: BTreeSet<EdgeId>,
     /// Steps lead over any edge.
     crosses_all: bool,
@@ -55,7 +57,9 @@ impl FaceSteps {
             .collect();
         joined.sort_unstable();
         joined.dedup();
-        Self { drivable, joined, blocked: blocked.edges.clone(), crosses_all: false }
+        let passages = &map.analysis.rooms.passages;
+        let shut = passages.iter().filter(|(_, is_open)| !**is_open).map(|(&edge, _)| edge);
+        Self { drivable, joined, blocked: blocked.edges.iter().copied().chain(shut).collect(), crosses_all: false }
     }
 
     /// The rule where labels do not matter, except that goods may stand in storage: how a vehicle gets off ground that is

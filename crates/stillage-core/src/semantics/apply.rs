@@ -1,8 +1,9 @@
 //! An analysis read under a rule set and an assignment: labels, cogency, connectivity, places.
 //!
 //! Source: the paper, section II-C and Fig. 7: C(e) from the labels of N(e), C(l) from C(D(l)).
-//! Departures: edges on the outer boundary are cogent and have no link; edges whose cogency contradicts the cells
-//! along them are flagged; rooms, and faces of one label that are mutually open, are merged into places.
+//! Departures: edges on the outer boundary are cogent and have no link; edges that people said vehicles may pass, or may
+//! not, are what they said; edges whose cogency contradicts the cells along them are flagged; rooms, and faces of one
+//! label that are mutually open, are merged into places.
 //! Cost: O(faces + edges), a few milliseconds for 7,000 faces. Limits: none beyond those of the analysis.
 
 use super::assignment::{Assignment, AssignmentProblem};
@@ -39,7 +40,12 @@ pub fn apply(
     let cogency: Vec<Cogency> = edges()
         .map(|edge| {
             let [left, right] = sides(edge);
-            if is_outer(edge) { Cogency::Cogent } else { rule_set.cogency(labels[left.index()], labels[right.index()]) }
+            match analysis.rooms.passages.get(&edge) {
+                _ if is_outer(edge) => Cogency::Cogent,
+                Some(true) => Cogency::Invalid,
+                Some(false) => Cogency::Cogent,
+                None => rule_set.cogency(labels[left.index()], labels[right.index()]),
+            }
         })
         .collect();
     let connectivity: Vec<Option<Connectivity>> =
@@ -47,8 +53,10 @@ pub fn apply(
     let is_storage = |face: FaceId| rule_set.label(labels[face.index()]).is_storage();
     let disagreements = edges()
         .map(|edge| {
-            // Between two storage faces the obstacles along the edge are the goods: no contradiction.
+            // Between two storage faces the obstacles along the edge are the goods: no contradiction. Where a person
+            // said what an edge is, the cells do not matter.
             !sides(edge).into_iter().all(is_storage)
+                && !analysis.rooms.passages.contains_key(&edge)
                 && contradicts(cogency[edge.index()], &analysis.edges[edge.index()])
         })
         .collect();

@@ -4,6 +4,7 @@
 //! runs on sites made at random (`sites`), and what fails is shrunk to a small one. `PROPTEST_CASES=5000 cargo test
 //! --release -p stillage-core --test any_map` runs the long campaign.
 
+mod any_correction;
 mod sites;
 
 use std::collections::BTreeSet;
@@ -11,10 +12,12 @@ use std::io::Write as _;
 use std::sync::mpsc;
 use std::time::Duration;
 
+use any_correction::{any_correction, on_site};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use rayon::ThreadPool;
 use stillage_core::arrangement::{CellFaces, FaceId};
+use stillage_core::corrections::{self, Correction, Outcome};
 use stillage_core::layout::{self, CodeTemplate, LayoutSpec, Location};
 use stillage_core::routing::{Preferences, Router, Waypoint};
 use stillage_core::semantics::{self, AnalysisGround, Assignment, LabelSubject, LostLabel, RuleSet, SemanticMap};
@@ -178,6 +181,35 @@ impl Observer for StopAfter {
     }
 }
 
+/// Whatever people say in whatever order: a sound map, the same on any number of threads; what does not fit changes
+/// nothing, and what was not redrawn is as it was.
+fn check_corrections(grid: &OccupancyGrid, analysis: &Analysis, list: &[Correction]) -> Result<(), TestCaseError> {
+    let cells = SiteCells::of(grid, analysis);
+    let corrected = threads(1).install(|| corrections::apply(grid, analysis, &cells.faces, list));
+    check_faces(grid, &corrected.analysis)?;
+    let subdivision = &corrected.analysis.subdivision;
+    prop_assert_eq!(corrected.outcomes.len(), list.len());
+    prop_assert_eq!(&corrected.faces, &CellFaces::of_grid(subdivision, grid));
+    prop_assert_eq!(corrected.analysis.edges.len(), subdivision.edge_count());
+    prop_assert_eq!(corrected.analysis.faces.len(), subdivision.face_count());
+    let again = threads(3).install(|| corrections::apply(grid, analysis, &cells.faces, list));
+    prop_assert_eq!(format!("{corrected:?}"), format!("{again:?}"));
+    let fitting =
+        list.iter().zip(&corrected.outcomes).filter(|(_, outcome)| matches!(outcome, Outcome::Applied { .. }));
+    let fitting: Vec<Correction> = fitting.map(|(correction, _)| correction.clone()).collect();
+    let without_unfit = corrections::apply(grid, analysis, &cells.faces, &fitting);
+    prop_assert_eq!(without_unfit.outcomes.len(), fitting.len());
+    prop_assert!(!without_unfit.outcomes.iter().any(|outcome| matches!(outcome, Outcome::Unfit(_))));
+    prop_assert_eq!(format!("{:?}", without_unfit.analysis), format!("{:?}", corrected.analysis));
+    let named = corrected.outcomes.iter().flat_map(|outcome| match outcome {
+        Outcome::Applied { faces } => faces.as_slice(),
+        Outcome::Unfit(_) => &[],
+    });
+    prop_assert!(named.chain(corrected.labels.keys()).all(|face| face.index() < subdivision.face_count()));
+    labelled(&corrected.analysis);
+    Ok(())
+}
+
 #[test]
 fn a_gate_that_meets_no_hall_is_given_up() {
     let spec = AnalysisSpec::default();
@@ -199,6 +231,14 @@ proptest! {
         check_carrying(&grid, &analysis)?;
         // Written out, since what is not a number equals nothing.
         prop_assert_eq!(format!("{analysis:?}"), format!("{:?}", analyzed(&grid, &spec, 3)));
+    }
+
+    #[test]
+    fn any_corrections_leave_a_sound_map(site in sites::any_site(), list in prop::collection::vec(any_correction(), 0..12)) {
+        let _watchdog = Watchdog::over(&site, &AnalysisSpec::default());
+        let grid = site.grid();
+        let list = on_site(&list, grid.frame());
+        check_corrections(&grid, &analyzed(&grid, &AnalysisSpec::default(), 1), &list)?;
     }
 
     #[test]
