@@ -18,7 +18,8 @@
 //! ```
 //!
 //! Everything up to the [`Analysis`] is the geometric level, without human input: [`analyze`]. The rest is the human
-//! level: [`semantics::apply`].
+//! level: [`semantics::apply`]. Where people correct the geometric level itself, [`corrections::apply`] gives the
+//! analysis that they meant.
 //!
 //! Where the truth of a site is known, [`evaluation`] says how well both levels fit it.
 //!

@@ -54,8 +54,8 @@ fn applied(
 }
 
 /// Draws one correction, points in the grid frame.
-fn draw(draft: &mut Draft<'_>, correction: Correction, number: u32) -> Result<(), Failure> {
-    check_place(draft, &correction)?;
+fn draw(draft: &mut Draft<'_>, mut correction: Correction, number: u32) -> Result<(), Failure> {
+    move_onto_map(draft, &mut correction)?;
     let places = correction.places_of_row();
     let claim = || FaceClaim { corrections: vec![number], ..FaceClaim::default() };
     match correction {
@@ -85,16 +85,16 @@ fn draw(draft: &mut Draft<'_>, correction: Correction, number: u32) -> Result<()
     Ok(())
 }
 
-/// Checks that all points of a correction lie on the map, or so near to it that they join its border.
-fn check_place(draft: &Draft<'_>, correction: &Correction) -> Result<(), Failure> {
+/// Moves the points of a correction that lie a little outside the map onto its border.
+fn move_onto_map(draft: &Draft<'_>, correction: &mut Correction) -> Result<(), Failure> {
     let Bounds { low, high } = draft.bounds;
-    for (number, point) in correction.points().iter().enumerate() {
-        let distance = (*point - Point::from(point.coords.sup(&low.coords).inf(&high.coords))).norm();
-        if distance > draft.tolerance {
-            let message = format!("the point lies {distance:.2} m outside the map");
-            return Err(Failure::unfit(correction.pointer(number), message));
-        }
+    let on_map = |point: &Point| Point::from(point.coords.sup(&low.coords).inf(&high.coords));
+    let distances = correction.points().iter().map(|point| (on_map(point) - point).norm());
+    if let Some((number, distance)) = distances.enumerate().find(|(_, distance)| *distance > draft.tolerance) {
+        let message = format!("the point lies {distance:.2} m outside the map");
+        return Err(Failure::unfit(correction.pointer(number), message));
     }
+    correction.points_mut().iter_mut().for_each(|point| *point = on_map(point));
     Ok(())
 }
 

@@ -102,7 +102,7 @@ impl Correction {
         }
     }
 
-    fn points_mut(&mut self) -> &mut [Point] {
+    pub(super) fn points_mut(&mut self) -> &mut [Point] {
         match self {
             Self::Draw { ring, .. } | Self::Erase { ring } => ring,
             Self::Split { line } => line,

@@ -6,7 +6,7 @@
 use super::draft::{DoorMark, Draft};
 use super::failure::Failure;
 use crate::arrangement::{EdgeId, FaceId, Subdivision};
-use crate::geometry::{Point, segment};
+use crate::geometry::{Bounds, Point, segment};
 
 /// A border runs beside a door when it is nearer than this to the line, metres: what a wall is thick.
 const REACH_M: f64 = 0.3;
@@ -42,9 +42,8 @@ pub(super) fn edges_along(subdivision: &Subdivision, line: [Point; 2]) -> Vec<Ed
 /// The part of an edge between two faces that runs beside a line; `None` where it does not, or crosses it only.
 fn stretch(subdivision: &Subdivision, edge: EdgeId, line: [Point; 2]) -> Option<[Point; 2]> {
     let ends = subdivision.segment(edge);
-    if segment::distance(line[0], ends).min(segment::distance(ends[0], line)) > (line[1] - line[0]).norm() + REACH_M
-        || subdivision.sides(edge).contains(&FaceId::OUTER)
-    {
+    let is_near = Bounds::around(&line).grown(REACH_M).meets(&Bounds::around(&ends));
+    if !is_near || subdivision.sides(edge).contains(&FaceId::OUTER) {
         return None;
     }
     let mut shares = line.map(|jamb| segment::share_of_nearest(jamb, ends));

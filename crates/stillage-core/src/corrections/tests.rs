@@ -81,7 +81,7 @@ fn two_rooms() -> DrawnMap {
 /// What labels the rules and people give.
 fn labelled(corrected: &Corrected) -> SemanticMap {
     let rules = RuleSet::warehouse();
-    let names = ["co", "ju", "pc", "of"].iter().zip(0..).map(|(id, category)| (category, (*id).to_owned()));
+    let names = ["co", "ju", "pc"].iter().zip(0..).map(|(id, category)| (category, (*id).to_owned()));
     let overrides = corrected.labels.iter().map(|(face, label)| (face.0, label.clone())).collect();
     let assignment = Assignment { assignment: names.collect(), overrides };
     semantics::apply(&corrected.analysis, &rules, &assignment).expect("labels that exist")
@@ -110,8 +110,42 @@ fn a_correction_is_written_as_it_is_read() {
 fn a_polygon_becomes_a_face_whatever_was_there() {
     let rack = r#"{"kind":"draw","ring":[[2,1],[4,1],[4,3],[2,3]],"label":"pc","name":"Rack 12"}"#;
     let over_it = r#"{"kind":"draw","ring":[[3,1],[5,1],[5,3],[3,3],[3,1]],"label":"of"}"#;
-    check(&floor(), &[rack], &expect![]);
-    check(&floor(), &[rack, over_it], &expect![]);
+    check(
+        &floor(),
+        &[rack],
+        &expect![[r#"
+        aaaaaaaaaaaa
+        aaaaaaaaaaaa
+        aaaabbbbaaaa
+        aaaabbbbaaaa
+        aaaabbbbaaaa
+        aaaabbbbaaaa
+        aaaaaaaaaaaa
+        aaaaaaaaaaaa
+        b is pc
+        b is called Rack 12
+        1: b
+    "#]],
+    );
+    check(
+        &floor(),
+        &[rack, over_it],
+        &expect![[r#"
+        aaaaaaaaaaaa
+        aaaaaaaaaaaa
+        aaaabbccccaa
+        aaaabbccccaa
+        aaaabbccccaa
+        aaaabbccccaa
+        aaaaaaaaaaaa
+        aaaaaaaaaaaa
+        b is pc
+        c is of
+        b is called Rack 12
+        1: b
+        2: c
+    "#]],
+    );
 }
 
 #[test]
@@ -132,9 +166,34 @@ fn a_line_cuts_the_faces_that_it_crosses_from_border_to_border() {
     check(
         &floor(),
         &[r#"{"kind":"split","line":[[0,2],[6,2]]}"#, r#"{"kind":"split","line":[[3,4],[3,1]]}"#],
-        &expect![],
+        &expect![[r#"
+            bbbbbbcccccc
+            bbbbbbcccccc
+            bbbbbbcccccc
+            bbbbbbcccccc
+            aaaaaaaaaaaa
+            aaaaaaaaaaaa
+            aaaaaaaaaaaa
+            aaaaaaaaaaaa
+            1: abc
+            2: bc
+        "#]],
     );
-    check(&floor(), &[r#"{"kind":"split","line":[[1,2],[5,2]]}"#], &expect![]);
+    check(
+        &floor(),
+        &[r#"{"kind":"split","line":[[1,2],[5,2]]}"#],
+        &expect![[r#"
+        aaaaaaaaaaaa
+        aaaaaaaaaaaa
+        aaaaaaaaaaaa
+        aaaaaaaaaaaa
+        aaaaaaaaaaaa
+        aaaaaaaaaaaa
+        aaaaaaaaaaaa
+        aaaaaaaaaaaa
+        1: unfit, /line: the line cuts no face in two: draw it on until it meets the border of a face at both ends
+    "#]],
+    );
 }
 
 #[test]
@@ -144,7 +203,24 @@ fn parts_keep_what_was_said_of_the_whole() {
     check(
         &floor(),
         &[name, label, r#"{"kind":"split","line":[[3,0],[3,4]]}"#, r#"{"kind":"label","at":[5,1],"label":"ju"}"#],
-        &expect![],
+        &expect![[r#"
+            aaaaaabbbbbb
+            aaaaaabbbbbb
+            aaaaaabbbbbb
+            aaaaaabbbbbb
+            aaaaaabbbbbb
+            aaaaaabbbbbb
+            aaaaaabbbbbb
+            aaaaaabbbbbb
+            a is of
+            b is ju
+            a is called Cold store
+            b is called Cold store
+            1: ab
+            2: ab
+            3: ab
+            4: b
+        "#]],
     );
 }
 
@@ -152,8 +228,31 @@ fn parts_keep_what_was_said_of_the_whole() {
 fn faces_side_by_side_become_one() {
     let map = DrawnMap::new(&"............\n".repeat(4), &"ccccjjjjdddd\n".repeat(4));
     let label = r#"{"kind":"label","at":[3,1],"label":"of"}"#;
-    check(&map, &[label, r#"{"kind":"merge","at":[[1,1],[3,1]]}"#], &expect![]);
-    check(&map, &[r#"{"kind":"merge","at":[[1,1],[5,1]]}"#, r#"{"kind":"merge","at":[[1,1],[1,1.5]]}"#], &expect![]);
+    check(
+        &map,
+        &[label, r#"{"kind":"merge","at":[[1,1],[3,1]]}"#],
+        &expect![[r#"
+        aaaaaaaabbbb
+        aaaaaaaabbbb
+        aaaaaaaabbbb
+        aaaaaaaabbbb
+        a is of
+        1: a
+        2: a
+    "#]],
+    );
+    check(
+        &map,
+        &[r#"{"kind":"merge","at":[[1,1],[5,1]]}"#, r#"{"kind":"merge","at":[[1,1],[1,1.5]]}"#],
+        &expect![[r#"
+        aaaabbbbcccc
+        aaaabbbbcccc
+        aaaabbbbcccc
+        aaaabbbbcccc
+        1: unfit, /at/1: the face at this point shares no border with the others: name points in the faces between, too
+        2: unfit, /at: all these points lie in one face already
+    "#]],
+    );
 }
 
 #[test]
@@ -161,7 +260,24 @@ fn a_row_is_cut_into_places_that_have_codes_and_access() {
     let map = floor();
     let row = r#"{"kind":"row","rectangle":[[0,4],[6,4],[6,2],[0,2]],"pitchM":2,"layers":2,"label":"pc"}"#;
     let corrected = corrected(&map, &[row]);
-    expect![].assert_eq(&told(&map, &corrected));
+    expect![[r#"
+        eeeeffffgggg
+        eeeeffffgggg
+        bbbbccccdddd
+        bbbbccccdddd
+        aaaaaaaaaaaa
+        aaaaaaaaaaaa
+        aaaaaaaaaaaa
+        aaaaaaaaaaaa
+        b is pc
+        c is pc
+        d is pc
+        e is pc
+        f is pc
+        g is pc
+        1: bcdefg
+    "#]]
+    .assert_eq(&told(&map, &corrected));
     let semantic = labelled(&corrected);
     let cells = SiteCells { faces: corrected.faces, clearance: map.cells.clearance.clone() };
     let spec = LayoutSpec { vehicle_radius: VEHICLE_RADIUS, ..LayoutSpec::of(&corrected.analysis.options) };
@@ -192,10 +308,53 @@ fn what_is_no_rack_joins_the_floor_around_it() {
         ",
     );
     let around = r#"{"kind":"erase","ring":[[0.7,1.7],[4.2,1.7],[4.2,3.3],[0.7,3.3]]}"#;
-    check(&map, &[around], &expect![]);
+    check(
+        &map,
+        &[around],
+        &expect![[r#"
+        bbbbbbbbbbbb
+        bbbbbbbbbbbb
+        aaaaaaaaaaaa
+        aaaaaaaaaaaa
+        aaaaaaaaaaaa
+        aaaaaaaaaaaa
+        aaaaaaaaaaaa
+        aaaaaaaaaaaa
+        1: a
+    "#]],
+    );
     let around_a_border = r#"{"kind":"erase","ring":[[0,2.8],[6,2.8],[6,3.2],[0,3.2]]}"#;
-    check(&map, &[around, around_a_border], &expect![]);
-    check(&map, &[r#"{"kind":"erase","ring":[[4.8,0.5],[5.6,0.5],[5.6,1.2]]}"#], &expect![]);
+    check(
+        &map,
+        &[around, around_a_border],
+        &expect![[r#"
+        aaaaaaaaaaaa
+        aaaaaaaaaaaa
+        aaaaaaaaaaaa
+        aaaaaaaaaaaa
+        aaaaaaaaaaaa
+        aaaaaaaaaaaa
+        aaaaaaaaaaaa
+        aaaaaaaaaaaa
+        1: a
+        2: a
+    "#]],
+    );
+    check(
+        &map,
+        &[r#"{"kind":"erase","ring":[[4.8,0.5],[5.6,0.5],[5.6,1.2]]}"#],
+        &expect![[r#"
+        eeeeeeeeeeee
+        eeeeeeeeeeee
+        aabbccddaaaa
+        aabbccddaaaa
+        aaaaaaaaaaaa
+        aaaaaaaaaaaa
+        aaaaaaaaaaaa
+        aaaaaaaaaaaa
+        1: unfit, /ring: nothing to erase: no face lies in the polygon for most of its area, and no border lies wholly in it
+    "#]],
+    );
 }
 
 #[test]
@@ -231,7 +390,24 @@ fn what_does_not_fit_is_told_and_changes_nothing() {
         r#"{"kind":"merge","at":[[1,1],[2,2]]}"#,
         r#"{"kind":"door","line":[[1,1],[2,1]],"isOpen":false}"#,
     ];
-    check(&map, &list, &expect![]);
+    check(
+        &map,
+        &list,
+        &expect![[r#"
+        aaaaaaaaaaaa
+        aaaaaaaaaaaa
+        aaaaaaaaaaaa
+        aaaaaaaaaaaa
+        aaaaaaaaaaaa
+        aaaaaaaaaaaa
+        aaaaaaaaaaaa
+        aaaaaaaaaaaa
+        1: unfit, /at: the point lies 3.00 m outside the map
+        2: unfit, /ring/2: the point lies 3.00 m outside the map
+        3: unfit, /at: all these points lie in one face already
+        4: unfit, /line: no border between two faces runs along this line: draw it on the border, from jamb to jamb
+    "#]],
+    );
     assert_eq!(corrected(&map, &list).analysis, map.analysis);
 }
 
@@ -259,7 +435,25 @@ fn what_makes_no_sense_is_told_with_its_place() {
     ]
     .map(problem)
     .into();
-    expect![].assert_eq(&(told.join("\n") + "\n"));
+    expect![[r#"
+        /ring: sides 0 and 2 cross or touch: put the corners in their order around the polygon
+        /ring: a polygon has three corners or more
+        /ring: the polygon has no area: its corners lie on one line
+        /name: a name must have 1 to 200 characters, none of them a control character
+        /at: must be metres of the map frame, [x, y], within 10,000 km
+        /line: a line has two points or more
+        /at: name a point in each of two faces or more
+        /line: the two jambs of a door lie apart
+        /places: 1000000 places are more than the 5000 that one correction may make
+        /pitchM: 9000000 places are more than the 5000 that one correction may make
+        /pitchM: the pitch must be more than 0 m
+        /places: a row has one place or more
+        /layers: a row has one layer or more
+        : say either how many places the row has (places) or how far apart they are (pitchM)
+        /rectangle: the four corners are those of no rectangle
+        fine
+    "#]]
+    .assert_eq(&(told.join("\n") + "\n"));
     let not_a_number = Correction::Label { at: Point::new(f64::NAN, 0.0), label: "pc".to_owned() };
     assert!(not_a_number.check(5_000).is_err());
 }
@@ -276,6 +470,36 @@ fn a_correction_is_carried_to_another_frame() {
 fn corrections_of_a_scan_fit_onto_the_next_one_or_are_told() {
     let (split, door) =
         (r#"{"kind":"split","line":[[0,2],[6,2]]}"#, r#"{"kind":"door","line":[[2.5,1.5],[2.5,2.5]],"isOpen":false}"#);
-    check(&two_rooms(), &[split, door], &expect![]);
-    check(&floor(), &[split, door], &expect![]);
+    check(
+        &two_rooms(),
+        &[split, door],
+        &expect![[r#"
+        cccccddddddd
+        cccccddddddd
+        cccccddddddd
+        cccccddddddd
+        aaaaabbbbbbb
+        aaaaabbbbbbb
+        aaaaabbbbbbb
+        aaaaabbbbbbb
+        1: abcd
+        2: abcd
+    "#]],
+    );
+    check(
+        &floor(),
+        &[split, door],
+        &expect![[r#"
+        bbbbbbbbbbbb
+        bbbbbbbbbbbb
+        bbbbbbbbbbbb
+        bbbbbbbbbbbb
+        aaaaaaaaaaaa
+        aaaaaaaaaaaa
+        aaaaaaaaaaaa
+        aaaaaaaaaaaa
+        1: ab
+        2: unfit, /line: no border between two faces runs along this line: draw it on the border, from jamb to jamb
+    "#]],
+    );
 }
