@@ -32,6 +32,10 @@ pub struct Config {
     pub cached_maps: usize,
     /// Memory for answers that are given again as they are, bytes; 0 for none.
     pub cached_answer_bytes: usize,
+    /// Corrections that a map may have.
+    pub max_corrections: usize,
+    /// Faces that one correction may make.
+    pub max_correction_faces: usize,
     /// Whether what a proxy says about the client's address is believed.
     pub trust_proxy: bool,
     /// How long a deleted map is kept, so that it can be restored.
@@ -59,6 +63,8 @@ impl Config {
             cached_maps: 8,
             // A layer of 10,000 faces has 7 MB before it is compressed.
             cached_answer_bytes: 64 << 20,
+            max_corrections: 10_000,
+            max_correction_faces: 5_000,
             trust_proxy: false,
             keep_deleted: Duration::from_hours(1),
             shutdown_grace: Duration::from_secs(25),

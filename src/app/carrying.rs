@@ -1,21 +1,26 @@
-//! The labels that people gave to another analysis of a map, carried over to the one in force.
+//! What people decided on another analysis of a map, or on an earlier map of its site, carried over to the analysis in force.
 //!
-//! That happens when the first question about the map is asked after the other analysis came into force, and makes a version
-//! that says what it was carried from, and what was lost. It is carried anew when the decision behind it changed, as long
-//! as nobody decided on the analysis in force itself.
+//! That happens when the first question about the map is asked after the analysis came into force, and makes a version that
+//! says what it was carried from, and what was lost. Corrections come along as they are and are applied anew. Labels are
+//! carried by their ground, from one corrected arrangement to the other; from an earlier map of the site come the corrections
+//! alone, moved by how the two maps lie on one another. What was decided on another analysis is carried anew when it changed,
+//! as long as nobody decided on the analysis in force itself.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use stillage_core::arrangement::CellFaces;
-use stillage_core::semantics::{self, AnalysisGround, Assignment, CarriedLabels, LostLabel, RuleSet};
-use stillage_core::{Analysis, OccupancyGrid};
+use stillage_core::arrangement::FaceId;
+use stillage_core::corrections::{Correction, Outcome};
+use stillage_core::layout::LayoutOptions;
+use stillage_core::semantics::{self, Assignment, CarriedLabels, LostLabel, RuleSet};
 use uuid::Uuid;
 
-use super::context::{GeometricLevel, read_rule_set};
-use super::{App, AppError, Caller, MapContext, SemanticsOrigin, SemanticsRecord};
+use super::context::read_rule_set;
+use super::geometric_level::GeometricLevel;
+use super::{App, AppError, Caller, MapContext, MapRecord, SemanticsOrigin, SemanticsRecord};
 use crate::blocking::off_the_runtime;
 use crate::records::{CarryRecord, LostDecision};
-use crate::store::{BlobId, NewSemanticsRow, StoreError, now};
+use crate::store::{BlobId, NewCorrections, NewSemanticsRow, StoreError, now};
 
 /// Whether a decision that a person made on another analysis is to be carried over to the one with this id, on which
 /// `in_force` is the newest version.
@@ -24,7 +29,10 @@ fn is_to_be_carried(before: &SemanticsRecord, analysis: Uuid, in_force: Option<&
         && match in_force {
             // Where nobody decided, the new suggestion stands.
             None => before.origin != SemanticsOrigin::Suggested,
-            Some(version) => version.carried.as_ref().is_some_and(|carried| carried.from != before.version),
+            Some(version) => {
+                let is_other = |carried: &CarryRecord| carried.map.is_some() || carried.from != before.version;
+                version.carried.as_ref().is_some_and(is_other)
+            }
         }
 }
 
@@ -45,8 +53,9 @@ impl App {
         if !is_to_be_carried(&before, analysis, in_force.as_ref()) {
             return Ok(in_force);
         }
+        let (_, corrections) = self.corrections_of(caller, map, Some(&before)).await?;
         let known = previous.filter(|known| known.analysis_id == before.analysis);
-        let earlier = match self.earlier_analysis(known, &blob, &geometry.grid).await {
+        let earlier = match self.earlier_analysis(known, &blob, geometry).await {
             Ok(earlier) => earlier,
             Err(error) if error.is_transient() => return Err(error.into()),
             Err(error) => {
@@ -55,8 +64,12 @@ impl App {
             }
         };
         let (rule_set, new, decision) = (read_rule_set(&before.draft)?, geometry.clone(), before.assignment);
-        let carry = move || carried(&earlier, &rule_set, &decision, before.version, &new);
-        let (assignment, carried) = off_the_runtime(carry).await;
+        let carry = move || {
+            let (earlier, new) = (earlier.corrected(corrections.clone()), new.corrected(corrections));
+            (carried(&earlier, &rule_set, &decision, before.version, &new), new)
+        };
+        let ((assignment, carried), level) = off_the_runtime(carry).await;
+        self.last_corrected.keep(analysis, level);
         let row = NewSemanticsRow {
             map,
             analysis,
@@ -65,15 +78,83 @@ impl App {
             draft: before.draft,
             assignment,
             layout: before.layout,
+            corrections: NewCorrections::Stored(before.corrections),
             origin: SemanticsOrigin::Carried,
             carried: Some(carried),
+            restores: None,
         };
+        self.carry_row(caller, row).await.map(Some)
+    }
+
+    /// Carries the corrections of the map of the site before one to its first analysis, and stores them as the first version.
+    /// Those count that the earlier map had when the other one was uploaded: what came later says nothing of it.
+    pub(super) async fn carry_from_site(
+        &self,
+        caller: &Caller,
+        record: &MapRecord,
+        analysis: Uuid,
+        geometry: &GeometricLevel,
+        layout: &LayoutOptions,
+    ) -> Result<Option<SemanticsRecord>, AppError> {
+        let Some((earlier, decided)) = self.decided_on_site(caller, record).await? else { return Ok(None) };
+        let (_, corrections) = self.corrections_of(caller, earlier.id, Some(&decided)).await?;
+        if corrections.is_empty() {
+            return Ok(None);
+        }
+        let motion = earlier.to_site().then(&record.to_site().inverse());
+        let (rule_set, new) = (read_rule_set(&decided.draft)?, geometry.clone());
+        let (level, assignment) = off_the_runtime(move || {
+            let moved = corrections.into_iter().map(|correction| correction.moved(&motion)).collect();
+            let suggested = Assignment::suggested(&semantics::suggest(&new.analysed, &rule_set), &rule_set);
+            (new.corrected(moved), suggested)
+        })
+        .await;
+        let fits = |outcome: &&Outcome| matches!(outcome, Outcome::Applied { .. });
+        let kept = level.corrections.outcomes.iter().filter(fits).count();
+        let new: Vec<(_, Correction)> = level.corrections.list.iter().map(|moved| (None, moved.clone())).collect();
+        self.last_corrected.keep(analysis, level);
+        let row = NewSemanticsRow {
+            map: record.id,
+            analysis,
+            replaces: 0,
+            rule_set: decided.rule_set,
+            draft: decided.draft,
+            assignment,
+            layout: layout.clone(),
+            corrections: NewCorrections::Changed(new),
+            origin: SemanticsOrigin::Carried,
+            carried: Some(CarryRecord { map: Some(earlier.id), from: decided.version, kept, lost: Vec::new() }),
+            restores: None,
+        };
+        self.carry_row(caller, row).await.map(Some)
+    }
+
+    /// The newest of the maps that a map was aligned to, one on the other, on which people had decided when the map was
+    /// uploaded, and what.
+    async fn decided_on_site(
+        &self,
+        caller: &Caller,
+        record: &MapRecord,
+    ) -> Result<Option<(MapRecord, SemanticsRecord)>, AppError> {
+        let mut alignment = record.alignment;
+        while let Some(previous) = alignment.map(|alignment| alignment.previous) {
+            let Some(earlier) = self.store.map(caller.tenant(), previous).await? else { return Ok(None) };
+            if let Some(decided) = self.store.semantics_before(caller.tenant(), previous, record.created).await? {
+                return Ok(Some((earlier, decided)));
+            }
+            alignment = earlier.alignment;
+        }
+        Ok(None)
+    }
+
+    /// Stores what was carried over.
+    async fn carry_row(&self, caller: &Caller, row: NewSemanticsRow) -> Result<SemanticsRecord, AppError> {
         let made = now();
         match self.store.insert_semantics(caller.tenant(), &row, made).await {
-            Ok(Some(Ok(record))) => Ok(Some(record)),
-            Ok(None) => Err(AppError::not_found("map", map)),
+            Ok(Some(Ok(record))) => Ok(record),
+            Ok(None) => Err(AppError::not_found("map", row.map)),
             // Somebody decided in between, which the next question sees; or the disk is full, and reading goes on.
-            Ok(Some(Err(_))) | Err(StoreError::NoSpace) => Ok(Some(row.unsaved(made))),
+            Ok(Some(Err(_))) | Err(StoreError::NoSpace) => Ok(row.unsaved(made)),
             Err(error) => Err(error.into()),
         }
     }
@@ -83,49 +164,57 @@ impl App {
         &self,
         known: Option<Arc<MapContext>>,
         blob: &BlobId,
-        grid: &Arc<OccupancyGrid>,
-    ) -> Result<EarlierAnalysis, StoreError> {
+        geometry: &GeometricLevel,
+    ) -> Result<GeometricLevel, StoreError> {
         if let Some(known) = known {
-            return Ok(EarlierAnalysis::InMemory(known));
+            return Ok(GeometricLevel::of(&known));
         }
-        let (blob, grid) = (self.store.blobs().get(blob).await?, Arc::clone(grid));
-        off_the_runtime(move || {
-            let analysis: Analysis = blob.decode()?;
-            let cells = CellFaces::of_grid(&analysis.subdivision, &grid);
-            Ok(EarlierAnalysis::Read(Box::new(analysis), cells))
-        })
-        .await
+        let (blob, same_cells) = (self.store.blobs().get(blob).await?, geometry.clone());
+        off_the_runtime(move || Ok(same_cells.with_analysis(blob.decode()?))).await
     }
 }
 
-/// An analysis that was in force before.
-enum EarlierAnalysis {
-    InMemory(Arc<MapContext>),
-    Read(Box<Analysis>, CellFaces),
-}
-
-impl EarlierAnalysis {
-    fn ground(&self) -> AnalysisGround<'_> {
-        match self {
-            Self::InMemory(known) => AnalysisGround { analysis: &known.analysis, cells: &known.cells.faces },
-            Self::Read(analysis, cells) => AnalysisGround { analysis, cells },
-        }
-    }
-}
-
-/// Carries the decision of version `from` over to a new analysis.
+/// Carries the decision of version `from` over to a new analysis. A face that a correction labels has that label, unless a
+/// person gave it one of its own.
 fn carried(
-    earlier: &EarlierAnalysis,
+    earlier: &GeometricLevel,
     rule_set: &RuleSet,
     decision: &Assignment,
     from: u64,
     new: &GeometricLevel,
 ) -> (Assignment, CarryRecord) {
-    let ground = AnalysisGround { analysis: &new.analysis, cells: &new.cells.faces };
-    let CarriedLabels { assignment, kept, lost } = semantics::carry(earlier.ground(), decision, ground, rule_set);
+    let CarriedLabels { mut assignment, kept, lost } =
+        semantics::carry(earlier.ground(), decision, new.ground(), rule_set);
+    if !new.corrections.labels.is_empty() {
+        let (own, _) = carried_overrides(earlier, rule_set, &decision.overrides, new);
+        let is_labelled = |face: u32| new.corrections.labels.contains_key(&FaceId(face));
+        assignment.overrides.retain(|&face, _| !is_labelled(face) || own.contains_key(&face));
+    }
+    (assignment, CarryRecord { map: None, from, kept, lost: told(lost, new) })
+}
+
+/// The labels that people gave to single faces of one arrangement, on those of another, and what was lost.
+pub(super) fn carried_overrides(
+    earlier: &GeometricLevel,
+    rule_set: &RuleSet,
+    overrides: &BTreeMap<u32, String>,
+    new: &GeometricLevel,
+) -> (BTreeMap<u32, String>, Vec<LostDecision>) {
+    if overrides.is_empty() {
+        return (BTreeMap::new(), Vec::new());
+    }
+    // As if nobody had decided on a category.
+    let suggested = Assignment::suggested(&semantics::suggest(&earlier.analysis, rule_set), rule_set);
+    let decision = Assignment { overrides: overrides.clone(), ..suggested };
+    let carried = semantics::carry(earlier.ground(), &decision, new.ground(), rule_set);
+    (carried.assignment.overrides, told(carried.lost, new))
+}
+
+/// Lost labels, told where they are in the map frame.
+fn told(lost: Vec<LostLabel>, on: &GeometricLevel) -> Vec<LostDecision> {
     let decision = |LostLabel { subject, label, at }| {
-        let at = new.analysis.frame.to_map(at);
+        let at = on.analysis.frame.to_map(at);
         LostDecision { subject, label, at: [at.x, at.y] }
     };
-    (assignment, CarryRecord { from, kept, lost: lost.into_iter().map(decision).collect() })
+    lost.into_iter().map(decision).collect()
 }

@@ -1,16 +1,17 @@
-//! What changed: between two maps, and between two versions of the labels of one.
+//! What changed: between two maps, and between two versions of the semantics of one.
 
 use std::sync::Arc;
 
 use stillage_core::Watch;
 use stillage_core::alignment::{self, SiteAlignment};
 use stillage_core::arrangement::FaceId;
-use stillage_core::compare::{self, ComparedPlace, Comparison, Footprint, LabelChange};
+use stillage_core::compare::{self, ComparedPlace, Comparison, FaceDifference, Footprint, LabelledFaces};
 use stillage_core::geometry::RigidMotion;
 use stillage_core::layout::{Location, OccupancyState};
 use uuid::Uuid;
 
-use super::context::GeometricLevel;
+use super::context::Decided;
+use super::geometric_level::GeometricLevel;
 use super::registries::codes_of;
 use super::{App, AppError, Caller, MapContext};
 use crate::blocking::off_the_runtime;
@@ -37,13 +38,20 @@ pub struct MapComparison {
     pub comparison: Comparison,
 }
 
-/// Two versions of the labels of one analysis side by side.
+/// Two versions of the semantics of one analysis side by side.
 #[derive(Debug)]
-pub struct LabelComparison {
-    /// The version in force.
-    pub version: u64,
-    /// The faces whose label changed.
-    pub faces: Vec<LabelChange>,
+pub struct VersionComparison {
+    /// The map as it was.
+    pub before: Arc<MapContext>,
+    /// The map as it is, or was later.
+    pub now: Arc<MapContext>,
+    /// The faces that came, changed or went.
+    pub faces: Vec<FaceDifference>,
+}
+
+/// The locations of two versions side by side.
+#[derive(Debug)]
+pub struct LocationComparison {
     /// The locations then.
     pub before: Vec<ComparedPlace>,
     /// The locations now.
@@ -59,32 +67,67 @@ impl App {
         off_the_runtime(move || MapComparison::of(&first, &second)).await
     }
 
-    /// What changed since a version of the labels that were made on the analysis in force; 0 is the suggestion.
-    pub async fn label_changes(&self, caller: &Caller, map: Uuid, since: u64) -> Result<LabelComparison, AppError> {
+    /// What changed from one version of the semantics to another, both made on the analysis in force; 0 is the suggestion, and
+    /// without `version` it is the one in force.
+    pub async fn version_changes(
+        &self,
+        caller: &Caller,
+        map: Uuid,
+        since: u64,
+        version: Option<u64>,
+    ) -> Result<VersionComparison, AppError> {
         let context = self.context(caller, map).await?;
-        let versions = self.store.semantics_versions(caller.tenant(), map).await?;
-        let decision = versions.into_iter().find(|record| record.version == since);
-        if decision.is_none() && since > 0 {
-            return Err(AppError::not_found("version", since.to_string()));
+        let before = self.context_of_version(caller, &context, since).await?;
+        let now = match version {
+            None => context,
+            Some(version) => self.context_of_version(caller, &context, version).await?,
+        };
+        off_the_runtime(move || Ok(VersionComparison { faces: face_differences(&before, &now), before, now })).await
+    }
+
+    /// A map as it was under a version of its semantics. Its locations have the codes that the registry gives them now.
+    async fn context_of_version(
+        &self,
+        caller: &Caller,
+        context: &Arc<MapContext>,
+        version: u64,
+    ) -> Result<Arc<MapContext>, AppError> {
+        if version == context.semantics.version {
+            return Ok(Arc::clone(context));
         }
-        if decision.as_ref().is_some_and(|record| record.analysis != context.analysis_id) {
-            let detail = format!("version {since} labels another analysis, whose faces have other numbers");
+        let map = context.record.id;
+        let versions = self.store.semantics_versions(caller.tenant(), map).await?;
+        let semantics = versions.into_iter().find(|record| record.version == version);
+        if semantics.is_none() && version > 0 {
+            return Err(AppError::not_found("version", version.to_string()));
+        }
+        if semantics.as_ref().is_some_and(|record| record.analysis != context.analysis_id) {
+            let detail = format!("version {version} is of another analysis of the map: activate that one first");
             return Err(AppError::Conflict(detail));
         }
-        let (site, _) = self.carried_registry(caller, &context).await?;
-        let now = Arc::clone(&context);
-        let earlier = off_the_runtime(move || {
-            let analysis = (now.analysis_id, now.semantics.created);
-            let (level, layout) = (GeometricLevel::of(&now), now.semantics.layout.clone());
-            let earlier = level.read_under(now.record.clone(), analysis, decision, layout)?;
+        let (correction_ids, list) = self.corrections_of(caller, map, semantics.as_ref()).await?;
+        let (site, _) = self.carried_registry(caller, context).await?;
+        let on = Arc::clone(context);
+        off_the_runtime(move || {
+            let (analysis, layout) = ((on.analysis_id, on.analysed_at), on.semantics.layout.clone());
+            let level = GeometricLevel::of(&on).corrected(list);
+            let decided = Decided { semantics, correction_ids };
+            let earlier = level.read_under(on.record.clone(), analysis, decided, layout)?;
             let codes = codes_of(&site.registry, &earlier);
-            Ok::<_, AppError>(earlier.with_codes(&site.registry, codes))
+            Ok(Arc::new(earlier.with_codes(&site.registry, codes)))
         })
-        .await?;
-        let (before, now) = (places(&earlier, &RigidMotion::identity()), places(&context, &RigidMotion::identity()));
+        .await
+    }
+}
+
+impl VersionComparison {
+    /// What changed about the locations. Takes milliseconds: keep it off the runtime.
+    #[must_use]
+    pub fn locations(&self) -> LocationComparison {
+        let (before, now) =
+            (places(&self.before, &RigidMotion::identity()), places(&self.now, &RigidMotion::identity()));
         let comparison = compare::compare(&before, &now);
-        let faces = compare::compare_labels(face_labels(&earlier), face_labels(&context));
-        Ok(LabelComparison { version: context.semantics.version, faces, before, now, comparison })
+        LocationComparison { before, now, comparison }
     }
 }
 
@@ -110,9 +153,18 @@ fn align(first: &MapContext, second: &MapContext) -> Result<PairAlignment, AppEr
     Ok(PairAlignment { motion: found.motion, found: Some(found) })
 }
 
-/// The label of every face but the unbounded one, number 0.
-pub(super) fn face_labels(context: &MapContext) -> impl Iterator<Item = (u32, &str)> {
-    (1..context.analysis.faces.len() as u32).map(|face| (face, context.semantic.label(FaceId(face)).id.as_str()))
+/// What is different about the faces of a map. O(cells) where it was corrected otherwise.
+pub(super) fn face_differences(before: &MapContext, now: &MapContext) -> Vec<FaceDifference> {
+    let [of_before, of_now] = [before, now].map(face_labels);
+    compare::compare_faces(
+        LabelledFaces { cells: &before.cells.faces, labels: &of_before },
+        LabelledFaces { cells: &now.cells.faces, labels: &of_now },
+    )
+}
+
+/// Id of the label of every face.
+fn face_labels(context: &MapContext) -> Vec<&str> {
+    (0..context.analysis.faces.len() as u32).map(|face| context.semantic.label(FaceId(face)).id.as_str()).collect()
 }
 
 /// The locations of a map after a motion of its map frame.

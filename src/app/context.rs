@@ -6,26 +6,27 @@
 use std::sync::Arc;
 
 use jiff::Timestamp;
+use stillage_core::Analysis;
 use stillage_core::layout::{self, LayoutOptions, LayoutSpec};
 use stillage_core::semantics::{self, Assignment, RuleSet, RuleSetDraft};
-use stillage_core::{Analysis, OccupancyGrid, SiteCells};
 use uuid::Uuid;
 
+use super::geometric_level::GeometricLevel;
 use super::map_context::{FeatureCache, MapContext};
 use super::registries::{numbered, site_to_grid};
 use super::routers::RouterCache;
-use super::{AnalysisRecord, App, AppError, Caller, MapRecord, SemanticsOrigin, SemanticsRecord};
+use super::{App, AppError, Caller, MapRecord, SemanticsOrigin, SemanticsRecord};
 use crate::blocking::off_the_runtime;
 use crate::features::MapNames;
-use crate::ingest::{self, Limits, MapSource};
-use crate::store::{Blob, MapState, Snapshot};
+use crate::records::CorrectionId;
+use crate::store::{MapState, Snapshot};
 
 impl App {
     /// The analysed map, from memory or the store. However many ask at once, it is built once.
     pub async fn context(&self, caller: &Caller, map: Uuid) -> Result<Arc<MapContext>, AppError> {
         let state = self.map_state(caller, map).await?.ok_or_else(|| AppError::not_found("map", map))?;
         let entry = self.contexts.entry(map, state);
-        let built = entry.context.get_or_try_init(|| self.build_context(caller, map, entry.previous.clone())).await;
+        let built = entry.context.get_or_try_init(|| self.build_context(caller, map, entry.previous())).await;
         self.contexts.settle(&entry, built.is_ok());
         built.cloned()
     }
@@ -62,52 +63,42 @@ impl App {
             off_the_runtime(move || GeometricLevel::read(&source, &blob, &record, &limits)).await?
         };
         let (id, created) = (analysis.id, analysis.created);
-        let semantics = match decided_before {
-            Some(before) => self.carry(caller, (map, id), &geometry, before, semantics, previous).await?,
-            None => semantics,
+        let semantics = match (decided_before, semantics) {
+            (Some(before), semantics) => self.carry(caller, (map, id), &geometry, before, semantics, previous).await?,
+            (None, None) => self.carry_from_site(caller, &record, id, &geometry, &layout).await?,
+            (None, semantics) => semantics,
         };
-        let context = off_the_runtime(move || geometry.read_under(record, (id, created), semantics, layout)).await?;
+        let (ids, list) = self.corrections_of(caller, map, semantics.as_ref()).await?;
+        let geometry = self.last_corrected.take(id, &list).unwrap_or(geometry);
+        let read = move || {
+            let decided = Decided { semantics, correction_ids: ids };
+            geometry.corrected(list).read_under(record, (id, created), decided, layout)
+        };
+        let context = off_the_runtime(read).await?;
         let (site, codes) = self.carried_registry(caller, &context).await?;
         Ok(Arc::new(off_the_runtime(move || context.with_codes(&site.registry, codes)).await))
     }
 }
 
-/// The part of a context that no human decision changes.
-#[derive(Clone)]
-pub(super) struct GeometricLevel {
-    pub(super) grid: Arc<OccupancyGrid>,
-    pub(super) analysis: Arc<Analysis>,
-    pub(super) cells: Arc<SiteCells>,
-}
-
 impl GeometricLevel {
-    pub(super) fn of(context: &MapContext) -> Self {
-        let MapContext { grid, analysis, cells, .. } = context;
-        Self { grid: Arc::clone(grid), analysis: Arc::clone(analysis), cells: Arc::clone(cells) }
-    }
-
-    fn read(source: &Blob, blob: &Blob, record: &AnalysisRecord, limits: &Limits) -> Result<Self, AppError> {
-        let grid = ingest::decode(&source.decode::<MapSource>()?, &record.options.grid, limits)?.grid;
-        let analysis: Analysis = blob.decode()?;
-        let cells = SiteCells::of(&grid, &analysis);
-        Ok(Self { grid: Arc::new(grid), analysis: Arc::new(analysis), cells: Arc::new(cells) })
-    }
-
-    /// Adds the human level: the stored decision, or the suggestion under the default rule set. `analysis` is its id and
-    /// when it was made; `suggested_layout` goes with the suggestion. The locations have the codes of a fresh numbering.
+    /// Adds the human level: the stored decision, of which the level has the corrections, or the suggestion under the default
+    /// rule set. `analysis` is its id and when it was made; `suggested_layout` goes with the suggestion. The locations have
+    /// the codes of a fresh numbering.
     pub(super) fn read_under(
         self,
         record: MapRecord,
-        (analysis_id, created): (Uuid, Timestamp),
-        decision: Option<SemanticsRecord>,
+        (analysis_id, analysed_at): (Uuid, Timestamp),
+        decided: Decided,
         suggested_layout: LayoutOptions,
     ) -> Result<MapContext, AppError> {
+        let Decided { semantics: decision, correction_ids } = decided;
         let rule_set = decision.as_ref().map_or_else(|| Ok(RuleSet::default()), |made| read_rule_set(&made.draft))?;
-        let suggestions = semantics::suggest(&self.analysis, &rule_set);
-        let semantics =
-            decision.unwrap_or_else(|| suggested_semantics(&self.analysis, (analysis_id, created), suggested_layout));
-        let semantic = semantics::apply(&self.analysis, &rule_set, &semantics.assignment)?;
-        let Self { grid, analysis: geometric, cells } = self;
+        let suggestions = semantics::suggest(&self.analysed, &rule_set);
+        let semantics = decision
+            .unwrap_or_else(|| suggested_semantics(&self.analysed, (analysis_id, analysed_at), suggested_layout));
+        let assignment = self.corrections.labelled(&semantics.assignment);
+        let semantic = semantics::apply(&self.analysis, &rule_set, &assignment)?;
+        let Self { grid, analysed, analysis: geometric, cells, corrections } = self;
         let frame = *grid.frame();
         let layout_spec = LayoutSpec::wished(&semantics.layout, &geometric.options, &site_to_grid(&record, frame));
         let layout = layout::layout(&cells.map(&grid, &geometric, &semantic), &layout_spec);
@@ -116,9 +107,12 @@ impl GeometricLevel {
             record,
             grid,
             analysis_id,
-            analysed: created,
+            analysed_at,
+            analysed,
             analysis: geometric,
             cells,
+            corrections,
+            correction_ids,
             semantics,
             semantic,
             suggestions,
@@ -132,11 +126,20 @@ impl GeometricLevel {
     }
 }
 
+/// What people decided on an analysis.
+#[derive(Debug, Default)]
+pub(super) struct Decided {
+    /// The decision; `None` for the suggestion.
+    pub(super) semantics: Option<SemanticsRecord>,
+    /// The ids of its corrections.
+    pub(super) correction_ids: Vec<CorrectionId>,
+}
+
 impl MapContext {
     /// The suggestion for its analysis, in the layout in force. Takes milliseconds: keep it off the runtime.
     #[must_use]
     pub fn suggested(&self) -> SemanticsRecord {
-        suggested_semantics(&self.analysis, (self.analysis_id, self.analysed), self.semantics.layout.clone())
+        suggested_semantics(&self.analysed, (self.analysis_id, self.analysed_at), self.semantics.layout.clone())
     }
 }
 
@@ -153,9 +156,11 @@ fn suggested_semantics(
         assignment: Assignment::suggested(&semantics::suggest(analysis, &rule_set), &rule_set),
         draft: rule_set.draft().clone(),
         layout,
+        corrections: None,
         version: 0,
         origin: SemanticsOrigin::Suggested,
         carried: None,
+        restores: None,
         created,
     }
 }

@@ -1,6 +1,6 @@
 //! The analysed maps in memory.
 
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use tokio::sync::OnceCell;
 use uuid::Uuid;
@@ -21,8 +21,19 @@ pub(super) struct Entry {
     map: Uuid,
     state: MapState,
     pub(super) context: OnceCell<Arc<MapContext>>,
-    /// What was known before the last change: its geometry need not be read again.
-    pub(super) previous: Option<Arc<MapContext>>,
+    /// What was known before the last change: its geometry need not be read again. Forgotten when the context is built.
+    previous: Mutex<Option<Arc<MapContext>>>,
+}
+
+impl Entry {
+    /// What was known before the last change.
+    pub(super) fn previous(&self) -> Option<Arc<MapContext>> {
+        self.lock_previous().clone()
+    }
+
+    fn lock_previous(&self) -> MutexGuard<'_, Option<Arc<MapContext>>> {
+        self.previous.lock().unwrap_or_else(PoisonError::into_inner)
+    }
 }
 
 impl ContextCache {
@@ -43,8 +54,8 @@ impl ContextCache {
         let entry = match found {
             Some(entry) if entry.state == state => entry,
             earlier => {
-                let previous = earlier.and_then(|stale| stale.context.get().or(stale.previous.as_ref()).cloned());
-                Arc::new(Entry { map, state, context: OnceCell::new(), previous })
+                let previous = earlier.and_then(|stale| stale.context.get().cloned().or_else(|| stale.previous()));
+                Arc::new(Entry { map, state, context: OnceCell::new(), previous: Mutex::new(previous) })
             }
         };
         entries.insert(0, Arc::clone(&entry));
@@ -59,16 +70,17 @@ impl ContextCache {
             entries.retain(|entry| !Arc::ptr_eq(entry, settled));
             return;
         }
+        *settled.lock_previous() = None;
         let mut kept = 0;
         entries.retain(|entry| {
-            let is_kept = entry.context.initialized() || entry.previous.is_some();
+            let is_kept = entry.context.initialized() || entry.lock_previous().is_some();
             kept += usize::from(is_kept);
             // One that nobody builds any more was given up by whoever asked.
             if is_kept { kept <= self.capacity.max(1) } else { Arc::strong_count(entry) > 1 }
         });
     }
 
-    fn entries(&self) -> std::sync::MutexGuard<'_, Vec<Arc<Entry>>> {
+    fn entries(&self) -> MutexGuard<'_, Vec<Arc<Entry>>> {
         // Every statement above leaves the list whole.
         self.entries.lock().unwrap_or_else(PoisonError::into_inner)
     }

@@ -8,7 +8,8 @@ use stillage_core::semantics::{Assignment, RuleSet};
 use stillage_core::{Analysis, OccupancyGrid, SiteCells};
 use uuid::Uuid;
 
-use super::context::GeometricLevel;
+use super::context::Decided;
+use super::geometric_level::GeometricLevel;
 use super::{AppError, MapContext, MapRecord, SemanticsOrigin, SemanticsRecord};
 
 /// A map file, analysed and labelled.
@@ -60,12 +61,15 @@ impl MapContext {
             draft: rule_set.draft().clone(),
             assignment,
             layout: LayoutOptions::default(),
+            corrections: None,
             version: 0,
             origin: SemanticsOrigin::Suggested,
             carried: None,
+            restores: None,
             created: Timestamp::UNIX_EPOCH,
         };
-        let level = GeometricLevel { grid: Arc::new(grid), analysis: Arc::new(analysis), cells: Arc::new(cells) };
-        level.read_under(record, (Uuid::nil(), Timestamp::UNIX_EPOCH), Some(semantics), LayoutOptions::default())
+        let level = GeometricLevel::new(Arc::new(grid), analysis, cells);
+        let decided = Decided { semantics: Some(semantics), ..Decided::default() };
+        level.read_under(record, (Uuid::nil(), Timestamp::UNIX_EPOCH), decided, LayoutOptions::default())
     }
 }

@@ -11,11 +11,12 @@ use stillage_core::semantics::{SemanticMap, Suggestion};
 use stillage_core::{Analysis, OccupancyGrid, SiteCells, SiteMap};
 use uuid::Uuid;
 
+use super::geometric_level::AppliedCorrections;
 use super::routers::RouterCache;
 use crate::coordinates::{Crs, Transform};
 use crate::features::{self, AnalysedMap, Collection, Feature, MapNames};
 use crate::formats::FeatureTexts;
-use crate::records::{MapRecord, SemanticsRecord};
+use crate::records::{CorrectionId, MapRecord, SemanticsRecord};
 use crate::store::MapState;
 
 /// An analysed map in memory, ready to answer. Shared, immutable; replaced when the semantics change.
@@ -28,11 +29,17 @@ pub struct MapContext {
     /// The analysis in force.
     pub analysis_id: Uuid,
     /// When it was made.
-    pub(super) analysed: Timestamp,
-    /// The geometric level.
+    pub(super) analysed_at: Timestamp,
+    /// The geometric level as it was made.
+    pub(super) analysed: Arc<Analysis>,
+    /// The geometric level under the corrections.
     pub analysis: Arc<Analysis>,
     /// What is read off its cells.
     pub cells: Arc<SiteCells>,
+    /// The corrections, and what became of them.
+    pub corrections: Arc<AppliedCorrections>,
+    /// Their ids, in the same order.
+    pub correction_ids: Vec<CorrectionId>,
     /// The decision in force, or the suggestion.
     pub semantics: SemanticsRecord,
     /// The human level.

@@ -8,13 +8,16 @@
 //! | `rule_sets` | the vocabulary of labels |
 //! | `semantics`, `semantics_change` | the human decision on a map, its versions |
 //! | `carrying` | the labels of another analysis, carried over to the one in force |
+//! | `corrections` | what people corrected about a map |
+//! | `history` | back and forth in the versions |
 //! | `label_preview` | what a change of the labels would do |
 //! | `face_labels` | the label of a single face |
 //! | `registries` | uploads aligned to an earlier map, the codes of a site's places |
 //! | `names`, `name_import` | what people call locations, places, aisles and rows |
-//! | `comparisons` | what changed between two maps, or two versions of labels |
+//! | `comparisons` | what changed between two maps, or two versions of the semantics |
 //! | `grid` | the cells of a map, before any analysis |
 //! | `context`, `map_context`, `context_cache`, `map_states` | the analysed map in memory, with its collections |
+//! | `geometric_level` | its analysis, as made and as corrected |
 //! | `routers`, `latest` | its routers and navigation graphs, the latest kept |
 //! | `exports` | its files for other programs |
 //! | `service` | what the use cases share, start and stop |
@@ -28,13 +31,16 @@ mod carrying;
 mod comparisons;
 mod context;
 mod context_cache;
+mod corrections;
 mod deletion;
 mod error;
 mod evaluations;
 mod exports;
 mod face_labels;
 mod file_context;
+mod geometric_level;
 mod grid;
+mod history;
 mod jobs;
 mod label_preview;
 mod latest;
@@ -54,13 +60,15 @@ mod tests;
 
 pub use crate::jobs::processes::{ANALYSIS, ProcessDescription};
 pub use crate::records::{
-    AnalysisRecord, AnalysisTicket, JobFilter, JobRecord, JobState, MapPatch, MapRecord, NewMap, RuleSetRecord,
-    SemanticsOrigin, SemanticsRecord, StageReport,
+    AnalysisRecord, AnalysisTicket, CorrectionId, JobFilter, JobRecord, JobState, MapPatch, MapRecord, NewMap,
+    RuleSetRecord, SemanticsOrigin, SemanticsRecord, StageReport,
 };
 pub use caller::Caller;
-pub use comparisons::{LabelComparison, MapComparison, PairAlignment};
+pub use comparisons::{LocationComparison, MapComparison, PairAlignment, VersionComparison};
+pub use corrections::WantedCorrection;
 pub use error::{AppError, FieldProblem};
 pub use file_context::FileMap;
+pub use geometric_level::AppliedCorrections;
 pub use grid::GridSource;
 pub use label_preview::LabelPreview;
 pub use map_context::MapContext;

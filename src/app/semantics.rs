@@ -1,7 +1,7 @@
 //! The human decision on a map.
 //!
 //! Until somebody decides, the suggestion is in force, as version 0. A decision is a new immutable version; it keeps the
-//! rule set as it was. An earlier version, 0 too, is restored as a new one. It belongs to the analysis whose categories it
+//! rule set as it was. An earlier version, 0 too, is restored as a new one (`history`). It belongs to the analysis whose categories it
 //! names: when another analysis comes into force, its own newest decision is, or what is carried over to it (`carrying`).
 //! Versions of decisions count on over all analyses of a map. A decision holds how locations are cut and numbered, too; the
 //! suggestion has the layout of the newest decision on the map, or on an earlier map of the site.
@@ -9,18 +9,22 @@
 use std::sync::Arc;
 
 use stillage_core::Point;
+use stillage_core::SiteMap;
 use stillage_core::graph::{NODE_REACH_M, navigation_graph};
 use stillage_core::lane_rule::LaneRule;
 use stillage_core::layout::{self, CodeTemplate, LONGEST_CODE, LayoutOptions, LayoutSpec};
 use stillage_core::routing::Router;
-use stillage_core::semantics::{self, Assignment, SemanticMap};
+use stillage_core::semantics::{self, Assignment};
 use uuid::Uuid;
 
 use super::context::read_rule_set;
+use super::corrections;
+use super::geometric_level::GeometricLevel;
 use super::registries::site_to_grid;
 use super::{App, AppError, Caller, MapContext, RuleSetChoice, SemanticsChange, SemanticsOrigin, SemanticsRecord};
 use crate::blocking::off_the_runtime;
-use crate::store::{NewSemanticsRow, now};
+use crate::records::LostDecision;
+use crate::store::{NewCorrections, NewSemanticsRow, now};
 
 impl App {
     /// The semantics in force: the newest assigned version, or the suggestion (version 0).
@@ -28,60 +32,34 @@ impl App {
         Ok(self.context(caller, map).await?.semantics.clone())
     }
 
-    /// Makes a new version; needs `if_match`, the version in force.
+    /// Makes a new version; needs `if_match`, the version in force. Answers it, and the labels of single faces that were lost
+    /// because other corrections cut their ground otherwise.
     pub async fn change_semantics(
         &self,
         caller: &Caller,
         map: Uuid,
         change: SemanticsChange,
         if_match: Option<u64>,
-    ) -> Result<SemanticsRecord, AppError> {
+    ) -> Result<(SemanticsRecord, Vec<LostDecision>), AppError> {
         if matches!(change.rule_set, Some(RuleSetChoice::Unsaved(_))) {
             let detail = "must be the id of a stored rule set: POST /v1/rule-sets stores one";
             return Err(AppError::invalid("/ruleSet", detail));
         }
         let context = self.context_at(caller, map, if_match).await?;
-        let row = self.checked_semantics(caller, &context, change).await?;
-        self.decide(caller, &context, row).await
-    }
-
-    /// Makes a new version that is equal to an earlier one, or to the suggestion (version 0), which then is in force in
-    /// the layout that is; needs `if_match`, the version in force.
-    pub async fn restore_semantics(
-        &self,
-        caller: &Caller,
-        map: Uuid,
-        version: u64,
-        if_match: Option<u64>,
-    ) -> Result<SemanticsRecord, AppError> {
-        let context = self.context_at(caller, map, if_match).await?;
-        let wanted = self.semantics_version(caller, map, version).await?;
-        if wanted.analysis != context.analysis_id {
-            return Err(AppError::Conflict(format!(
-                "version {version} names the categories of analysis {}, which is not in force: activate that one first",
-                wanted.analysis
-            )));
+        let CheckedSemantics { row, level, lost } = self.checked_semantics(caller, &context, change, false).await?;
+        if matches!(row.corrections, NewCorrections::Changed(_)) {
+            self.last_corrected.keep(context.analysis_id, level);
         }
-        let row = NewSemanticsRow {
-            map,
-            analysis: context.analysis_id,
-            replaces: context.semantics.version,
-            rule_set: wanted.rule_set,
-            draft: wanted.draft,
-            assignment: wanted.assignment,
-            layout: wanted.layout,
-            // What was carried over is decided by whoever restores it.
-            origin: match wanted.origin {
-                SemanticsOrigin::Suggested => SemanticsOrigin::Suggested,
-                SemanticsOrigin::Assigned | SemanticsOrigin::Carried => SemanticsOrigin::Assigned,
-            },
-            carried: None,
-        };
-        self.decide(caller, &context, row).await
+        Ok((self.decide(caller, &context, row).await?, lost))
     }
 
     /// The map, when the version in force is the one that a decision was made on.
-    async fn context_at(&self, caller: &Caller, map: Uuid, if_match: Option<u64>) -> Result<Arc<MapContext>, AppError> {
+    pub(super) async fn context_at(
+        &self,
+        caller: &Caller,
+        map: Uuid,
+        if_match: Option<u64>,
+    ) -> Result<Arc<MapContext>, AppError> {
         let context = self.context(caller, map).await?;
         let replaces = if_match.ok_or(AppError::PreconditionRequired)?;
         if replaces != context.semantics.version {
@@ -91,7 +69,7 @@ impl App {
     }
 
     /// Stores a decision.
-    async fn decide(
+    pub(super) async fn decide(
         &self,
         caller: &Caller,
         context: &MapContext,
@@ -132,13 +110,14 @@ impl App {
         found.ok_or_else(|| AppError::not_found("version", version.to_string()))
     }
 
-    /// A decision that can be applied to the analysis in force.
+    /// A decision that can be applied to the analysis in force. What only `is_tried` may have corrections that do not fit.
     pub(super) async fn checked_semantics(
         &self,
         caller: &Caller,
         context: &Arc<MapContext>,
         change: SemanticsChange,
-    ) -> Result<NewSemanticsRow, AppError> {
+        is_tried: bool,
+    ) -> Result<CheckedSemantics, AppError> {
         let (rule_set, draft) = match change.rule_set.clone() {
             None => (context.semantics.rule_set.clone(), context.semantics.draft.clone()),
             Some(RuleSetChoice::Unsaved(draft)) => (context.semantics.rule_set.clone(), draft),
@@ -151,34 +130,66 @@ impl App {
             },
         };
         let checked = read_rule_set(&draft).map_err(|error| error.below("/ruleSet"))?;
-        let on = Arc::clone(context);
-        let (assignment, layout) = off_the_runtime(move || {
-            let suggested = Assignment::suggested(&semantics::suggest(&on.analysis, &checked), &checked);
-            let assignment = change.labels(&on.semantics, &checked, &suggested)?;
+        let (on, limits) = (Arc::clone(context), self.correction_limits());
+        off_the_runtime(move || {
+            let suggested = Assignment::suggested(&semantics::suggest(&on.analysed, &checked), &checked);
+            let mut assignment = change.labels(&on.semantics, &checked, &suggested)?;
+            let (mut level, mut lost) = (GeometricLevel::of(&on), Vec::new());
+            if let Some(wanted) = &change.corrections {
+                // A request names faces as it sees them, before its corrections.
+                semantics::apply(&on.analysis, &checked, &assignment)?;
+                let made = corrections::correct(&on, &checked, wanted, &assignment.overrides, limits, is_tried)?;
+                (level, assignment.overrides, lost) = (made.level, made.overrides, made.lost);
+            }
+            corrections::check_labels(&level.corrections, &checked)?;
             let layout = change.layout.unwrap_or_else(|| on.semantics.layout.clone());
-            let semantic = semantics::apply(&on.analysis, &checked, &assignment)?;
-            check_layout(&on, &semantic, &layout)?;
-            check_lane_rules(&on, &semantic, &layout)?;
-            Ok::<_, AppError>((assignment, layout))
+            let semantic = semantics::apply(&level.analysis, &checked, &level.corrections.labelled(&assignment))?;
+            let map = level.cells.map(&level.grid, &level.analysis, &semantic);
+            check_layout(&on, &map, &layout)?;
+            check_lane_rules(&on, &map, &layout)?;
+            let row = NewSemanticsRow {
+                map: on.record.id,
+                analysis: on.analysis_id,
+                replaces: on.semantics.version,
+                rule_set,
+                draft,
+                assignment,
+                layout,
+                corrections: match change.corrections {
+                    None => NewCorrections::Stored(on.semantics.corrections),
+                    Some(wanted) => NewCorrections::Changed(wanted),
+                },
+                origin: SemanticsOrigin::Assigned,
+                carried: None,
+                restores: None,
+            };
+            Ok(CheckedSemantics { row, level, lost })
         })
-        .await?;
-        let (map, analysis, replaces) = (context.record.id, context.analysis_id, context.semantics.version);
-        let (origin, carried) = (SemanticsOrigin::Assigned, None);
-        Ok(NewSemanticsRow { map, analysis, replaces, rule_set, draft, assignment, layout, origin, carried })
+        .await
     }
 }
 
+/// A decision that can be applied.
+#[derive(Debug)]
+pub(super) struct CheckedSemantics {
+    /// The decision.
+    pub(super) row: NewSemanticsRow,
+    /// The analysis under its corrections.
+    pub(super) level: GeometricLevel,
+    /// Labels of single faces that were in force and are lost, because other corrections cut their ground otherwise.
+    pub(super) lost: Vec<LostDecision>,
+}
+
 /// Refuses new rules about the navigation graph that no node or lane of it fits.
-fn check_lane_rules(context: &MapContext, semantic: &SemanticMap, wish: &LayoutOptions) -> Result<(), AppError> {
+fn check_lane_rules(context: &MapContext, map: &SiteMap<'_>, wish: &LayoutOptions) -> Result<(), AppError> {
     let known = &context.semantics.layout.lane_rules;
     if wish.lane_rules.iter().all(|rule| known.contains(rule)) {
         return Ok(());
     }
     let to_grid = site_to_grid(&context.record, *context.grid.frame());
     let spec = LayoutSpec::wished(wish, &context.analysis.options, &to_grid);
-    let map = context.cells.map(&context.grid, &context.analysis, semantic);
-    let router = Router::new(&map, spec.vehicle_radius);
-    let graph = navigation_graph(&map, &layout::layout(&map, &spec), &router);
+    let router = Router::new(map, spec.vehicle_radius);
+    let graph = navigation_graph(map, &layout::layout(map, &spec), &router);
     let unmatched = graph.clone().ruled(&spec.lane_rules).unmatched_rules;
     let Some(index) = unmatched.into_iter().find(|&index| !known.contains(&wish.lane_rules[index])) else {
         return Ok(());
@@ -203,7 +214,7 @@ fn check_lane_rules(context: &MapContext, semantic: &SemanticMap, wish: &LayoutO
 }
 
 /// Refuses a layout whose codes would be too long.
-fn check_layout(context: &MapContext, semantic: &SemanticMap, wish: &LayoutOptions) -> Result<(), AppError> {
+fn check_layout(context: &MapContext, map: &SiteMap<'_>, wish: &LayoutOptions) -> Result<(), AppError> {
     /// How many codes are told.
     const TOLD: usize = 3;
     if wish.code_template == CodeTemplate::default() {
@@ -211,8 +222,7 @@ fn check_layout(context: &MapContext, semantic: &SemanticMap, wish: &LayoutOptio
     }
     let to_grid = site_to_grid(&context.record, *context.grid.frame());
     let spec = LayoutSpec::wished(wish, &context.analysis.options, &to_grid);
-    let map = context.cells.map(&context.grid, &context.analysis, semantic);
-    let long = layout::layout(&map, &spec).long_codes;
+    let long = layout::layout(map, &spec).long_codes;
     if long.is_empty() {
         return Ok(());
     }

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use stillage_core::layout::LayoutOptions;
 use stillage_core::semantics::{Assignment, RuleSet, RuleSetDraft};
 
+use super::corrections::WantedCorrection;
 use super::{AppError, SemanticsOrigin, SemanticsRecord};
 
 /// Changes that make a new version of the human level.
@@ -22,6 +23,8 @@ pub struct SemanticsChange {
     pub other_overrides: Unnamed,
     /// How locations are cut and numbered; as in force when absent.
     pub layout: Option<LayoutOptions>,
+    /// All corrections of the map, in their order; as in force when absent. The faces that `overrides` name are those before.
+    pub corrections: Option<Vec<WantedCorrection>>,
 }
 
 /// The rule set that labels are of.

@@ -8,6 +8,7 @@ use tokio::sync::{Semaphore, watch};
 
 use super::context_cache::ContextCache;
 use super::error::AppError;
+use super::geometric_level::LastCorrected;
 use super::map_states::MapStates;
 use crate::config::Config;
 use crate::jobs::processes::{AnalysisProcess, Processes};
@@ -29,6 +30,7 @@ pub struct App {
     pub(super) signals: Arc<Signals>,
     pub(super) contexts: ContextCache,
     pub(super) states: MapStates,
+    pub(super) last_corrected: LastCorrected,
     /// Bounds how many uploads and contexts are decoded at the same time, and with that their memory.
     pub(super) decoders: Semaphore,
     is_stopping: AtomicBool,
@@ -56,6 +58,7 @@ impl App {
             signals,
             contexts,
             states: MapStates::default(),
+            last_corrected: LastCorrected::default(),
             decoders,
             is_stopping: AtomicBool::new(false),
         })

@@ -63,6 +63,12 @@ pub(super) struct ServeArgs {
     /// Memory for answers that are given again as they are, MiB; 0 for none.
     #[arg(long, env = "STILLAGE_CACHED_ANSWER_MIB", default_value_t = 64, value_name = "MIB")]
     pub(super) cached_answer_mib: usize,
+    /// Corrections that a map may have; further ones are refused.
+    #[arg(long, env = "STILLAGE_MAX_CORRECTIONS", default_value_t = 10_000, value_name = "N")]
+    pub(super) max_corrections: usize,
+    /// Faces that one correction may make, such as the places of a row.
+    #[arg(long, env = "STILLAGE_MAX_CORRECTION_FACES", default_value_t = 5_000, value_name = "N")]
+    pub(super) max_correction_faces: usize,
     /// Connections at the same time; further ones wait.
     #[arg(long, env = "STILLAGE_MAX_CONNECTIONS", default_value_t = 1_024, value_name = "N")]
     pub(super) max_connections: usize,
@@ -146,6 +152,8 @@ impl ServeArgs {
             cached_maps: self.cached_maps,
             keep_deleted: Duration::from_mins(u64::from(self.keep_deleted_minutes)),
             cached_answer_bytes: self.cached_answer_mib.saturating_mul(1 << 20),
+            max_corrections: self.max_corrections,
+            max_correction_faces: self.max_correction_faces,
             trust_proxy: self.trust_proxy,
             shutdown_grace: Duration::from_secs(self.shutdown_grace_s),
             ..defaults

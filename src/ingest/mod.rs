@@ -1,4 +1,4 @@
-//! Bytes -> occupancy grid, the truth of a site, and names that people bring along.
+//! Bytes -> occupancy grid, the truth of a site, and names and corrections that people bring along.
 //!
 //! A map arrives as an image with `map_server` metadata, or as a `nav_msgs/OccupancyGrid` message in JSON or
 //! YAML. Cells are
@@ -9,6 +9,7 @@
 //! [`Limits`] before anything of that size is allocated. Cost: O(bytes + cells), about six bytes a cell at the peak for
 //! a grey image.
 
+mod corrections;
 mod document;
 mod error;
 mod geojson;
@@ -25,6 +26,7 @@ use stillage_core::analysis::Diagnostic;
 use stillage_core::spec::{GridOptions, GridSemantics};
 use stillage_core::{Occupancy, OccupancyGrid};
 
+pub use corrections::{CorrectionFeature, correction_features};
 pub use error::{IngestError, Refusal};
 pub use limits::Limits;
 pub use message::is_message;

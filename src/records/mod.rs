@@ -1,12 +1,14 @@
 //! What the service stores, as plain data. `store`, `jobs`, `app` and the edges pass these types to each other.
 
 mod analysis;
+mod correction;
 mod job;
 mod map;
 mod semantics;
 mod tenant;
 
 pub use analysis::{AnalysisRecord, AnalysisTicket};
+pub use correction::{CorrectionId, CorrectionList, CorrectionRecord, NoCorrectionId};
 pub use job::{JobFilter, JobRecord, JobState, StageReport};
 pub use map::{AlignmentRecord, MapPatch, MapRecord, NewMap};
 pub use semantics::{CarryRecord, LostDecision, RuleSetRecord, SemanticsOrigin, SemanticsRecord};

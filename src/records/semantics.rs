@@ -6,6 +6,8 @@ use stillage_core::layout::LayoutOptions;
 use stillage_core::semantics::{Assignment, LabelSubject, RuleSetDraft};
 use uuid::Uuid;
 
+use super::CorrectionList;
+
 /// A stored rule set.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RuleSetRecord {
@@ -32,20 +34,29 @@ pub struct SemanticsRecord {
     pub assignment: Assignment,
     /// How locations are cut and numbered.
     pub layout: LayoutOptions,
+    /// The corrections of the map; `None` for none. Its faces, which the assignment names, are those of the corrected map.
+    pub corrections: Option<CorrectionList>,
     /// 0 is the suggestion; assigned versions count from 1.
     pub version: u64,
     /// Who decided.
     pub origin: SemanticsOrigin,
     /// What became of the decisions on another analysis, where it was carried over from them.
     pub carried: Option<CarryRecord>,
+    /// The version that it equals, where a person went back or forth in the history: one that restores none itself, or 0
+    /// for the suggestion.
+    pub restores: Option<u64>,
     /// When it was made.
     pub created: Timestamp,
 }
 
-/// What became of the decisions of a version when they were carried over to another analysis.
+/// What became of the decisions of a version when they were carried over to another analysis of the map, or to a later map
+/// of the site.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub struct CarryRecord {
+    /// The earlier map of the site that the version is of; `None` for the map itself.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub map: Option<Uuid>,
     /// The version, which a person made.
     pub from: u64,
     /// Decisions that hold on the other analysis, too.
@@ -75,7 +86,7 @@ pub enum SemanticsOrigin {
     Suggested,
     /// A person.
     Assigned,
-    /// A person, on another analysis of the map.
+    /// A person, on another analysis of the map or on an earlier map of the site.
     Carried,
 }
 

@@ -75,8 +75,8 @@ pub struct Snapshot {
     /// or that on the newest of the site's maps before it.
     pub layout: LayoutOptions,
     /// The newest decision that a person made on the analysis that, of those with decisions, answered last before the one in
-    /// force, and the blob of that analysis. Where what answered there was carried over itself, it is the decision that was
-    /// carried.
+    /// force, and the blob of that analysis. Where what answered there was carried over itself from another analysis, it is
+    /// the decision that was carried.
     pub decided_before: Option<(SemanticsRecord, BlobId)>,
     /// The newest job of the map.
     pub job: Option<Uuid>,

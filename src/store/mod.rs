@@ -7,7 +7,7 @@
 //! | `analyses` | finished results, the one in force for each map |
 //! | `queue` | the worker's side of a job: claim, heartbeat, result |
 //! | `jobs` | the client's side of a job: read, list, dismiss |
-//! | `semantics` | human decisions |
+//! | `semantics` | human decisions, and the corrections they name |
 //! | `registries` | the codes and names of a site's places |
 //! | `rule_sets` | rule sets that people wrote |
 //! | `blobs` | bytes by their hash, and the formats of stored values |
@@ -56,7 +56,7 @@ pub use queue::Queue;
 pub use registries::{Registries, SiteRegistry};
 pub use result_address::ResultAddress;
 pub use rule_sets::RuleSets;
-pub use semantics::{NewSemanticsRow, SemanticsVersions};
+pub use semantics::{NewCorrections, NewSemanticsRow, SemanticsVersions};
 pub use sqlite::Sqlite;
 
 /// Opens the configured store and brings its database up to date.

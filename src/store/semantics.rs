@@ -2,12 +2,15 @@
 
 use async_trait::async_trait;
 use jiff::Timestamp;
+use stillage_core::corrections::Correction;
 use stillage_core::layout::LayoutOptions;
 use stillage_core::semantics::{Assignment, RuleSetDraft};
 use uuid::Uuid;
 
 use super::StoreError;
-use crate::records::{CarryRecord, SemanticsOrigin, SemanticsRecord, Tenant};
+use crate::records::{
+    CarryRecord, CorrectionId, CorrectionList, CorrectionRecord, SemanticsOrigin, SemanticsRecord, Tenant,
+};
 
 /// A decision to be stored.
 #[derive(Debug, Clone)]
@@ -26,18 +29,46 @@ pub struct NewSemanticsRow {
     pub assignment: Assignment,
     /// How locations are cut and numbered.
     pub layout: LayoutOptions,
+    /// The corrections of the map.
+    pub corrections: NewCorrections,
     /// Suggested where a person went back to the suggestion.
     pub origin: SemanticsOrigin,
     /// What was carried over, where the origin says so.
     pub carried: Option<CarryRecord>,
+    /// The version that it restores.
+    pub restores: Option<u64>,
+}
+
+/// The corrections of a decision to be stored.
+#[derive(Debug, Clone, PartialEq)]
+pub enum NewCorrections {
+    /// Those of a version before, or none.
+    Stored(Option<CorrectionList>),
+    /// Others, in their order. Those without an id are new.
+    Changed(Vec<(Option<CorrectionId>, Correction)>),
 }
 
 impl NewSemanticsRow {
-    /// The decision as if it were stored, in place of the version that it replaces.
+    /// The decision as if it were stored, in place of the version that it replaces. It names no list of corrections where
+    /// these changed.
     #[must_use]
     pub fn unsaved(self, created: Timestamp) -> SemanticsRecord {
-        let Self { map: _, analysis, replaces: version, rule_set, draft, assignment, layout, origin, carried } = self;
-        SemanticsRecord { analysis, rule_set, draft, assignment, layout, version, origin, carried, created }
+        SemanticsRecord {
+            analysis: self.analysis,
+            rule_set: self.rule_set,
+            draft: self.draft,
+            assignment: self.assignment,
+            layout: self.layout,
+            corrections: match self.corrections {
+                NewCorrections::Stored(list) => list,
+                NewCorrections::Changed(_) => None,
+            },
+            version: self.replaces,
+            origin: self.origin,
+            carried: self.carried,
+            restores: self.restores,
+            created,
+        }
     }
 }
 
@@ -56,6 +87,25 @@ pub trait SemanticsVersions {
         now: Timestamp,
     ) -> Result<Option<Result<SemanticsRecord, u64>>, StoreError>;
 
-    /// All decisions on a map, newest first; none when there is no such map.
+    /// All decisions on a map, newest first; none when there is no such map. The corrections are lists to be read.
     async fn semantics_versions(&self, tenant: &Tenant, map: Uuid) -> Result<Vec<SemanticsRecord>, StoreError>;
+
+    /// The corrections of a list, in their order; `None` when the map has no such list.
+    async fn corrections(
+        &self,
+        tenant: &Tenant,
+        map: Uuid,
+        list: CorrectionList,
+    ) -> Result<Option<Vec<CorrectionRecord>>, StoreError>;
+
+    /// The newest decision on a map that was made before a time.
+    async fn semantics_before(
+        &self,
+        tenant: &Tenant,
+        map: Uuid,
+        time: Timestamp,
+    ) -> Result<Option<SemanticsRecord>, StoreError>;
+
+    /// How the locations of a map were cut and numbered before a version was made on it, or first.
+    async fn layout_before(&self, tenant: &Tenant, map: Uuid, version: u64) -> Result<LayoutOptions, StoreError>;
 }

@@ -4,17 +4,22 @@ use serde::Serialize;
 use stillage_core::semantics::LabelSubject;
 use utoipa::ToSchema;
 
+use super::id::Id;
 use crate::features::rounded;
 use crate::records::{CarryRecord, LostDecision};
 
-/// What became of the labels that people gave to another analysis of the map. A label is kept where most of its ground has it
+/// What became of what people decided on another analysis of the map, or corrected on an earlier map of the site. A label is kept where most of its ground has it
 /// again, however that is cut into faces now.
 #[derive(Debug, Serialize, ToSchema)]
 #[schema(as = CarriedLabels)]
 pub struct CarriedView {
+    /// The earlier map of the site that they come from; absent where it is the map itself.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schema(required = false, nullable = false)]
+    map: Option<Id>,
     /// The version that they come from.
     from: u64,
-    /// Labels of categories and faces that were kept.
+    /// Labels of categories and faces that were kept; from an earlier map, corrections that fit.
     kept: usize,
     /// Those that could not be carried over.
     lost: Vec<LostLabelView>,
@@ -38,8 +43,8 @@ pub struct LostLabelView {
 }
 
 impl From<CarryRecord> for CarriedView {
-    fn from(CarryRecord { from, kept, lost }: CarryRecord) -> Self {
-        Self { from, kept, lost: lost.into_iter().map(LostLabelView::from).collect() }
+    fn from(CarryRecord { map, from, kept, lost }: CarryRecord) -> Self {
+        Self { map: map.map(Id), from, kept, lost: lost.into_iter().map(LostLabelView::from).collect() }
     }
 }
 

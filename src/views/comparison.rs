@@ -1,12 +1,12 @@
 //! What changed.
 
 use serde::Serialize;
-use stillage_core::compare::{ComparedPlace, Comparison, LabelChange, PlaceChange, PlaceMatch};
+use stillage_core::compare::{ComparedPlace, Comparison, FaceDifference, LabelledFace, PlaceChange, PlaceMatch};
 use utoipa::ToSchema;
 
 use super::alignment::PairAlignmentView;
 use super::id::Id;
-use crate::app::{LabelComparison, MapComparison};
+use crate::app::{LocationComparison, MapComparison, VersionComparison};
 use crate::features::rounded;
 
 /// What changed from one map to another.
@@ -31,7 +31,7 @@ pub struct LabelComparisonView {
     since: u64,
     /// The version in force.
     version: u64,
-    /// Faces with another label, by id.
+    /// Faces with another label, by id. Those that corrections made or took away have one label only.
     faces: Vec<FaceChange>,
     locations: LocationChanges,
 }
@@ -40,7 +40,7 @@ pub struct LabelComparisonView {
 #[derive(Debug, Serialize, ToSchema)]
 #[serde(rename_all = "camelCase")]
 pub struct FaceChange {
-    /// Id of the face.
+    /// Id of the face; of one that is gone, its id before.
     face: u32,
     /// Label before.
     #[schema(example = "un")]
@@ -125,9 +125,11 @@ impl From<&PlaceChange> for ChangeWord {
     }
 }
 
-impl From<LabelChange> for FaceChange {
-    fn from(change: LabelChange) -> Self {
-        Self { face: change.face, before: change.before, now: change.now }
+impl From<FaceDifference> for FaceChange {
+    fn from(FaceDifference { before, now, .. }: FaceDifference) -> Self {
+        let face = now.as_ref().or(before.as_ref()).map_or(0, |face| face.face.0);
+        let label = |face: Option<LabelledFace>| face.map(|face| face.label);
+        Self { face, before: label(before), now: label(now) }
     }
 }
 
@@ -185,8 +187,14 @@ impl MapComparisonView {
 impl LabelComparisonView {
     /// What changed since a version.
     #[must_use]
-    pub fn new(since: u64, made: LabelComparison) -> Self {
-        let locations = LocationChanges::new(&made.before, &made.now, &made.comparison);
-        Self { since, version: made.version, faces: made.faces.into_iter().map(Into::into).collect(), locations }
+    pub fn new(since: u64, made: VersionComparison) -> Self {
+        let LocationComparison { before, now, comparison } = made.locations();
+        let locations = LocationChanges::new(&before, &now, &comparison);
+        let is_relabelled = |face: &FaceDifference| {
+            let label = |face: &Option<LabelledFace>| face.as_ref().map(|face| face.label.clone());
+            label(&face.before) != label(&face.now)
+        };
+        let faces = made.faces.into_iter().filter(is_relabelled).map(Into::into).collect();
+        Self { since, version: made.now.semantics.version, faces, locations }
     }
 }

@@ -1,4 +1,4 @@
-//! What a change of the labels would do.
+//! What a change of labels and corrections would do.
 
 use std::collections::BTreeMap;
 
@@ -7,10 +7,14 @@ use stillage_core::arrangement::FaceId;
 use stillage_core::semantics::{Cogency, Connectivity};
 use utoipa::ToSchema;
 
+use super::carried::LostLabelView;
+use super::correction::ListedCorrection;
+use super::face_difference::DifferenceCounts;
 use crate::app::{LabelPreview, MapContext};
 use crate::features::words;
 
-/// The faces that a change of the labels would give other labels, as GeoJSON (RFC 7946), and what it would do to the map.
+/// The faces that a change of labels and corrections would make, change or take away, as GeoJSON (RFC 7946), and what it
+/// would do to the map.
 #[derive(Debug, Serialize, ToSchema)]
 #[schema(as = LabelPreview)]
 #[serde(rename_all = "camelCase")]
@@ -19,14 +23,21 @@ pub struct LabelPreviewView {
     /// `FeatureCollection`
     #[schema(example = "FeatureCollection")]
     r#type: String,
-    /// Faces whose label would change.
+    /// Features in all. A face that would have another shape is there with both.
     number_matched: usize,
     /// Those in `features`.
     number_returned: usize,
     counts: PreviewCounts,
+    /// Faces that would be different, counted.
+    faces: DifferenceCounts,
+    /// The corrections as they would be, and whether they fit.
+    corrections: Vec<ListedCorrection>,
+    /// Labels of single faces that would be lost because their ground would be cut otherwise.
+    lost: Vec<LostLabelView>,
     #[schema(value_type = Vec<Object>, example = json!([{"type": "Feature", "id": 12,
         "geometry": {"type": "Polygon", "coordinates": [[[0, 0], [0.00001, 0], [0.00001, 0.00001], [0, 0]]]},
-        "properties": {"label": "ju", "previousLabel": "co"}}]))]
+        "properties": {"change": "relabelled", "isBefore": false, "face": 12, "previousFace": 12, "label": "ju",
+            "previousLabel": "co"}}]))]
     features: Vec<serde_json::Value>,
 }
 
@@ -79,16 +90,6 @@ impl BeforeAfter {
             Time::After => self.after += 1,
         }
     }
-}
-
-/// Properties of a face whose label would change.
-#[derive(Debug, Serialize)]
-#[serde(rename_all = "camelCase")]
-pub struct RelabelledFace<'a> {
-    /// The label that it would have.
-    pub label: Option<&'a str>,
-    /// The label that it has.
-    pub previous_label: Option<&'a str>,
 }
 
 impl PreviewCounts {

@@ -30,6 +30,12 @@ pub struct SemanticsView {
     origin: OriginView,
     #[serde(skip_serializing_if = "Option::is_none")]
     carried: Option<CarriedView>,
+    /// How many corrections it has: `…/corrections` lists those in force.
+    correction_count: u32,
+    /// The version that it equals, where a person went back or forth to it; 0 is the suggestion.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schema(required = false, nullable = false)]
+    restores: Option<u64>,
     #[schema(value_type = String, format = DateTime)]
     created: Timestamp,
 }
@@ -46,7 +52,8 @@ pub struct OverrideView {
     pub label: String,
 }
 
-/// Who decided: nobody (the suggestion is in force), or a person, maybe on another analysis of the map.
+/// Who decided: nobody (the suggestion is in force), or a person, maybe on another analysis of the map or an
+/// earlier map of its site.
 #[derive(Debug, Serialize, ToSchema)]
 #[schema(as = SemanticsOrigin)]
 #[serde(rename_all = "lowercase")]
@@ -55,7 +62,7 @@ pub enum OriginView {
     Suggested,
     /// A person.
     Assigned,
-    /// A person, on another analysis of the map.
+    /// A person, on another analysis of the map or on an earlier map of the site.
     Carried,
 }
 
@@ -76,12 +83,15 @@ impl SemanticsView {
                 SemanticsOrigin::Carried => OriginView::Carried,
             },
             carried: record.carried.map(CarriedView::from),
+            correction_count: record.corrections.map_or(0, |list| list.count),
+            restores: record.restores,
             created: record.created,
         }
     }
 }
 
-/// New labels of a map. What a read adds (`version`, `origin`, `carried`, `created`) may be sent back and is ignored.
+/// New labels of a map. What a read adds (`version`, `origin`, `carried`, `correctionCount`,
+/// `restores`, `created`) may be sent back and is ignored.
 #[derive(Debug, Deserialize, ToSchema)]
 #[schema(as = NewSemantics)]
 #[serde(deny_unknown_fields, rename_all = "camelCase")]
@@ -110,6 +120,12 @@ pub struct SemanticsBody {
     #[serde(default, rename = "carried")]
     #[schema(read_only, value_type = serde_json::Value)]
     _carried: IgnoredAny,
+    #[serde(default, rename = "correctionCount")]
+    #[schema(read_only, value_type = serde_json::Value)]
+    _correction_count: IgnoredAny,
+    #[serde(default, rename = "restores")]
+    #[schema(read_only, value_type = serde_json::Value)]
+    _restores: IgnoredAny,
     #[serde(default, rename = "created")]
     #[schema(read_only, value_type = serde_json::Value)]
     _created: IgnoredAny,

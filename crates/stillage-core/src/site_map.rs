@@ -1,5 +1,7 @@
 //! What `layout`, `graph` and `routing` read of a map.
 
+use std::sync::Arc;
+
 use crate::analysis::Analysis;
 use crate::arrangement::{CellFaces, FaceId};
 use crate::clearance::Clearance;
@@ -27,15 +29,15 @@ pub struct SiteMap<'a> {
 pub struct SiteCells {
     /// The face of every cell.
     pub faces: CellFaces,
-    /// How far every cell is from the nearest obstacle.
-    pub clearance: Clearance,
+    /// How far every cell is from the nearest obstacle, whatever the faces are.
+    pub clearance: Arc<Clearance>,
 }
 
 impl SiteCells {
     /// Reads the cells of a map.
     #[must_use]
     pub fn of(grid: &OccupancyGrid, analysis: &Analysis) -> Self {
-        Self { faces: CellFaces::of_grid(&analysis.subdivision, grid), clearance: Clearance::of(grid) }
+        Self { faces: CellFaces::of_grid(&analysis.subdivision, grid), clearance: Arc::new(Clearance::of(grid)) }
     }
 
     /// The map with these cells.

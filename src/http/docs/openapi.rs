@@ -36,6 +36,7 @@ pub const SERVER: &str = "/";
         (name = "maps", description = "Upload maps and look at them"),
         (name = "jobs", description = "Watch and dismiss analyses"),
         (name = "semantics", description = "Give meaning: categories, labels, rule sets"),
+        (name = "corrections", description = "Say what no automatic reading got right: draw, cut, merge, erase, name"),
         (name = "features", description = "Faces, edges, locations and the rest as GeoJSON"),
         (name = "fleet", description = "Routes for robots"),
         (name = "service", description = "Health, metrics and this document")

@@ -8,6 +8,7 @@ use serde::Deserialize;
 use utoipa::IntoParams;
 
 use crate::app::{App, Caller};
+use crate::blocking::off_the_runtime;
 use crate::http::docs::refusals::{Conflict, NotFound};
 use crate::http::extract::{MapPath, Path, Query};
 use crate::http::problem::Problem;
@@ -67,6 +68,6 @@ pub async fn changes(
     Path(path): Path<MapPath>,
     Query(query): Query<ChangesQuery>,
 ) -> Result<Json<LabelComparisonView>, Problem> {
-    let made = app.label_changes(&caller, path.map_id.0, query.since).await?;
-    Ok(Json(LabelComparisonView::new(query.since, made)))
+    let made = app.version_changes(&caller, path.map_id.0, query.since, None).await?;
+    Ok(Json(off_the_runtime(move || LabelComparisonView::new(query.since, made)).await))
 }

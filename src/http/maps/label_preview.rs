@@ -1,4 +1,4 @@
-//! What a change of the labels would do, without doing it.
+//! What a change of labels and corrections would do, without doing it.
 
 use std::sync::Arc;
 
@@ -6,22 +6,23 @@ use axum::extract::State;
 use axum::http::header;
 use axum::response::{IntoResponse, Response};
 use serde::Deserialize;
-use stillage_core::compare::LabelChange;
 use utoipa::IntoParams;
 
+use super::face_differences;
 use super::semantics::in_list;
 use super::semantics_body::{self, SemanticsPatchBody};
 use crate::app::{App, Caller, LabelPreview};
 use crate::blocking::off_the_runtime;
 use crate::coordinates::Transform;
-use crate::features::{Collection, Feature, FeatureId};
-use crate::formats::geojson::{self, GeoJsonFeature};
 use crate::http::docs::refusals::{NotAnalysed, NotFound};
 use crate::http::extract::crs::{CONTENT_CRS, CrsName};
 use crate::http::extract::{JsonBody, Limit, MapPath, Path, Query};
 use crate::http::links::GEO_JSON;
 use crate::http::problem::Problem;
-use crate::views::label_preview::{LabelPreviewView, PreviewCounts, RelabelledFace};
+use crate::views::carried::LostLabelView;
+use crate::views::correction::ListedCorrection;
+use crate::views::face_difference::DifferenceCounts;
+use crate::views::label_preview::{LabelPreviewView, PreviewCounts};
 
 /// Parameters of a preview.
 #[derive(Debug, Deserialize, IntoParams)]
@@ -32,7 +33,7 @@ pub struct PreviewQuery {
     #[serde(default)]
     #[param(value_type = Option<CrsName>)]
     crs: CrsName,
-    /// Most faces of the answer, and never more than 10,000; all of them are counted.
+    /// Most features of the answer, and never more than 10,000; all of them are counted.
     #[serde(default)]
     #[param(value_type = Option<u32>, minimum = 1, default = 1000)]
     limit: Limit<1_000, 10_000>,
@@ -40,10 +41,10 @@ pub struct PreviewQuery {
 
 /// Preview labels
 ///
-/// What a change of the labels would do, which is as in `PATCH …/semantics` (labels as they are read may be sent, too, and a
-/// rule set that is not stored in the place of its id):
-/// counts of faces, locations, edges and links before and after, and the faces whose label would change as GeoJSON features
-/// with `label` and `previousLabel`. Nothing is stored.
+/// What a change of labels and corrections would do, which is as in `PATCH …/semantics` (labels as they are read may be sent,
+/// too, and a rule set that is not stored in the place of its id): counts of faces, locations, edges and links before and
+/// after, whether the corrections fit, and the faces that would be added, removed, reshaped or relabelled as GeoJSON features
+/// with `label` and `previousLabel`. Corrections that do not fit are told, not refused. Nothing is stored.
 #[utoipa::path(post, path = "/v1/maps/{mapId}/semantics/preview", tag = "semantics", operation_id = "previewSemantics",
     params(MapPath, PreviewQuery),
     request_body(content((SemanticsPatchBody = "application/json"),
@@ -71,29 +72,17 @@ pub async fn create(
     Ok((headers, body).into_response())
 }
 
-/// The GeoJSON of a preview with so many faces.
+/// The GeoJSON of a preview with so many features.
 fn written(preview: &LabelPreview, limit: usize, transform: &Transform) -> Vec<u8> {
-    let faces = preview.before.features(Collection::Faces);
-    let shape = |change: &LabelChange| -> Option<&Feature> {
-        let id = FeatureId::Number(change.face.into());
-        faces.binary_search_by(|face| face.id.cmp(&id)).ok().map(|index| &faces[index])
-    };
-    let told: Vec<(&Feature, RelabelledFace<'_>)> = preview
-        .faces
-        .iter()
-        .filter_map(|change| {
-            let (label, previous_label) = (change.now.as_deref(), change.before.as_deref());
-            Some((shape(change)?, RelabelledFace { label, previous_label }))
-        })
-        .take(limit)
-        .collect();
-    let documents = told.iter().map(|(face, properties)| GeoJsonFeature {
-        id: Some(&face.id),
-        geometry: &face.geometry,
-        properties,
-        members: &[],
-    });
-    let (matched, returned, counts) = (preview.faces.len(), told.len(), PreviewCounts::of(preview));
-    let members = [("numberMatched", &matched as _), ("numberReturned", &returned as _), ("counts", &counts as _)];
-    geojson::document_collection(documents, transform, &members)
+    let LabelPreview { before, after, correction_ids, faces, lost } = preview;
+    let (counts, differences) = (PreviewCounts::of(preview), DifferenceCounts::of(faces));
+    let corrections = ListedCorrection::of_preview(correction_ids, after);
+    let lost: Vec<LostLabelView> = lost.iter().cloned().map(Into::into).collect();
+    let members = [
+        ("counts", &counts as _),
+        ("faces", &differences as _),
+        ("corrections", &corrections as _),
+        ("lost", &lost as _),
+    ];
+    face_differences::written((before, after), faces, limit, transform, &members)
 }

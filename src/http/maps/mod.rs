@@ -1,10 +1,14 @@
-//! What hangs on a map: its record and upload, analyses, pictures, semantics and evaluation; and the rule sets.
+//! What hangs on a map: its record and upload, analyses, pictures, semantics, corrections and evaluation; and the rule sets.
 
 pub mod analyses;
 pub mod cogency_matrix;
 pub mod comparisons;
+pub mod corrections;
+mod corrections_body;
 pub mod deletion;
 pub mod evaluations;
+mod face_differences;
+pub mod history;
 pub mod label_preview;
 pub mod map;
 pub mod names;
@@ -14,3 +18,4 @@ pub mod rule_sets;
 pub mod semantics;
 mod semantics_body;
 pub mod upload;
+pub mod version_changes;

@@ -51,7 +51,12 @@ pub async fn categories(
     .await
 }
 
-/// The tag of the labels in force. Version 0 is the suggestion of whatever analysis is in force, with the layout of the
+/// The tag of the labels in force.
+pub(super) fn in_force_tag(context: &MapContext) -> EntityTag {
+    tag(context.analysis_id, &context.semantics)
+}
+
+/// The tag of a version. Version 0 is the suggestion of whatever analysis is in force, with the layout of the
 /// newest decision on the site, so these are in it too.
 fn tag(analysis: Uuid, record: &SemanticsRecord) -> EntityTag {
     let layout = serde_json::to_string(&record.layout).expect("a layout is plain data");
@@ -73,7 +78,7 @@ pub async fn get(
     if_none_match: IfNoneMatch,
 ) -> Result<Response, Problem> {
     let context = app.context(&caller, path.map_id.0).await?;
-    let tag = tag(context.analysis_id, &context.semantics);
+    let tag = in_force_tag(&context);
     let answer =
         move || Ok(Json(SemanticsView::new(context.semantics.clone(), &context.record.to_site())).into_response());
     tag.answer_computed(&if_none_match, answer).await
@@ -134,13 +139,13 @@ async fn decide(
     if_match: &IfMatch,
     change: SemanticsChange,
 ) -> Result<Response, Problem> {
-    let if_match = if_match.against(&tag(context.analysis_id, &context.semantics), context.semantics.version)?;
-    let record = app.change_semantics(caller, context.record.id, change, if_match).await?;
+    let if_match = if_match.against(&in_force_tag(context), context.semantics.version)?;
+    let (record, _) = app.change_semantics(caller, context.record.id, change, if_match).await?;
     Ok(answer(context, record))
 }
 
 /// Labels with their tag.
-fn answer(context: &MapContext, record: SemanticsRecord) -> Response {
+pub(super) fn answer(context: &MapContext, record: SemanticsRecord) -> Response {
     let headers = [(header::ETAG, tag(context.analysis_id, &record).header())];
     (headers, Json(SemanticsView::new(record, &context.record.to_site()))).into_response()
 }
@@ -231,7 +236,7 @@ pub async fn restore(
     if_match: IfMatch,
 ) -> Result<Response, Problem> {
     let context = app.context(&caller, path.map_id.0).await?;
-    let if_match = if_match.against(&tag(context.analysis_id, &context.semantics), context.semantics.version)?;
+    let if_match = if_match.against(&in_force_tag(&context), context.semantics.version)?;
     let record = app.restore_semantics(&caller, path.map_id.0, path.version, if_match).await?;
     Ok(answer(&context, record))
 }

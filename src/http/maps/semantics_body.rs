@@ -11,15 +11,17 @@ use stillage_core::Point;
 use stillage_core::layout::LayoutOptions;
 use utoipa::ToSchema;
 
+use super::corrections_body;
 use crate::app::{MapContext, RuleSetChoice, SemanticsChange, Unnamed};
 use crate::http::extract::{parse_json, pointer_step, present};
 use crate::http::problem::Problem;
+use crate::views::correction::CorrectionView;
 use crate::views::layout::LayoutView;
 use crate::views::rule_set::RuleSetBody;
 use crate::views::semantics::{OverrideView, SemanticsBody};
 
-/// Changes to the labels of a map, as a JSON merge patch (RFC 7396): what is not named stays. What a read adds (`version`,
-/// `origin`, `carried`, `created`) may be sent back and is ignored.
+/// Changes to the labels and corrections of a map, as a JSON merge patch (RFC 7396): what is not named stays. What a read adds
+/// (`version`, `origin`, `carried`, `correctionCount`, `restores`, `created`) may be sent back and is ignored.
 #[derive(Debug, Deserialize, ToSchema)]
 #[schema(as = SemanticsPatch)]
 #[serde(deny_unknown_fields, rename_all = "camelCase")]
@@ -43,6 +45,18 @@ pub struct SemanticsPatchBody {
     #[schema(value_type = Option<LayoutView>)]
     #[allow(clippy::option_option, reason = "a merge patch tells absent from null")]
     layout: Option<Option<Map<String, Value>>>,
+    /// All corrections, in their order, as `…/corrections` lists them: with an id those that there are, as they are or
+    /// changed, and new ones without. Null takes all away. The faces that `overrides` names are those before.
+    #[serde(default, deserialize_with = "present")]
+    #[schema(value_type = Option<Vec<CorrectionView>>)]
+    #[allow(clippy::option_option, reason = "a merge patch tells absent from null")]
+    corrections: Option<Option<Value>>,
+    #[serde(default, rename = "correctionCount")]
+    #[schema(read_only, value_type = serde_json::Value)]
+    _correction_count: IgnoredAny,
+    #[serde(default, rename = "restores")]
+    #[schema(read_only, value_type = serde_json::Value)]
+    _restores: IgnoredAny,
     #[serde(default, rename = "version")]
     #[schema(read_only, value_type = serde_json::Value)]
     _version: IgnoredAny,
@@ -150,6 +164,7 @@ pub fn of_put(body: SemanticsBody, context: &MapContext) -> Result<SemanticsChan
         overrides: all_overrides(body.overrides.unwrap_or_default())?,
         other_overrides,
         layout: body.layout.map(|layout| read_layout(&layout, context)).transpose()?,
+        corrections: None,
     })
 }
 
@@ -170,6 +185,11 @@ pub fn of_patch(body: SemanticsPatchBody, context: &MapContext) -> Result<Semant
         },
         other_overrides,
         layout: body.layout.map(|layout| patched_layout(layout, context)).transpose()?,
+        corrections: match body.corrections {
+            None => None,
+            Some(None) => Some(Vec::new()),
+            Some(Some(list)) => Some(corrections_body::whole_list(list)?),
+        },
     })
 }
 

@@ -81,6 +81,8 @@ pub async fn decisions_are_bound_to_their_analysis_and_replace_what_they_saw(eng
             layout: layout.clone(),
             origin: SemanticsOrigin::Assigned,
             carried: None,
+            restores: None,
+            corrections: NewCorrections::Stored(None),
         };
         let decided = store.insert_semantics(&local(), &row, now()).await.unwrap().expect("the map is there");
         decided.map(|record| record.version)
@@ -129,6 +131,8 @@ pub async fn what_was_decided_before_is_found_for_the_analysis_in_force(engine: 
             layout: LayoutOptions::default(),
             origin: if carried.is_some() { SemanticsOrigin::Carried } else { SemanticsOrigin::Assigned },
             carried,
+            restores: None,
+            corrections: NewCorrections::Stored(None),
         };
         let decided = store.insert_semantics(&local(), &row, now()).await.unwrap().unwrap().expect("it is in force");
         assert_eq!((&decided.carried, decided.origin), (&row.carried, row.origin));
@@ -142,7 +146,7 @@ pub async fn what_was_decided_before_is_found_for_the_analysis_in_force(engine: 
     put_in_force(2).await;
     let third = put_in_force(3).await;
     assert_eq!(before().await, Some((1, first, blob.clone())), "nobody decided on the second one");
-    decide(third, 0, Some(CarryRecord { from: 1, kept: 4, lost: Vec::new() })).await;
+    decide(third, 0, Some(CarryRecord { map: None, from: 1, kept: 4, lost: Vec::new() })).await;
     put_in_force(4).await;
     assert_eq!(before().await, Some((1, first, blob)), "what was carried is the first decision");
     put_in_force(3).await;
@@ -177,6 +181,8 @@ pub async fn the_state_of_a_map_changes_with_every_answer_about_it(engine: &impl
         layout: LayoutOptions::default(),
         origin: SemanticsOrigin::Assigned,
         carried: None,
+        restores: None,
+        corrections: NewCorrections::Stored(None),
     };
     store.insert_semantics(&local(), &row, now()).await.unwrap().unwrap().unwrap();
     assert_eq!(state().await.semantics, 1);

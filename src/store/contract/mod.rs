@@ -5,6 +5,7 @@
 
 mod analyses;
 mod blobs;
+mod corrections;
 mod hidden_maps;
 mod maps;
 mod queue;
@@ -86,6 +87,11 @@ macro_rules! contract {
                     decisions_are_bound_to_their_analysis_and_replace_what_they_saw
                     what_was_decided_before_is_found_for_the_analysis_in_force
                     the_state_of_a_map_changes_with_every_answer_about_it
+                }
+                corrections {
+                    a_list_never_changes_and_ids_are_never_used_twice
+                    what_was_decided_before_a_time_or_a_version_is_found
+                    what_was_carried_from_another_map_is_the_decision_of_this_one
                 }
                 registries {
                     a_registry_is_changed_only_from_the_version_that_was_read

@@ -5,7 +5,7 @@ use stillage_core::semantics::Assignment;
 use stillage_core::layout::LayoutOptions;
 
 use super::*;
-use crate::records::{MapPatch, SemanticsOrigin};
+use crate::records::{CorrectionList, MapPatch, SemanticsOrigin};
 
 pub async fn what_belongs_to_another_tenant_is_not_there(engine: &impl Engine) {
     let store = engine.store();
@@ -24,6 +24,8 @@ pub async fn what_belongs_to_another_tenant_is_not_there(engine: &impl Engine) {
     assert!(store.snapshot(&other, job.map).await.unwrap().is_none());
     assert_eq!(store.analyses(&other, job.map).await.unwrap(), []);
     assert_eq!(store.semantics_versions(&other, job.map).await.unwrap(), []);
+    assert_eq!(store.semantics_before(&other, job.map, later(9)).await.unwrap(), None);
+    assert_eq!(store.corrections(&other, job.map, CorrectionList { number: 1, count: 1 }).await.unwrap(), None);
     assert_eq!(store.job(&other, job.id).await.unwrap(), None);
     assert_eq!(store.jobs(&other, &JobFilter { limit: 9, ..JobFilter::default() }).await.unwrap(), []);
 
@@ -41,6 +43,8 @@ pub async fn what_belongs_to_another_tenant_is_not_there(engine: &impl Engine) {
         layout: LayoutOptions::default(),
         origin: SemanticsOrigin::Assigned,
         carried: None,
+        restores: None,
+        corrections: NewCorrections::Stored(None),
     };
     assert_eq!(store.insert_semantics(&other, &row, now()).await.unwrap(), None);
     assert!(!store.delete_map(&other, job.map, None).await.unwrap());

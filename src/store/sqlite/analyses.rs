@@ -145,7 +145,8 @@ impl Analyses for Sqlite {
         let decided_before = sqlx::query(
             "SELECT decided.*, analyses.blob FROM semantics_versions AS newest \
                  JOIN semantics_versions AS decided ON decided.map = newest.map \
-                     AND decided.version = coalesce(json_extract(newest.carried, '$.from'), newest.version) \
+                     AND decided.version = iif(json_extract(newest.carried, '$.map') IS NULL, \
+                         coalesce(json_extract(newest.carried, '$.from'), newest.version), newest.version) \
                  JOIN analyses ON analyses.id = decided.analysis \
              WHERE newest.analysis = $1 ORDER BY newest.version DESC LIMIT 1",
         )

@@ -9,7 +9,8 @@ use uuid::Uuid;
 
 use crate::coordinates::Survey;
 use crate::records::{
-    AnalysisRecord, JobRecord, JobState, MapRecord, RuleSetRecord, SemanticsOrigin, SemanticsRecord, Tenant,
+    AnalysisRecord, CorrectionList, JobRecord, JobState, MapRecord, RuleSetRecord, SemanticsOrigin, SemanticsRecord,
+    Tenant,
 };
 use crate::store::{BlobId, StoreError};
 
@@ -26,6 +27,7 @@ pub(super) trait Columns {
     fn time(&self, column: &'static str) -> Result<Timestamp, StoreError>;
     fn time_if(&self, column: &'static str) -> Result<Option<Timestamp>, StoreError>;
     fn whole<T: TryFrom<i64>>(&self, column: &'static str) -> Result<T, StoreError>;
+    fn whole_if<T: TryFrom<i64>>(&self, column: &'static str) -> Result<Option<T>, StoreError>;
     fn json<T: DeserializeOwned>(&self, column: &'static str) -> Result<T, StoreError>;
     fn json_if<T: DeserializeOwned>(&self, column: &'static str) -> Result<Option<T>, StoreError>;
     fn blob(&self, column: &'static str) -> Result<BlobId, StoreError>;
@@ -62,6 +64,11 @@ impl Columns for SqliteRow {
     fn whole<T: TryFrom<i64>>(&self, column: &'static str) -> Result<T, StoreError> {
         let value: i64 = self.try_get(column)?;
         T::try_from(value).map_err(|_| StoreError::BadValue { column, value: value.to_string() })
+    }
+
+    fn whole_if<T: TryFrom<i64>>(&self, column: &'static str) -> Result<Option<T>, StoreError> {
+        let value: Option<i64> = self.try_get(column)?;
+        value.map(|_| self.whole(column)).transpose()
     }
 
     fn json<T: DeserializeOwned>(&self, column: &'static str) -> Result<T, StoreError> {
@@ -160,9 +167,17 @@ pub(super) fn semantics_record(row: &SqliteRow) -> Result<SemanticsRecord, Store
         draft: row.json("draft")?,
         assignment: row.json("assignment")?,
         layout: row.json("layout")?,
+        corrections: correction_list(row)?,
         version: row.whole("version")?,
         origin: row.origin()?,
         carried: row.json_if("carried")?,
+        restores: row.whole_if("restores")?,
         created: row.time("created")?,
     })
+}
+
+/// The list that a version of the semantics names.
+fn correction_list(row: &SqliteRow) -> Result<Option<CorrectionList>, StoreError> {
+    let Some(number) = row.whole_if("corrections")? else { return Ok(None) };
+    Ok(Some(CorrectionList { number, count: row.whole("correction_count")? }))
 }

@@ -2,13 +2,15 @@
 
 use async_trait::async_trait;
 use jiff::Timestamp;
-use sqlx::Row;
+use sqlx::{Row, SqliteConnection};
+use stillage_core::corrections::Correction;
+use stillage_core::layout::LayoutOptions;
 use uuid::Uuid;
 
 use super::Sqlite;
 use super::rows::{Columns, json, semantics_record};
-use crate::records::{SemanticsRecord, Tenant};
-use crate::store::{NewSemanticsRow, SemanticsVersions, StoreError};
+use crate::records::{CorrectionId, CorrectionList, CorrectionRecord, SemanticsRecord, Tenant};
+use crate::store::{NewCorrections, NewSemanticsRow, SemanticsVersions, StoreError};
 
 #[async_trait]
 impl SemanticsVersions for Sqlite {
@@ -34,9 +36,14 @@ impl SemanticsVersions for Sqlite {
         if row.uuid_if("analysis")? != Some(new.analysis) || in_force != new.replaces {
             return Ok(Some(Err(in_force)));
         }
+        let corrections = match &new.corrections {
+            NewCorrections::Stored(list) => *list,
+            NewCorrections::Changed(list) => insert_corrections(&mut transaction, new.map, list).await?,
+        };
         let row = sqlx::query(
-            "INSERT INTO semantics_versions (map, version, analysis, rule_set, draft, assignment, layout, origin, carried, created) \
-             VALUES ($1, $2, $3, $4, $5, $6, $7, $8, $9, $10) RETURNING *",
+            "INSERT INTO semantics_versions (map, version, analysis, rule_set, draft, assignment, layout, origin, carried, \
+                 created, corrections, correction_count, restores) \
+             VALUES ($1, $2, $3, $4, $5, $6, $7, $8, $9, $10, $11, $12, $13) RETURNING *",
         )
         .bind(new.map.to_string())
         .bind(row.try_get::<i64, _>("newest")? + 1)
@@ -48,6 +55,9 @@ impl SemanticsVersions for Sqlite {
         .bind(new.origin.name())
         .bind(new.carried.as_ref().map(json))
         .bind(now.as_microsecond())
+        .bind(corrections.map(|list| list.number))
+        .bind(corrections.map_or(0, |list| list.count))
+        .bind(new.restores.map(u64::cast_signed))
         .fetch_one(&mut *transaction)
         .await?;
         sqlx::query(
@@ -72,4 +82,93 @@ impl SemanticsVersions for Sqlite {
         .await?;
         rows.iter().map(semantics_record).collect()
     }
+
+    async fn corrections(
+        &self,
+        tenant: &Tenant,
+        map: Uuid,
+        list: CorrectionList,
+    ) -> Result<Option<Vec<CorrectionRecord>>, StoreError> {
+        let row = sqlx::query(
+            "SELECT correction_lists.corrections FROM correction_lists JOIN maps ON maps.id = correction_lists.map \
+             WHERE maps.tenant = $1 AND maps.id = $2 AND correction_lists.number = $3",
+        )
+        .bind(tenant.as_str())
+        .bind(map.to_string())
+        .bind(list.number)
+        .fetch_optional(&self.readers)
+        .await?;
+        row.map(|row| row.json("corrections")).transpose()
+    }
+
+    async fn semantics_before(
+        &self,
+        tenant: &Tenant,
+        map: Uuid,
+        time: Timestamp,
+    ) -> Result<Option<SemanticsRecord>, StoreError> {
+        let row = sqlx::query(
+            "SELECT semantics_versions.* FROM semantics_versions JOIN maps ON maps.id = semantics_versions.map \
+             WHERE maps.tenant = $1 AND maps.id = $2 AND semantics_versions.created < $3 \
+             ORDER BY semantics_versions.version DESC LIMIT 1",
+        )
+        .bind(tenant.as_str())
+        .bind(map.to_string())
+        .bind(time.as_microsecond())
+        .fetch_optional(&self.readers)
+        .await?;
+        row.as_ref().map(semantics_record).transpose()
+    }
+
+    async fn layout_before(&self, tenant: &Tenant, map: Uuid, version: u64) -> Result<LayoutOptions, StoreError> {
+        let row = sqlx::query(
+            "SELECT semantics_versions.layout FROM maps AS asked JOIN maps ON maps.site = asked.site \
+                 JOIN semantics_versions ON semantics_versions.map = maps.id \
+             WHERE asked.tenant = $1 AND asked.id = $2 AND maps.tenant = $1 \
+                 AND (maps.id < asked.id OR (maps.id = asked.id AND semantics_versions.version < $3)) \
+             ORDER BY maps.id DESC, semantics_versions.version DESC LIMIT 1",
+        )
+        .bind(tenant.as_str())
+        .bind(map.to_string())
+        .bind(version.cast_signed())
+        .fetch_optional(&self.readers)
+        .await?;
+        Ok(row.map(|row| row.json("layout")).transpose()?.unwrap_or_default())
+    }
+}
+
+/// Stores a list of corrections; the new ones get ids that none of the map had. `None` for an empty list.
+async fn insert_corrections(
+    connection: &mut SqliteConnection,
+    map: Uuid,
+    corrections: &[(Option<CorrectionId>, Correction)],
+) -> Result<Option<CorrectionList>, StoreError> {
+    if corrections.is_empty() {
+        return Ok(None);
+    }
+    let row = sqlx::query(
+        "SELECT coalesce(max(number), 0) AS number, coalesce(max(newest), 0) AS newest FROM correction_lists \
+         WHERE map = $1",
+    )
+    .bind(map.to_string())
+    .fetch_one(&mut *connection)
+    .await?;
+    let number = row.whole::<u32>("number")? + 1;
+    let mut newest: u32 = row.whole("newest")?;
+    let record = |(id, correction): &(Option<CorrectionId>, Correction)| CorrectionRecord {
+        id: id.unwrap_or_else(|| {
+            newest += 1;
+            CorrectionId(newest)
+        }),
+        correction: correction.clone(),
+    };
+    let records: Vec<CorrectionRecord> = corrections.iter().map(record).collect();
+    sqlx::query("INSERT INTO correction_lists (map, number, corrections, newest) VALUES ($1, $2, $3, $4)")
+        .bind(map.to_string())
+        .bind(number)
+        .bind(json(&records))
+        .bind(newest)
+        .execute(&mut *connection)
+        .await?;
+    Ok(Some(CorrectionList { number, count: records.len() as u32 }))
 }

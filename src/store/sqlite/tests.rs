@@ -105,7 +105,7 @@ async fn a_newer_database_is_refused() {
     store.close().await;
     drop(store);
     let refusal = Sqlite::open(&fixture.config).await.expect_err("it is newer").to_string();
-    assert!(refusal.contains("was written by a newer stillage (schema 9999, this program knows up to 8)"), "{refusal}");
+    assert!(refusal.contains("was written by a newer stillage (schema 9999, this program knows up to 9)"), "{refusal}");
 }
 
 #[tokio::test]

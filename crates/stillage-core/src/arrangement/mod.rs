@@ -15,6 +15,7 @@
 mod buckets;
 mod builder;
 mod cell_faces;
+mod cell_overlap;
 mod dissolve;
 mod edges_to_the_left;
 mod face_at;
@@ -38,6 +39,7 @@ pub use cell_faces::CellFaces;
 pub(crate) use kept_parts::KeptParts;
 pub(crate) use redrawing::Redrawing;
 
+pub use cell_overlap::CellOverlap;
 pub use ids::{EdgeId, FaceId, HalfEdgeId, VertexId};
 pub use sources::{SourceSegment, source_segments};
 pub use subdivision::{EdgeSource, HalfEdge, Subdivision};

@@ -2,7 +2,9 @@ use proptest::prelude::*;
 
 use super::PlaceChange::{Emptied, Filled, Moved, Relabelled};
 use super::*;
+use crate::arrangement::FaceId;
 use crate::geometry::Point;
+use crate::semantics::pictures::DrawnMap;
 
 /// A place of 1 m x 1.2 m with its lower left corner at (x, y).
 fn footprint(x: f64, y: f64) -> Footprint {
@@ -51,15 +53,49 @@ fn neighbours_in_a_row_are_no_rivals() {
     assert_eq!(found.len(), 5);
 }
 
-#[test]
-fn faces_are_compared_by_number() {
-    let changes = compare_labels([(1, "co"), (2, "ju"), (3, "pc")], [(2, "co"), (3, "pc"), (4, "un")]);
-    let change = |face, before: Option<&str>, now: Option<&str>| LabelChange {
-        face,
-        before: before.map(Into::into),
-        now: now.map(Into::into),
+/// The differences from one drawn map to another: number and label before, number and label now, `*` for another shape.
+fn differences(before: (&DrawnMap, &[&str]), now: (&DrawnMap, &[&str])) -> Vec<String> {
+    let differences = compare_faces(
+        LabelledFaces { cells: &before.0.cells.faces, labels: before.1 },
+        LabelledFaces { cells: &now.0.cells.faces, labels: now.1 },
+    );
+    let side = |side: &Option<LabelledFace>| {
+        side.as_ref().map_or_else(|| "-".to_owned(), |face| format!("{}{}", face.face.0, face.label))
     };
-    assert_eq!(changes, [change(1, Some("co"), None), change(2, Some("ju"), Some("co")), change(4, None, Some("un"))]);
+    let told = |difference: &FaceDifference| {
+        let star = if difference.is_reshaped { "*" } else { "" };
+        format!("{} {}{star}", side(&difference.before), side(&difference.now))
+    };
+    differences.iter().map(told).collect()
+}
+
+#[test]
+fn faces_of_one_arrangement_are_compared_by_number() {
+    let map = DrawnMap::new("....\n....", "aabb\naabb");
+    let reading = |labels| LabelledFaces { cells: &map.cells.faces, labels };
+    let differences = compare_faces(reading(&["", "co", "ju"]), reading(&["", "co", "pc"]));
+    let side = |label: &str| Some(LabelledFace { face: FaceId(2), label: label.to_owned() });
+    assert_eq!(differences, [FaceDifference { before: side("ju"), now: side("pc"), is_reshaped: false }]);
+}
+
+#[test]
+fn faces_of_two_arrangements_are_compared_by_their_cells() {
+    let two = DrawnMap::new("......\n......", "aaabbb\naaabbb");
+    let labels = ["", "co", "pc"];
+    let again = DrawnMap::new("......\n......", "aaabbb\naaabbb");
+    assert!(differences((&two, &labels), (&again, &labels)).is_empty());
+    let moved = DrawnMap::new("......\n......", "aaaabb\naaaabb");
+    assert_eq!(differences((&two, &labels), (&moved, &labels)), ["1co 1co*", "2pc 2pc*"]);
+    let cut = DrawnMap::new("......\n......", "aaabcd\naaabcd");
+    assert_eq!(
+        differences((&two, &labels), (&cut, &["", "co", "pc", "pc", "ju"])),
+        ["- 2pc", "- 3pc", "- 4ju", "2pc -"],
+        "no third of a face is the face"
+    );
+    assert_eq!(
+        differences((&cut, &["", "co", "pc", "pc", "ju"]), (&two, &labels)),
+        ["- 2pc", "2pc -", "3pc -", "4ju -"]
+    );
 }
 
 fn places() -> impl Strategy<Value = Vec<ComparedPlace>> {

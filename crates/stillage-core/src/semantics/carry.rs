@@ -13,7 +13,7 @@
 //!
 //! Cost: O(cells). Limits: a face smaller than a cell has no ground, so that its label is lost.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
@@ -21,7 +21,7 @@ use super::assignment::Assignment;
 use super::rule_set::RuleSet;
 use super::suggestion::suggest;
 use crate::analysis::Analysis;
-use crate::arrangement::{CellFaces, FaceId};
+use crate::arrangement::{CellFaces, CellOverlap, FaceId};
 use crate::geometry::Point;
 
 /// An analysis with the face of every cell.
@@ -74,38 +74,12 @@ pub fn carry(
     rule_set: &RuleSet,
 ) -> CarriedLabels {
     let old_labels = DecidedLabels::of(old.analysis, decision, rule_set);
-    let overlaps = overlaps(new.cells, old.cells);
+    let overlaps = new.cells.overlaps(old.cells);
     let assignment = category_labels(&overlaps, new.analysis, &old_labels, rule_set);
     let overrides = face_labels(&overlaps, new.analysis, &old_labels, &assignment);
     let assignment = Assignment { assignment, overrides };
     let (kept, lost) = outcome(&overlaps, new.analysis, &old_labels, &assignment);
     CarriedLabels { assignment, kept, lost }
-}
-
-/// Cells that lie in one face of the new analysis and one of the old.
-struct Overlap {
-    new: FaceId,
-    old: FaceId,
-    cells: u64,
-}
-
-/// The overlaps of all faces, ascending.
-fn overlaps(new: &CellFaces, old: &CellFaces) -> Vec<Overlap> {
-    let mut counts: HashMap<(FaceId, FaceId), u64> = HashMap::new();
-    // Neighbours mostly lie in the same faces: a run of them is counted at once.
-    let (mut run, mut length) = ((FaceId::OUTER, FaceId::OUTER), 0);
-    for cell in new.as_slice().iter().copied().zip(old.as_slice().iter().copied()) {
-        if cell != run {
-            *counts.entry(run).or_default() += length;
-            (run, length) = (cell, 0);
-        }
-        length += 1;
-    }
-    *counts.entry(run).or_default() += length;
-    let overlap = |((new, old), cells)| Overlap { new, old, cells };
-    let mut overlaps: Vec<Overlap> = counts.into_iter().map(overlap).collect();
-    overlaps.sort_unstable_by_key(|overlap| (overlap.new, overlap.old));
-    overlaps
 }
 
 /// The labels of an analysis, and which of them a person decided.
@@ -155,7 +129,7 @@ impl<'a> DecidedLabels<'a> {
 
 /// The label of every category of the new analysis.
 fn category_labels(
-    overlaps: &[Overlap],
+    overlaps: &[CellOverlap],
     new: &Analysis,
     old: &DecidedLabels<'_>,
     rule_set: &RuleSet,
@@ -178,7 +152,7 @@ fn category_labels(
 
 /// The faces of the new analysis that have a label of their own.
 fn face_labels(
-    overlaps: &[Overlap],
+    overlaps: &[CellOverlap],
     new: &Analysis,
     old: &DecidedLabels<'_>,
     categories: &BTreeMap<u8, String>,
@@ -212,7 +186,7 @@ fn face_labels(
 
 /// How many decisions have their label on most of their ground again, and those that have not.
 fn outcome(
-    overlaps: &[Overlap],
+    overlaps: &[CellOverlap],
     new: &Analysis,
     old: &DecidedLabels<'_>,
     labels: &Assignment,

@@ -100,7 +100,7 @@ impl DrawnMap {
             face_relaxation: None,
             diagnostics: Vec::new(),
         };
-        let cells = SiteCells { faces: cells, clearance: Clearance::of(&grid) };
+        let cells = SiteCells { faces: cells, clearance: Clearance::of(&grid).into() };
         Self { grid, analysis, cells, letters }
     }
 
