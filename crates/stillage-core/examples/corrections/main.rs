@@ -46,6 +46,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     for (name, correction) in one_of_each() {
         print_list(name, &[correction], REPEATS);
     }
+    let before = apply(&one_of_each().map(|(_, correction)| correction));
+    let (_, cost) = Cost::of(|| before.and(&grid, &analysis, &cells.faces, &[rack(Point::new(95.0, 131.0))]));
+    print("a rack after one of each", &cost, "", before.analysis.faces.len());
+
     println!("\nmany at once");
     let racks: Vec<Correction> = (0..MANY).map(|number| rack(place(number, 40))).collect();
     print_list("racks of a plan", &racks, 1);
@@ -81,7 +85,7 @@ fn split(low: Point, along: f64) -> Correction {
 /// One correction of each kind, in the open floor between the fields and in the first field.
 fn one_of_each() -> [(&'static str, Correction); 8] {
     let (floor, beside) = (Point::new(95.0, 127.0), Point::new(95.0, 124.0));
-    let (places, offices) = (Point::new(40.0, 40.0), Point::new(95.0, 236.0));
+    let places = Point::new(40.0, 40.0);
     [
         ("draw a rack", rack(floor)),
         ("split the floor", Correction::Split { line: vec![Point::new(95.0, 8.0), Point::new(95.0, 262.0)] }),
@@ -98,7 +102,7 @@ fn one_of_each() -> [(&'static str, Correction); 8] {
         ),
         ("erase a block", Correction::Erase { ring: corners(places, [8.0, 6.0]).to_vec() }),
         ("label a face", Correction::Label { at: beside, label: "co".to_owned() }),
-        ("shut a door", Correction::Door { line: [offices, Point::new(96.0, 236.0)], is_open: false }),
+        ("shut a door", Correction::Door { line: [[91.0, 225.05], [92.2, 225.05]].map(Point::from), is_open: false }),
         ("name a face", Correction::Name { at: beside, name: "Cold store".to_owned() }),
     ]
 }

@@ -1,6 +1,6 @@
 //! An analysis with a list of corrections.
 
-use super::assemble::{FacesOfCorrections, assemble};
+use super::assemble::assemble;
 use super::check::{CorrectionProblem, MOST_FACES, open_ring};
 use super::correction::Correction;
 use super::draft::{Draft, FaceClaim};
@@ -22,20 +22,44 @@ use crate::watch::{Stopped, Watch};
 /// surroundings count there as they were uploaded. O(cells), once, and O(edges) for each correction.
 #[must_use]
 pub fn apply(grid: &OccupancyGrid, analysis: &Analysis, cells: &CellFaces, corrections: &[Correction]) -> Corrected {
-    applied(grid, analysis, cells, corrections).expect("nobody stops what is unwatched")
+    let draft = Draft::of(grid, analysis, Watch::unwatched());
+    go_on(grid, analysis, cells, draft, Vec::new(), corrections).expect("nobody stops what is unwatched")
 }
 
-fn applied(
+impl Corrected {
+    /// The same with more corrections at the end of the list: what [`apply`] gives for the whole list, at the cost of the
+    /// new ones. `analysis` and `cells` are those that were corrected.
+    #[must_use]
+    pub fn and(
+        &self,
+        grid: &OccupancyGrid,
+        analysis: &Analysis,
+        cells: &CellFaces,
+        corrections: &[Correction],
+    ) -> Self {
+        let draft = Draft::after(grid, &self.analysis.subdivision, self.said.clone(), Watch::unwatched());
+        let problem = |outcome: &Outcome| match outcome {
+            Outcome::Applied { .. } => None,
+            Outcome::Unfit(problem) => Some(problem.clone()),
+        };
+        let problems = self.outcomes.iter().map(problem).collect();
+        go_on(grid, analysis, cells, draft, problems, corrections).expect("nobody stops what is unwatched")
+    }
+}
+
+/// Draws corrections after those that have `problems`, or none, already.
+fn go_on(
     grid: &OccupancyGrid,
     analysis: &Analysis,
     cells: &CellFaces,
+    mut draft: Draft<'_>,
+    mut problems: Vec<Option<CorrectionProblem>>,
     corrections: &[Correction],
 ) -> Result<Corrected, Stopped> {
-    let mut draft = Draft::of(grid, analysis, Watch::unwatched());
     let to_grid = analysis.frame.motion().inverse();
-    let mut problems: Vec<Option<CorrectionProblem>> = Vec::with_capacity(corrections.len());
-    for (number, correction) in (0..).zip(corrections) {
+    for correction in corrections {
         let fits = correction.check(MOST_FACES).map_err(Failure::from);
+        let number = problems.len() as u32;
         let outcome = fits.and_then(|()| draw(&mut draft, correction.clone().moved(&to_grid), number));
         problems.push(match outcome {
             Ok(()) => None,
@@ -44,13 +68,7 @@ fn applied(
         });
     }
     draft.settle()?;
-    let (corrected, mut faces): (Corrected, FacesOfCorrections) = assemble(grid, analysis, cells, draft)?;
-    let outcome = |(number, problem): (u32, Option<CorrectionProblem>)| match problem {
-        Some(problem) => Outcome::Unfit(problem),
-        None => Outcome::Applied { faces: faces.remove(&number).unwrap_or_default() },
-    };
-    let outcomes = (0..).zip(problems).map(outcome).collect();
-    Ok(Corrected { outcomes, ..corrected })
+    assemble(grid, analysis, cells, draft, problems)
 }
 
 /// Draws one correction, points in the grid frame.

@@ -2,59 +2,64 @@
 
 use std::collections::BTreeMap;
 
-use super::draft::Draft;
-use super::outcome::Corrected;
+use super::check::CorrectionProblem;
+use super::draft::{Draft, Said};
+use super::outcome::{Corrected, Outcome};
 use super::passage;
 use crate::adjacency::AdjacencyGraph;
 use crate::analysis::Analysis;
 use crate::annotation::{self, FaceAnnotation, Redrawn};
 use crate::arrangement::{CellFaces, EdgeId, FaceId, KeptParts};
+use crate::geometry::Point;
 use crate::grid::OccupancyGrid;
 use crate::plot::PlotKind;
 use crate::rooms::{Door, RoomMap};
 use crate::watch::Stopped;
 
-/// The faces that each correction made or touched, by the number of the correction.
-pub(super) type FacesOfCorrections = BTreeMap<u32, Vec<FaceId>>;
-
-/// Puts the corrected analysis together, without outcomes.
+/// Puts the corrected analysis together; `problems` by correction, of those that did not fit.
 pub(super) fn assemble(
     grid: &OccupancyGrid,
     analysis: &Analysis,
     cells: &CellFaces,
     draft: Draft<'_>,
-) -> Result<(Corrected, FacesOfCorrections), Stopped> {
-    let mut corrected = if draft.subdivision == analysis.subdivision {
-        let (analysis, faces) = (analysis.clone(), cells.clone());
-        Corrected { analysis, faces, labels: BTreeMap::new(), names: BTreeMap::new(), outcomes: Vec::new() }
+    problems: Vec<Option<CorrectionProblem>>,
+) -> Result<Corrected, Stopped> {
+    let (mut analysis, cell_faces) = if draft.subdivision == analysis.subdivision {
+        (analysis.clone(), cells.clone())
     } else {
         redrawn(grid, analysis, cells, &draft)?
     };
-    let mut faces = FacesOfCorrections::new();
+    let mut faces_of: BTreeMap<u32, Vec<FaceId>> = BTreeMap::new();
     for mark in &draft.doors {
         let edges = passage::edges_along(&draft.subdivision, mark.line);
         let sides = edges.iter().flat_map(|&edge| draft.subdivision.sides(edge));
-        faces.entry(mark.correction).or_default().extend(sides);
-        mark_door(&mut corrected.analysis.rooms, mark.line, mark.is_open, edges, &draft);
+        faces_of.entry(mark.correction).or_default().extend(sides);
+        mark_door(&mut analysis.rooms, mark.line, mark.is_open, edges, &draft);
     }
-    for (face, claim) in (0..).map(FaceId).zip(draft.claims) {
-        corrected.labels.extend(claim.label.map(|label| (face, label)));
-        corrected.names.extend(claim.name.map(|name| (face, name)));
-        claim.corrections.iter().for_each(|correction| faces.entry(*correction).or_default().push(face));
+    let (mut labels, mut names) = (BTreeMap::new(), BTreeMap::new());
+    for (face, claim) in (0..).map(FaceId).zip(&draft.claims) {
+        labels.extend(claim.label.clone().map(|label| (face, label)));
+        names.extend(claim.name.clone().map(|name| (face, name)));
+        claim.corrections.iter().for_each(|correction| faces_of.entry(*correction).or_default().push(face));
     }
-    for faces in faces.values_mut() {
+    let outcome = |(number, problem): (u32, Option<CorrectionProblem>)| {
+        let mut faces = faces_of.remove(&number).unwrap_or_default();
         faces.sort_unstable();
         faces.dedup();
-    }
-    Ok((corrected, faces))
+        problem.map_or(Outcome::Applied { faces }, Outcome::Unfit)
+    };
+    let outcomes = (0..).zip(problems).map(outcome).collect();
+    let said = Said { claims: draft.claims, doors: draft.doors };
+    Ok(Corrected { analysis, faces: cell_faces, labels, names, outcomes, said })
 }
 
+/// The analysis of another arrangement, and the face of every cell.
 fn redrawn(
     grid: &OccupancyGrid,
     analysis: &Analysis,
     cells: &CellFaces,
     draft: &Draft<'_>,
-) -> Result<Corrected, Stopped> {
+) -> Result<(Analysis, CellFaces), Stopped> {
     let (subdivision, watch) = (draft.subdivision.clone(), &draft.watch);
     let kept = KeptParts::between(&analysis.subdivision, &subdivision);
     let faces = CellFaces::of_grid(&subdivision, grid);
@@ -84,8 +89,7 @@ fn redrawn(
     let has_rooms = !analysis.rooms.faces.is_empty();
     let rooms = if has_rooms { draft.claims.iter().map(|claim| claim.room).collect() } else { Vec::new() };
     let rooms = analysis.rooms.redrawn(&subdivision, rooms);
-    let analysis = Analysis { subdivision, graph, rooms, faces: annotations, edges, ..analysis.clone() };
-    Ok(Corrected { analysis, faces, labels: BTreeMap::new(), names: BTreeMap::new(), outcomes: Vec::new() })
+    Ok((Analysis { subdivision, graph, rooms, faces: annotations, edges, ..analysis.clone() }, faces))
 }
 
 /// The category of most places that were found; `None` where there are none.
@@ -109,7 +113,7 @@ fn give_category(face: &mut FaceAnnotation, category: u8) {
 }
 
 /// Makes edges a door, or shuts them; doors that were found there give way.
-fn mark_door(rooms: &mut RoomMap, ends: [crate::Point; 2], is_open: bool, edges: Vec<EdgeId>, draft: &Draft<'_>) {
+fn mark_door(rooms: &mut RoomMap, ends: [Point; 2], is_open: bool, edges: Vec<EdgeId>, draft: &Draft<'_>) {
     rooms.doors.retain(|door| !door.edges.iter().any(|edge| edges.binary_search(edge).is_ok()));
     rooms.passages.extend(edges.iter().map(|&edge| (edge, is_open)));
     if let Some(&first) = edges.first().filter(|_| is_open) {

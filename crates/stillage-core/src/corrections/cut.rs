@@ -5,22 +5,26 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::draft::{Draft, FaceClaim};
 use super::failure::Failure;
 use super::snap::Snap;
-use crate::arrangement::FaceId;
-use crate::geometry::{DisjointSets, Point};
+use crate::arrangement::{FaceId, Subdivision};
+use crate::geometry::{Bounds, DisjointSets, Point, segment};
+use crate::watch::Stopped;
+
+/// How far a line that cuts nothing is drawn on to the next border, metres: half of a narrow aisle.
+const OVERSHOOT_M: f64 = 1.0;
 
 /// Cuts the faces that a line crosses.
 pub(super) fn split(draft: &mut Draft<'_>, line: &[Point], correction: u32) -> Result<(), Failure> {
     draft.settle()?;
     let snap = Snap::near(draft.pieces(), line, draft.tolerance);
     let line: Vec<Point> = line.iter().map(|&point| snap.point(point)).collect();
-    let segments: Vec<[Point; 2]> = line.windows(2).map(|pair| [pair[0], pair[1]]).collect();
-    let mut pieces = draft.pieces().clone();
-    pieces.draw(&segments, &draft.watch)?;
-    let cut = pieces.subdivision(&draft.watch)?;
-    if cut.face_count() <= draft.subdivision.face_count() {
+    let cut = match cut_along(draft, &line)? {
+        None => cut_along(draft, &drawn_on(draft, line))?,
+        cut => cut,
+    };
+    let Some(cut) = cut else {
         let message = "the line cuts no face in two: draw it on until it meets the border of a face at both ends";
         return Err(Failure::unfit("/line", message));
-    }
+    };
     let origins = draft.adopt(cut, |face| face)?;
     let mut parts: BTreeMap<FaceId, Vec<usize>> = BTreeMap::new();
     for (face, origin) in origins.into_iter().enumerate() {
@@ -33,6 +37,34 @@ pub(super) fn split(draft: &mut Draft<'_>, line: &[Point], correction: u32) -> R
         draft.claims[face].touch(correction);
     }
     Ok(())
+}
+
+/// The arrangement with a line; `None` where it cuts no face.
+fn cut_along(draft: &Draft<'_>, line: &[Point]) -> Result<Option<Subdivision>, Stopped> {
+    let segments: Vec<[Point; 2]> = line.windows(2).map(|pair| [pair[0], pair[1]]).collect();
+    let mut pieces = draft.pieces().clone();
+    pieces.draw(&segments, &draft.watch)?;
+    let cut = pieces.subdivision(&draft.watch)?;
+    Ok((cut.face_count() > draft.subdivision.face_count()).then_some(cut))
+}
+
+/// A line whose ends are drawn on to the next border, where one is near ahead.
+fn drawn_on(draft: &Draft<'_>, mut line: Vec<Point>) -> Vec<Point> {
+    let edges = draft.pieces().near(&Bounds::around(&line).grown(OVERSHOOT_M));
+    for _ in 0..2 {
+        line.reverse();
+        let [.., before, end] = line.as_slice() else { continue };
+        let Some(ahead) = (end - before).try_normalize(0.0) else { continue };
+        let distances = edges.iter().filter_map(|&edge| {
+            let [distance, share] = segment::crossing(*end, ahead, edge);
+            ((0.0..=OVERSHOOT_M).contains(&distance) && (0.0..=1.0).contains(&share)).then_some(distance)
+        });
+        // What lies beyond a border that it meets is dropped: a step too far loses nothing, one too short everything.
+        if let Some(distance) = distances.reduce(f64::min) {
+            line.push(end + ahead * (distance + draft.tolerance));
+        }
+    }
+    line
 }
 
 /// Makes the faces at some points one.

@@ -52,7 +52,7 @@ struct Painting {
 }
 
 /// A door that a person drew.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct DoorMark {
     /// From jamb to jamb.
     pub line: [Point; 2],
@@ -60,6 +60,15 @@ pub(super) struct DoorMark {
     pub is_open: bool,
     /// Number of the correction.
     pub correction: u32,
+}
+
+/// What is left of a draft beside its arrangement: enough to go on with it.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(super) struct Said {
+    /// By face.
+    pub claims: Vec<FaceClaim>,
+    /// Doors in the order in which they were drawn.
+    pub doors: Vec<DoorMark>,
 }
 
 /// A map while it is corrected; points in the grid frame.
@@ -70,9 +79,8 @@ pub(super) struct Draft<'a> {
     pub tolerance: f64,
     /// The arrangement without what was painted since.
     pub subdivision: Subdivision,
-    /// What is said of its faces, by id.
+    /// What is said of its faces, by id, and of its doors.
     pub claims: Vec<FaceClaim>,
-    /// Doors in the order in which they were drawn.
     pub doors: Vec<DoorMark>,
     pub watch: Watch<'a>,
     pieces: Redrawing,
@@ -87,15 +95,21 @@ impl<'a> Draft<'a> {
             room: analysis.rooms.room(FaceId(face)),
             ..FaceClaim::default()
         };
+        let claims = (0..).zip(&analysis.faces).map(claim).collect();
+        Self::after(grid, &analysis.subdivision, Said { claims, doors: Vec::new() }, watch)
+    }
+
+    /// The map as it was left.
+    pub fn after(grid: &OccupancyGrid, subdivision: &Subdivision, said: Said, watch: Watch<'a>) -> Self {
         let size = [grid.width(), grid.height()].map(|cells| cells as f64 * grid.resolution());
         Self {
             bounds: Bounds { low: Point::origin(), high: Point::new(size[0], size[1]) },
             tolerance: TOLERANCE_CELLS * grid.resolution(),
-            subdivision: analysis.subdivision.clone(),
-            claims: (0..).zip(&analysis.faces).map(claim).collect(),
-            doors: Vec::new(),
+            subdivision: subdivision.clone(),
+            claims: said.claims,
+            doors: said.doors,
             watch,
-            pieces: Redrawing::of(&analysis.subdivision, size[0].max(size[1])),
+            pieces: Redrawing::of(subdivision, size[0].max(size[1])),
             paintings: Vec::new(),
         }
     }

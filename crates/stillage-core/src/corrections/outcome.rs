@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::check::CorrectionProblem;
+use super::draft::Said;
 use crate::analysis::Analysis;
 use crate::arrangement::{CellFaces, FaceId};
 
@@ -32,4 +33,6 @@ pub struct Corrected {
     pub names: BTreeMap<FaceId, String>,
     /// What became of each correction, in the order of the list.
     pub outcomes: Vec<Outcome>,
+    /// For more corrections.
+    pub(super) said: Said,
 }

@@ -197,6 +197,13 @@ fn a_line_cuts_the_faces_that_it_crosses_from_border_to_border() {
 }
 
 #[test]
+fn a_line_that_ends_just_before_a_border_is_drawn_on() {
+    let short = corrected(&floor(), &[r#"{"kind":"split","line":[[0.8,1.8],[5.2,2.2]]}"#]);
+    let areas: Vec<f64> = short.analysis.faces.iter().skip(1).map(|face| face.area.round()).collect();
+    assert_eq!(areas, [12.0, 12.0]);
+}
+
+#[test]
 fn parts_keep_what_was_said_of_the_whole() {
     let name = r#"{"kind":"name","at":[1,1],"name":"Cold store"}"#;
     let label = r#"{"kind":"label","at":[1,1],"label":"of"}"#;

@@ -194,6 +194,9 @@ fn check_corrections(grid: &OccupancyGrid, analysis: &Analysis, list: &[Correcti
     prop_assert_eq!(corrected.analysis.faces.len(), subdivision.face_count());
     let again = threads(3).install(|| corrections::apply(grid, analysis, &cells.faces, list));
     prop_assert_eq!(format!("{corrected:?}"), format!("{again:?}"));
+    let (first, more) = list.split_at(list.len() / 2);
+    let by_and_by = corrections::apply(grid, analysis, &cells.faces, first).and(grid, analysis, &cells.faces, more);
+    prop_assert_eq!(format!("{corrected:?}"), format!("{by_and_by:?}"));
     let fitting =
         list.iter().zip(&corrected.outcomes).filter(|(_, outcome)| matches!(outcome, Outcome::Applied { .. }));
     let fitting: Vec<Correction> = fitting.map(|(correction, _)| correction.clone()).collect();
