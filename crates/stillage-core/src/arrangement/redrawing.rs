@@ -93,7 +93,9 @@ impl Redrawing {
             _ => (all.clone(), self.noded_among(&drawn, &all, watch)?),
         };
         let mut is_member = vec![false; self.pieces.len()];
-        members.iter().for_each(|&member| is_member[member as usize] = true);
+        for member in members {
+            is_member[member as usize] = true;
+        }
         let mut pieces: Vec<Piece> = Vec::with_capacity(self.pieces.len() + noded.len());
         pieces.extend(self.pieces.iter().zip(is_member).filter(|(_, is_member)| !is_member).map(|(piece, _)| *piece));
         pieces.extend(noded.iter().map(|piece| Piece {

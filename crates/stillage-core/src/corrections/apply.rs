@@ -3,7 +3,7 @@
 use super::assemble::assemble;
 use super::check::{CorrectionProblem, MOST_FACES, open_ring};
 use super::correction::Correction;
-use super::draft::{Draft, FaceClaim};
+use super::draft::{FaceClaim, MapDraft};
 use super::failure::Failure;
 use super::outcome::{Corrected, Outcome};
 use super::{cut, erase, paint, passage};
@@ -22,8 +22,8 @@ use crate::watch::{Stopped, Watch};
 /// surroundings count there as they were uploaded. O(cells), once, and O(edges) for each correction.
 #[must_use]
 pub fn apply(grid: &OccupancyGrid, analysis: &Analysis, cells: &CellFaces, corrections: &[Correction]) -> Corrected {
-    let draft = Draft::of(grid, analysis, Watch::unwatched());
-    go_on(grid, analysis, cells, draft, Vec::new(), corrections).expect("nobody stops what is unwatched")
+    let draft = MapDraft::of(grid, analysis, Watch::unwatched());
+    finished(go_on(grid, analysis, cells, draft, Vec::new(), corrections))
 }
 
 impl Corrected {
@@ -37,14 +37,18 @@ impl Corrected {
         cells: &CellFaces,
         corrections: &[Correction],
     ) -> Self {
-        let draft = Draft::after(grid, &self.analysis.subdivision, self.said.clone(), Watch::unwatched());
+        let draft = MapDraft::after(grid, &self.analysis.subdivision, self.said.clone(), Watch::unwatched());
         let problem = |outcome: &Outcome| match outcome {
             Outcome::Applied { .. } => None,
             Outcome::Unfit(problem) => Some(problem.clone()),
         };
         let problems = self.outcomes.iter().map(problem).collect();
-        go_on(grid, analysis, cells, draft, problems, corrections).expect("nobody stops what is unwatched")
+        finished(go_on(grid, analysis, cells, draft, problems, corrections))
     }
+}
+
+fn finished(result: Result<Corrected, Stopped>) -> Corrected {
+    result.expect("nobody stops what is unwatched")
 }
 
 /// Draws corrections after those that have `problems`, or none, already.
@@ -52,7 +56,7 @@ fn go_on(
     grid: &OccupancyGrid,
     analysis: &Analysis,
     cells: &CellFaces,
-    mut draft: Draft<'_>,
+    mut draft: MapDraft<'_>,
     mut problems: Vec<Option<CorrectionProblem>>,
     corrections: &[Correction],
 ) -> Result<Corrected, Stopped> {
@@ -72,7 +76,7 @@ fn go_on(
 }
 
 /// Draws one correction, points in the grid frame.
-fn draw(draft: &mut Draft<'_>, mut correction: Correction, number: u32) -> Result<(), Failure> {
+fn draw(draft: &mut MapDraft<'_>, mut correction: Correction, number: u32) -> Result<(), Failure> {
     move_onto_map(draft, &mut correction)?;
     let places = correction.places_of_row();
     let claim = || FaceClaim { corrections: vec![number], ..FaceClaim::default() };
@@ -104,7 +108,7 @@ fn draw(draft: &mut Draft<'_>, mut correction: Correction, number: u32) -> Resul
 }
 
 /// Moves the points of a correction that lie a little outside the map onto its border.
-fn move_onto_map(draft: &Draft<'_>, correction: &mut Correction) -> Result<(), Failure> {
+fn move_onto_map(draft: &MapDraft<'_>, correction: &mut Correction) -> Result<(), Failure> {
     let Bounds { low, high } = draft.bounds;
     let on_map = |point: &Point| Point::from(point.coords.sup(&low.coords).inf(&high.coords));
     let distances = correction.points().iter().map(|point| (on_map(point) - point).norm());

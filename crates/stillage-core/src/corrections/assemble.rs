@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::check::CorrectionProblem;
-use super::draft::{Draft, Said};
+use super::draft::{MapDraft, Said};
 use super::outcome::{Corrected, Outcome};
 use super::passage;
 use crate::adjacency::AdjacencyGraph;
@@ -21,7 +21,7 @@ pub(super) fn assemble(
     grid: &OccupancyGrid,
     analysis: &Analysis,
     cells: &CellFaces,
-    draft: Draft<'_>,
+    draft: MapDraft<'_>,
     problems: Vec<Option<CorrectionProblem>>,
 ) -> Result<Corrected, Stopped> {
     let (mut analysis, cell_faces) = if draft.subdivision == analysis.subdivision {
@@ -58,7 +58,7 @@ fn redrawn(
     grid: &OccupancyGrid,
     analysis: &Analysis,
     cells: &CellFaces,
-    draft: &Draft<'_>,
+    draft: &MapDraft<'_>,
 ) -> Result<(Analysis, CellFaces), Stopped> {
     let (subdivision, watch) = (draft.subdivision.clone(), &draft.watch);
     let kept = KeptParts::between(&analysis.subdivision, &subdivision);
@@ -113,7 +113,7 @@ fn give_category(face: &mut FaceAnnotation, category: u8) {
 }
 
 /// Makes edges a door, or shuts them; doors that were found there give way.
-fn mark_door(rooms: &mut RoomMap, ends: [Point; 2], is_open: bool, edges: Vec<EdgeId>, draft: &Draft<'_>) {
+fn mark_door(rooms: &mut RoomMap, ends: [Point; 2], is_open: bool, edges: Vec<EdgeId>, draft: &MapDraft<'_>) {
     rooms.doors.retain(|door| !door.edges.iter().any(|edge| edges.binary_search(edge).is_ok()));
     rooms.passages.extend(edges.iter().map(|&edge| (edge, is_open)));
     if let Some(&first) = edges.first().filter(|_| is_open) {

@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::draft::{Draft, FaceClaim};
+use super::draft::{FaceClaim, MapDraft};
 use super::failure::Failure;
 use super::snap::Snap;
 use crate::arrangement::{FaceId, Subdivision};
@@ -13,7 +13,7 @@ use crate::watch::Stopped;
 const OVERSHOOT_M: f64 = 1.0;
 
 /// Cuts the faces that a line crosses.
-pub(super) fn split(draft: &mut Draft<'_>, line: &[Point], correction: u32) -> Result<(), Failure> {
+pub(super) fn split(draft: &mut MapDraft<'_>, line: &[Point], correction: u32) -> Result<(), Failure> {
     draft.settle()?;
     let snap = Snap::near(draft.pieces(), line, draft.tolerance);
     let line: Vec<Point> = line.iter().map(|&point| snap.point(point)).collect();
@@ -40,7 +40,7 @@ pub(super) fn split(draft: &mut Draft<'_>, line: &[Point], correction: u32) -> R
 }
 
 /// The arrangement with a line; `None` where it cuts no face.
-fn cut_along(draft: &Draft<'_>, line: &[Point]) -> Result<Option<Subdivision>, Stopped> {
+fn cut_along(draft: &MapDraft<'_>, line: &[Point]) -> Result<Option<Subdivision>, Stopped> {
     let segments: Vec<[Point; 2]> = line.windows(2).map(|pair| [pair[0], pair[1]]).collect();
     let mut pieces = draft.pieces().clone();
     pieces.draw(&segments, &draft.watch)?;
@@ -49,7 +49,7 @@ fn cut_along(draft: &Draft<'_>, line: &[Point]) -> Result<Option<Subdivision>, S
 }
 
 /// A line whose ends are drawn on to the next border, where one is near ahead.
-fn drawn_on(draft: &Draft<'_>, mut line: Vec<Point>) -> Vec<Point> {
+fn drawn_on(draft: &MapDraft<'_>, mut line: Vec<Point>) -> Vec<Point> {
     let edges = draft.pieces().near(&Bounds::around(&line).grown(OVERSHOOT_M));
     for _ in 0..2 {
         line.reverse();
@@ -68,7 +68,7 @@ fn drawn_on(draft: &Draft<'_>, mut line: Vec<Point>) -> Vec<Point> {
 }
 
 /// Makes the faces at some points one.
-pub(super) fn merge(draft: &mut Draft<'_>, at: &[Point], correction: u32) -> Result<(), Failure> {
+pub(super) fn merge(draft: &mut MapDraft<'_>, at: &[Point], correction: u32) -> Result<(), Failure> {
     let mut members = Vec::with_capacity(at.len());
     for (number, &point) in at.iter().enumerate() {
         members.push(draft.face_at(point, &format!("/at/{number}"))?);

@@ -72,7 +72,7 @@ pub(super) struct Said {
 }
 
 /// A map while it is corrected; points in the grid frame.
-pub(super) struct Draft<'a> {
+pub(super) struct MapDraft<'a> {
     /// From the lower left to the upper right corner of the grid.
     pub bounds: Bounds,
     /// How near points join what is there, metres.
@@ -87,7 +87,7 @@ pub(super) struct Draft<'a> {
     paintings: Vec<Painting>,
 }
 
-impl<'a> Draft<'a> {
+impl<'a> MapDraft<'a> {
     /// The map as it was analysed.
     pub fn of(grid: &OccupancyGrid, analysis: &Analysis, watch: Watch<'a>) -> Self {
         let claim = |(face, known): (u32, &FaceAnnotation)| FaceClaim {

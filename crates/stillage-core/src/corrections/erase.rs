@@ -7,7 +7,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::draft::Draft;
+use super::draft::MapDraft;
 use super::failure::Failure;
 use crate::arrangement::{EdgeId, FaceId};
 use crate::geometry::common_area::common_area;
@@ -18,7 +18,7 @@ use crate::plot::PlotKind;
 const MAJORITY: f64 = 0.5;
 
 /// Takes away what lies in a polygon, counter-clockwise.
-pub(super) fn erase(draft: &mut Draft<'_>, ring: &[Point], correction: u32) -> Result<(), Failure> {
+pub(super) fn erase(draft: &mut MapDraft<'_>, ring: &[Point], correction: u32) -> Result<(), Failure> {
     draft.settle()?;
     let mut sets = DisjointSets::new(draft.subdivision.face_count());
     // By face that goes: the face it becomes a part of.
@@ -44,7 +44,9 @@ pub(super) fn erase(draft: &mut Draft<'_>, ring: &[Point], correction: u32) -> R
     }
     let roots: Vec<usize> = (0..draft.subdivision.face_count()).map(|face| sets.find(face)).collect();
     let heirs = heirs(draft, &roots, &hosts);
-    heirs.values().for_each(|heir| draft.claims[heir.index()].touch(correction));
+    for heir in heirs.values() {
+        draft.claims[heir.index()].touch(correction);
+    }
     let inner = |edge| {
         let [left, right] = draft.subdivision.sides(edge).map(FaceId::index);
         roots[left] == roots[right]
@@ -55,7 +57,7 @@ pub(super) fn erase(draft: &mut Draft<'_>, ring: &[Point], correction: u32) -> R
 }
 
 /// The faces that lie in a polygon for most of their area.
-fn faces_inside(draft: &Draft<'_>, ring: &[Point]) -> BTreeSet<FaceId> {
+fn faces_inside(draft: &MapDraft<'_>, ring: &[Point]) -> BTreeSet<FaceId> {
     let bounds = Bounds::around(ring);
     let window = [ring.to_vec()];
     let is_near = |face: FaceId| {
@@ -74,7 +76,7 @@ fn faces_inside(draft: &Draft<'_>, ring: &[Point]) -> BTreeSet<FaceId> {
 }
 
 /// Joins each group of faces that go with the neighbour it shares most of its border with; gives these neighbours.
-fn join_neighbours(draft: &Draft<'_>, erased: &BTreeSet<FaceId>, sets: &mut DisjointSets) -> Vec<FaceId> {
+fn join_neighbours(draft: &MapDraft<'_>, erased: &BTreeSet<FaceId>, sets: &mut DisjointSets) -> Vec<FaceId> {
     let subdivision = &draft.subdivision;
     for edge in subdivision.edges() {
         let sides = subdivision.sides(edge);
@@ -107,7 +109,7 @@ fn join_neighbours(draft: &Draft<'_>, erased: &BTreeSet<FaceId>, sets: &mut Disj
 }
 
 /// The edges that lie wholly in a polygon, or within reach of its sides, between two faces.
-fn borders_inside(draft: &Draft<'_>, ring: &[Point]) -> Vec<EdgeId> {
+fn borders_inside(draft: &MapDraft<'_>, ring: &[Point]) -> Vec<EdgeId> {
     let reach = Bounds::around(ring).grown(draft.tolerance);
     let rings = [ring.to_vec()];
     let is_near = |point: Point| polygon::sides(&rings).any(|side| segment::distance(point, side) <= draft.tolerance);
@@ -121,7 +123,7 @@ fn borders_inside(draft: &Draft<'_>, ring: &[Point]) -> Vec<EdgeId> {
 }
 
 /// By set of two faces or more: the face whose claim the whole takes, a neighbour that was joined, or the largest.
-fn heirs(draft: &Draft<'_>, roots: &[usize], hosts: &[FaceId]) -> BTreeMap<usize, FaceId> {
+fn heirs(draft: &MapDraft<'_>, roots: &[usize], hosts: &[FaceId]) -> BTreeMap<usize, FaceId> {
     let mut members: BTreeMap<usize, Vec<FaceId>> = BTreeMap::new();
     for (face, &root) in (0..).map(FaceId).zip(roots) {
         members.entry(root).or_default().push(face);

@@ -1,13 +1,13 @@
 //! Faces that people draw: a polygon, or a row of places.
 
-use super::draft::{Draft, FaceClaim};
+use super::draft::{FaceClaim, MapDraft};
 use super::snap::Snap;
 use crate::geometry::Point;
 use crate::plot::PlotKind;
 use crate::watch::Stopped;
 
 /// Makes what lies inside a polygon one face. It is in no room: it stands in one, or is one itself.
-pub(super) fn draw(draft: &mut Draft<'_>, ring: &[Point], claim: FaceClaim) -> Result<(), Stopped> {
+pub(super) fn draw(draft: &mut MapDraft<'_>, ring: &[Point], claim: FaceClaim) -> Result<(), Stopped> {
     let ring = Snap::near(draft.pieces(), ring, draft.tolerance).ring(ring);
     let outline: Vec<[Point; 2]> = closed(&ring).collect();
     draft.paint(&outline, &[], ring, FaceClaim { kind: Some(PlotKind::Other), ..claim })
@@ -15,7 +15,7 @@ pub(super) fn draw(draft: &mut Draft<'_>, ring: &[Point], claim: FaceClaim) -> R
 
 /// Cuts a rectangle into places: `places` along its first side, `layers` across it.
 pub(super) fn row(
-    draft: &mut Draft<'_>,
+    draft: &mut MapDraft<'_>,
     rectangle: &[Point; 4],
     [places, layers]: [u32; 2],
     claim: FaceClaim,

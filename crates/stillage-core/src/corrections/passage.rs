@@ -3,7 +3,7 @@
 //! A border belongs to a door where it runs beside the line of the door; it is cut at the jambs, so that what lies beyond
 //! them stays as it is.
 
-use super::draft::{DoorMark, Draft};
+use super::draft::{DoorMark, MapDraft};
 use super::failure::Failure;
 use crate::arrangement::{EdgeId, FaceId, Subdivision};
 use crate::geometry::{Bounds, Point, segment};
@@ -14,7 +14,7 @@ const REACH_M: f64 = 0.3;
 const MAJORITY: f64 = 0.5;
 
 /// Cuts the borders along a line at its ends, and notes whether vehicles may pass there.
-pub(super) fn door(draft: &mut Draft<'_>, line: [Point; 2], is_open: bool, correction: u32) -> Result<(), Failure> {
+pub(super) fn door(draft: &mut MapDraft<'_>, line: [Point; 2], is_open: bool, correction: u32) -> Result<(), Failure> {
     draft.settle()?;
     let stretches: Vec<[Point; 2]> =
         draft.subdivision.edges().filter_map(|edge| stretch(&draft.subdivision, edge, line)).collect();

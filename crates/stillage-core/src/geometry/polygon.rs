@@ -71,15 +71,13 @@ pub fn crossing_sides(ring: &[Point]) -> Option<[usize; 2]> {
         current.retain(|&other| range(other).1 >= range(number).0);
         let is_crossed = |&other: &usize| {
             let (one, next) = (side(number), side(other));
-            match (number + 1) % ring.len() == other || (other + 1) % ring.len() == number {
-                // Neighbours share a corner; they cross where one turns back along the other.
-                true => {
-                    let [first, second] = if one[1] == next[0] { [one, next] } else { [next, one] };
-                    let (way, on) = (first[1] - first[0], second[1] - second[0]);
-                    way.perp(&on) == 0.0 && way.dot(&on) <= 0.0
-                }
-                false => meet(one, next),
+            if (number + 1) % ring.len() != other && (other + 1) % ring.len() != number {
+                return meet(one, next);
             }
+            // Neighbours share a corner; they cross where one turns back along the other.
+            let [first, second] = if one[1] == next[0] { [one, next] } else { [next, one] };
+            let (way, on) = (first[1] - first[0], second[1] - second[0]);
+            way.perp(&on) == 0.0 && way.dot(&on) <= 0.0
         };
         if let Some(&other) = current.iter().find(|other| is_crossed(other)) {
             return Some([number.min(other), number.max(other)]);
