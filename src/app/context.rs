@@ -98,6 +98,7 @@ impl GeometricLevel {
             .unwrap_or_else(|| suggested_semantics(&self.analysed, (analysis_id, analysed_at), suggested_layout));
         let assignment = self.corrections.labelled(&semantics.assignment);
         let semantic = semantics::apply(&self.analysis, &rule_set, &assignment)?;
+        let names = MapNames { faces: self.corrections.named_faces(), ..MapNames::default() };
         let Self { grid, analysed, analysis: geometric, cells, corrections } = self;
         let frame = *grid.frame();
         let layout_spec = LayoutSpec::wished(&semantics.layout, &geometric.options, &site_to_grid(&record, frame));
@@ -119,7 +120,7 @@ impl GeometricLevel {
             numbered,
             layout,
             layout_spec,
-            names: MapNames::default(),
+            names,
             features: FeatureCache::default(),
             routers: RouterCache::default(),
         })

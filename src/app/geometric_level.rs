@@ -46,6 +46,12 @@ pub struct AppliedCorrections {
 }
 
 impl AppliedCorrections {
+    /// The names of faces, by number.
+    #[must_use]
+    pub(super) fn named_faces(&self) -> BTreeMap<u32, String> {
+        self.names.iter().map(|(face, name)| (face.0, name.clone())).collect()
+    }
+
     /// A decision with the labels that the corrections give to faces to which the decision gives none.
     #[must_use]
     pub fn labelled<'a>(&self, decision: &'a Assignment) -> Cow<'a, Assignment> {

@@ -229,6 +229,7 @@ pub(super) fn names_of(context: &MapContext, registry: &Registry, codes: &[Given
         places: areas(AreaKind::Place),
         aisles: areas(AreaKind::Aisle),
         rows: areas(AreaKind::Row),
+        faces: context.corrections.named_faces(),
     }
 }
 

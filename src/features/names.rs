@@ -1,5 +1,7 @@
 //! What people call the things of a map.
 
+use std::collections::BTreeMap;
+
 use super::collection::Collection;
 
 /// What people call one thing.
@@ -25,6 +27,8 @@ pub struct MapNames {
     pub aisles: Vec<Naming>,
     /// Of its rows.
     pub rows: Vec<Naming>,
+    /// The names that corrections give to faces, by number.
+    pub faces: BTreeMap<u32, String>,
 }
 
 impl MapNames {
@@ -37,6 +41,7 @@ impl MapNames {
             places: Vec::new(),
             aisles: Vec::new(),
             rows: Vec::new(),
+            faces: BTreeMap::new(),
         };
         &NONE
     }

@@ -99,7 +99,7 @@ fn each_collection_has_its_properties() {
         })
         .collect();
     expect![[r#"
-        faces (Polygon): id, category, categoryShares, membership, label, labelName, functionality, confidence, evidence, areaM2, lengthM, widthM, orientation, elongation, freeFraction, occupiedFraction, unknownFraction, region, edges, place, location
+        faces (Polygon): id, category, categoryShares, membership, label, labelName, functionality, confidence, evidence, areaM2, lengthM, widthM, orientation, elongation, freeFraction, occupiedFraction, unknownFraction, region, edges, place, location, name
         edges (LineString): id, faceLeft, faceRight, cogency, lengthM, support, open, confidence, evidence, disagreement, link, orientation, line
         vertices (Point): id, edges
         nodes (Point): id, face, label, degree

@@ -109,6 +109,12 @@ async fn waiting_map(api: &Api) -> String {
     format!("/v1/maps/{}", answer["mapId"].as_str().expect("an id"))
 }
 
+/// Gives the hall a name.
+fn name_hall(map: &str) -> Sent {
+    let correction = json!({"kind": "name", "at": [4.0, -0.2], "name": "Hall"});
+    Sent::new(Method::POST, format!("{map}/corrections")).json(&correction).with("if-match", "*")
+}
+
 fn rule_set(id: &str) -> Value {
     json!({"id": id, "labels": [
         {"id": "co", "name": "corridor", "color": "#1f77b4", "functionality": ["drivable"], "connectsTo": ["co"]},
@@ -208,6 +214,35 @@ pub async fn valid(site: &Site, operation: &str) -> (Sent, &'static [u16]) {
         "restoreSemantics" => {
             let path = format!("{map}/semantics/versions/0/restore");
             (Sent::new(Method::POST, path).with("if-match", "*"), &[200])
+        }
+        "listVersionChanges" => get(format!("{map}/semantics/versions/0/changes?since=0")),
+        "undoSemantics" | "redoSemantics" => {
+            // Something to undo, and for the one who redoes something undone.
+            let patch = json!({"assignment": {"0": "co"}});
+            let changed = Sent::new(Method::PATCH, format!("{map}/semantics")).json(&patch).with("if-match", "*");
+            assert_eq!(changed.to(&site.api).await.status, 200);
+            let step = |way: &str| Sent::new(Method::POST, format!("{map}/semantics/{way}")).with("if-match", "*");
+            if operation == "redoSemantics" {
+                assert_eq!(step("undo").to(&site.api).await.status, 200);
+            }
+            (step(operation.trim_end_matches("Semantics")), &[200])
+        }
+        "listCorrections" => get(format!("{map}/corrections")),
+        "correctMap" => (name_hall(map), &[201]),
+        "getCorrection" | "changeCorrection" | "deleteCorrection" => {
+            let made = name_hall(map).to(&site.api).await;
+            assert_eq!(made.status, 201, "{}", made.text());
+            let list = made.json()["corrections"].clone();
+            let id = list.as_array().and_then(|list| list.last()?["id"].as_str()).expect("an id").to_owned();
+            let path = format!("{map}/corrections/{id}");
+            match operation {
+                "getCorrection" => get(path),
+                "changeCorrection" => {
+                    let patch = json!({"name": "Long hall"});
+                    (Sent::new(Method::PATCH, path).json(&patch).with("if-match", "*"), &[200])
+                }
+                _ => (Sent::new(Method::DELETE, path).with("if-match", "*"), &[200]),
+            }
         }
         "listSemanticsVersions" => get(format!("{map}/semantics/versions")),
         "getConformance" => get(format!("{map}/conformance")),

@@ -10,6 +10,7 @@
 mod bodies;
 mod client;
 mod clients;
+mod corrections;
 mod dashboard;
 mod deletion;
 mod document;

@@ -128,7 +128,8 @@ async fn a_decision_changes_the_answer_and_nothing_is_read_again() {
         "{unknown:?}"
     );
 
-    let made = decide(None, Some(0)).await.unwrap();
+    let (made, lost) = decide(None, Some(0)).await.unwrap();
+    assert!(lost.is_empty());
     assert_eq!((made.version, made.rule_set.as_str(), made.origin), (1, "site", SemanticsOrigin::Assigned));
     let after = service.context(&me(), map).await.unwrap();
     assert_eq!(after.semantics, made);

@@ -34,6 +34,7 @@ pub struct FaceRow {
     edges: Vec<u32>,
     place: Option<u32>,
     location: Option<String>,
+    name: Option<String>,
 }
 
 /// The collection.
@@ -136,6 +137,11 @@ pub const TABLE: Table<FaceRow> = Table {
             .nullable(),
             |face| face.location.as_deref().into(),
         ),
+        Column::new(
+            Property::new("name", Kind::Text, "Name", "What people call its location, or the face in a correction")
+                .nullable(),
+            |face| face.name.as_deref().into(),
+        ),
     ],
 };
 
@@ -143,13 +149,15 @@ pub const TABLE: Table<FaceRow> = Table {
 #[must_use]
 pub fn read(view: &AnalysedMap<'_>) -> Vec<(Geometry, FaceRow)> {
     let subdivision = &view.analysis.subdivision;
-    let mut codes = vec![None; subdivision.face_count()];
-    for location in &view.layout.locations {
-        codes[location.face.index()].get_or_insert(&location.code);
+    let mut locations: Vec<Option<usize>> = vec![None; subdivision.face_count()];
+    for (index, location) in view.layout.locations.iter().enumerate() {
+        locations[location.face.index()].get_or_insert(index);
     }
     let labels = view.labels();
     let row = |face: FaceId| {
         let annotation = &view.analysis.faces[face.index()];
+        let location = locations[face.index()];
+        let name_of_location = location.and_then(|index| view.names.location(index).name);
         let numbers = |shares: &[f32]| shares.iter().map(|&share| rounded(f64::from(share))).collect::<Vec<f64>>();
         FaceRow {
             id: face.0,
@@ -169,7 +177,8 @@ pub fn read(view: &AnalysedMap<'_>) -> Vec<(Geometry, FaceRow)> {
             region: annotation.region,
             edges: edges_around(subdivision, face),
             place: view.semantic.face_places[face.index()],
-            location: codes[face.index()].cloned(),
+            location: location.map(|index| view.layout.locations[index].code.clone()),
+            name: name_of_location.or_else(|| view.names.faces.get(&face.0).cloned()),
         }
     };
     subdivision.faces().map(|face| (shape::of_face(view, face), row(face))).collect()

@@ -214,8 +214,10 @@ impl IfMatch {
                 Ok(Some(version))
             }
             Tags::Listed(_) => {
-                let detail =
-                    format!("the resource is at \"{}\", not at what If-Match names: read it again", current.text);
+                let detail = format!(
+                    "the resource is at \"{}\" (version {version}), not at what If-Match names: read it again",
+                    current.text
+                );
                 Err(Problem::new(ProblemType::PreconditionFailed, detail))
             }
         }
