@@ -14,6 +14,7 @@ use uuid::Uuid;
 use super::geometric_level::AppliedCorrections;
 use super::routers::RouterCache;
 use crate::coordinates::{Crs, Transform};
+use crate::features::query::PropertySelection;
 use crate::features::{self, AnalysedMap, Collection, Feature, MapNames};
 use crate::formats::FeatureTexts;
 use crate::records::{CorrectionId, MapRecord, SemanticsRecord};
@@ -110,7 +111,8 @@ impl MapContext {
     #[must_use]
     pub fn feature_texts(&self, collection: Collection) -> &FeatureTexts {
         let degrees = || Transform::new(Crs::Crs84, self.record.georeference);
-        self.features.texts[collection as usize]
-            .get_or_init(|| FeatureTexts::new(self.features(collection).len(), degrees()))
+        self.features.texts[collection as usize].get_or_init(|| {
+            FeatureTexts::new(self.features(collection).len(), PropertySelection::all(collection), degrees())
+        })
     }
 }

@@ -97,12 +97,6 @@ impl Feature {
         Self { id, bounds: geometry.bounds(), geometry, row }
     }
 
-    /// Names and values of its properties, in the order of the schema.
-    pub fn properties(&self) -> impl Iterator<Item = (&'static str, Value<'_>)> {
-        let properties = CollectionSchema::of(self.row.collection()).properties.iter().enumerate();
-        properties.map(|(index, property)| (property.name, self.row.value(index)))
-    }
-
     /// The value of a property; `None` where its collection has no such property.
     #[must_use]
     pub fn property(&self, name: &str) -> Option<Value<'_>> {

@@ -7,7 +7,7 @@
 //! | `rows` | a file for each collection: its columns, and how its rows are read off a map |
 //! | `feature`, `id`, `geometry`, `value`, `words` | one feature |
 //! | `names` | what people call the things of a map |
-//! | `query` | which features: by ids, by a box, in which order, page by page |
+//! | `query` | which features: by ids, by a box, in which order, page by page; which of their properties |
 //! | `view`, `shape`, `rings` | the map that is read; outlines of faces and of what they make up |
 //!
 //! A [`Feature`] carries its shape in map-frame metres. What all properties have in common: lengths are metres and

@@ -9,6 +9,7 @@ use stillage_core::semantics::{self, Assignment, RuleSet, SemanticMap};
 use stillage_core::watch::Watch;
 use stillage_core::{Analysis, AnalysisOptions, GridFrame, Occupancy, OccupancyGrid, SiteCells};
 
+use super::query::PropertySelection;
 use super::*;
 
 /// A hall of 24 x 16 m with double rows of racks and an office in a corner, at 0.1 m, turned by 0.3 radians.
@@ -94,7 +95,8 @@ fn each_collection_has_its_properties() {
     let lists: Vec<String> = all()
         .map(|(collection, features)| {
             let first = features.first().unwrap_or_else(|| panic!("no {}", collection.id()));
-            let names: Vec<&str> = first.properties().map(|(name, _)| name).collect();
+            let names: Vec<&str> =
+                PropertySelection::all(collection).properties().map(|property| property.name).collect();
             format!("{} ({}): {}\n", collection.id(), first.geometry.geometry_type().name(), names.join(", "))
         })
         .collect();
@@ -125,9 +127,8 @@ fn ids_ascend() {
 fn values_are_what_the_schema_says() {
     for (collection, features) in all() {
         for feature in &features {
-            for (property, (name, value)) in
-                CollectionSchema::of(collection).properties.iter().zip(feature.properties())
-            {
+            for (property, value) in PropertySelection::all(collection).values(feature) {
+                let name = property.name;
                 let word = |word: &str, words: &[&str]| words.contains(&word);
                 let fits = match (value, property.kind) {
                     (Value::Null, _) => property.nullable,

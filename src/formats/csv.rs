@@ -2,8 +2,9 @@
 
 use super::wkt;
 use crate::coordinates::Transform;
+use crate::features::query::PropertySelection;
 use crate::features::rows::locations::LocationRow;
-use crate::features::{Collection, CollectionSchema, Feature, Row, Value};
+use crate::features::{Feature, Row, Value};
 
 /// Reads a cell off a location.
 pub(crate) type ReadCell = fn(&LocationRow) -> Value<'_>;
@@ -43,20 +44,19 @@ pub fn locations<'a>(features: impl IntoIterator<Item = &'a Feature>) -> Vec<u8>
     table(&COLUMNS.map(|(name, _)| name), rows)
 }
 
-/// Features of a collection as CSV, a row each: their properties in the order of the schema, lists and poses as JSON, then
-/// the shape as well-known text in the coordinates of the transform.
+/// Features as CSV, a row each: these properties, lists and poses as JSON, then the shape as well-known text in the
+/// coordinates of the transform.
 #[must_use]
 pub fn collection<'a>(
-    collection: Collection,
+    properties: &PropertySelection,
     features: impl IntoIterator<Item = &'a Feature>,
     transform: &Transform,
 ) -> Vec<u8> {
-    let properties = &CollectionSchema::of(collection).properties;
-    let names: Vec<&str> = properties.iter().map(|property| property.name).chain(["geometry"]).collect();
+    let names: Vec<&str> = properties.properties().map(|property| property.name).chain(["geometry"]).collect();
     records(
         &names,
         features.into_iter().map(|feature| {
-            let values = feature.properties().map(|(_, value)| cell(value));
+            let values = properties.values(feature).map(|(_, value)| cell(value));
             values.chain([wkt::geometry(&feature.geometry, transform)]).collect::<Vec<_>>()
         }),
     )

@@ -8,6 +8,7 @@ use stillage_core::Point;
 
 use super::json::{self, Json};
 use crate::coordinates::{Crs, Transform};
+use crate::features::query::PropertySelection;
 use crate::features::{Feature, FeatureId, Geometry};
 
 /// Members of an object beside those that GeoJSON has: name and value, in the order in which they are written.
@@ -26,11 +27,16 @@ pub struct GeoJsonFeature<'a> {
     pub members: Members<'a>,
 }
 
-/// A feature of a collection, with members beside those of GeoJSON.
+/// A feature of a collection with some of its properties, and with members beside those of GeoJSON.
 #[must_use]
-pub fn feature(feature: &Feature, transform: &Transform, members: Members<'_>) -> Vec<u8> {
+pub fn feature(
+    feature: &Feature,
+    properties: &PropertySelection,
+    transform: &Transform,
+    members: Members<'_>,
+) -> Vec<u8> {
     let mut out = Vec::new();
-    write_feature(feature, transform, members, &mut out);
+    write_feature(feature, properties, transform, members, &mut out);
     out.push(b'\n');
     out
 }
@@ -44,14 +50,16 @@ pub fn document(document: &GeoJsonFeature<'_>, transform: &Transform) -> Vec<u8>
     out
 }
 
-/// A `FeatureCollection` with members beside those of GeoJSON, which come before the features.
+/// A `FeatureCollection` of features with some of their properties, and with members beside those of GeoJSON, which come
+/// before the features.
 #[must_use]
 pub fn feature_collection<'a>(
     features: impl IntoIterator<Item = &'a Feature>,
+    properties: &PropertySelection,
     transform: &Transform,
     members: Members<'_>,
 ) -> Vec<u8> {
-    write_collection(features, members, |feature, out| write_feature(feature, transform, &[], out))
+    write_collection(features, members, |feature, out| write_feature(feature, properties, transform, &[], out))
 }
 
 /// A `FeatureCollection` of features that belong to no collection of the map.
@@ -102,18 +110,27 @@ struct CrsProperties {
     name: &'static str,
 }
 
-/// The properties of a feature as an object.
+/// Some properties of a feature as an object.
 #[derive(Debug)]
-struct Properties<'a>(&'a Feature);
+struct Properties<'a> {
+    feature: &'a Feature,
+    selection: &'a PropertySelection,
+}
 
 impl Serialize for Properties<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.collect_map(self.0.properties())
+        serializer.collect_map(self.selection.values(self.feature).map(|(property, value)| (property.name, value)))
     }
 }
 
-pub(super) fn write_feature(feature: &Feature, transform: &Transform, members: Members<'_>, out: &mut Vec<u8>) {
-    let properties = Properties(feature);
+pub(super) fn write_feature(
+    feature: &Feature,
+    selection: &PropertySelection,
+    transform: &Transform,
+    members: Members<'_>,
+    out: &mut Vec<u8>,
+) {
+    let properties = Properties { feature, selection };
     let document =
         GeoJsonFeature { id: Some(&feature.id), geometry: &feature.geometry, properties: &properties, members };
     write_document(&document, transform, out);

@@ -7,7 +7,8 @@
 use super::geojson::{self, Members};
 use super::json::Json;
 use crate::coordinates::Transform;
-use crate::features::{Collection, Feature, Geometry};
+use crate::features::query::PropertySelection;
+use crate::features::{Feature, Geometry};
 
 /// The plane of a building or a site, as the OGC names it.
 pub const ENGINEERING_2D: &str = "http://www.opengis.net/def/crs/OGC/0/Engineering2D";
@@ -42,35 +43,47 @@ impl Json for Place<'_> {
     }
 }
 
-/// A feature, with members beside those of JSON-FG.
+/// A feature with some of its properties, and with members beside those of JSON-FG.
 #[must_use]
-pub fn feature(feature: &Feature, systems: Systems<'_>, members: Members<'_>) -> Vec<u8> {
+pub fn feature(
+    feature: &Feature,
+    properties: &PropertySelection,
+    systems: Systems<'_>,
+    members: Members<'_>,
+) -> Vec<u8> {
     let mut out = Vec::new();
-    let feature_type = feature.row.collection().id();
+    let feature_type = properties.collection().id();
     let root: [(&str, &dyn Json); 3] =
         [("conformsTo", &CONFORMS_TO), ("featureType", &feature_type), ("coordRefSys", &systems.place_uri)];
-    write_feature(feature, systems, &[root.as_slice(), members].concat(), &mut out);
+    write_feature(feature, properties, systems, &[root.as_slice(), members].concat(), &mut out);
     out.push(b'\n');
     out
 }
 
-/// A `FeatureCollection`, with members beside those of JSON-FG, which come before the features.
+/// A `FeatureCollection` of features with some of their properties, and with members beside those of JSON-FG, which come
+/// before the features.
 #[must_use]
 pub fn feature_collection<'a>(
-    collection: Collection,
     features: impl IntoIterator<Item = &'a Feature>,
+    properties: &PropertySelection,
     systems: Systems<'_>,
     members: Members<'_>,
 ) -> Vec<u8> {
-    let feature_type = collection.id();
+    let feature_type = properties.collection().id();
     let root: [(&str, &dyn Json); 3] =
         [("conformsTo", &CONFORMS_TO), ("featureType", &feature_type), ("coordRefSys", &systems.place_uri)];
     let members = [root.as_slice(), members].concat();
-    geojson::write_collection(features, &members, |feature, out| write_feature(feature, systems, &[], out))
+    geojson::write_collection(features, &members, |feature, out| write_feature(feature, properties, systems, &[], out))
 }
 
-fn write_feature(feature: &Feature, systems: Systems<'_>, members: Members<'_>, out: &mut Vec<u8>) {
+fn write_feature(
+    feature: &Feature,
+    properties: &PropertySelection,
+    systems: Systems<'_>,
+    members: Members<'_>,
+    out: &mut Vec<u8>,
+) {
     let place = Place { geometry: &feature.geometry, transform: systems.place };
     let own: [(&str, &dyn Json); 2] = [("time", &()), ("place", &place)];
-    geojson::write_feature(feature, systems.geometry, &[own.as_slice(), members].concat(), out);
+    geojson::write_feature(feature, properties, systems.geometry, &[own.as_slice(), members].concat(), out);
 }

@@ -4,6 +4,7 @@ use serde_json::Value;
 
 use super::{csv, geojson};
 use crate::coordinates::{Crs, Transform};
+use crate::features::query::PropertySelection;
 use crate::features::tests::{all, hall_view};
 use crate::features::{Collection, Geometry, features};
 
@@ -11,14 +12,15 @@ use crate::features::{Collection, Geometry, features};
 fn the_bytes_are_json_and_in_metres_the_map_frame() {
     for (collection, features) in all() {
         let members: geojson::Members<'_> = &[("crs", &geojson::EPSG_3857)];
-        let bytes = geojson::feature_collection(&features, &Transform::map_frame(), members);
+        let properties = PropertySelection::all(collection);
+        let bytes = geojson::feature_collection(&features, &properties, &Transform::map_frame(), members);
         let json: Value = serde_json::from_slice(&bytes).unwrap();
         assert_eq!(json["crs"]["properties"]["name"], "urn:ogc:def:crs:EPSG::3857");
         let written = json["features"].as_array().unwrap();
         assert_eq!(written.len(), features.len(), "{}", collection.id());
         for (feature, written) in features.iter().zip(written) {
             assert_eq!(serde_json::to_value(&feature.id).unwrap(), written["id"]);
-            let names: Vec<&str> = feature.properties().map(|(name, _)| name).collect();
+            let names: Vec<&str> = properties.properties().map(|property| property.name).collect();
             assert_eq!(written["properties"].as_object().unwrap().keys().collect::<Vec<_>>(), names);
             let mut first = &written["geometry"]["coordinates"];
             while first[0].is_array() {
@@ -34,7 +36,8 @@ fn the_bytes_are_json_and_in_metres_the_map_frame() {
 #[test]
 fn degrees_are_written_with_nine_decimals() {
     let features = features(&hall_view(), Collection::Vertices);
-    let bytes = geojson::feature_collection(&features, &Transform::new(Crs::Crs84, None), &[]);
+    let all = PropertySelection::all(Collection::Vertices);
+    let bytes = geojson::feature_collection(&features, &all, &Transform::new(Crs::Crs84, None), &[]);
     let json: Value = serde_json::from_slice(&bytes).unwrap();
     assert_eq!(json.get("crs"), None, "GeoJSON is in degrees unless it says otherwise");
     let longitude = json["features"][0]["geometry"]["coordinates"][0].as_f64().unwrap();

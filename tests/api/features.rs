@@ -164,6 +164,8 @@ async fn bad_values_are_refused_by_name() {
         ("after=x", "after"),
         ("ids=1,x", "ids"),
         ("ids=", "ids"),
+        ("properties=colour", "properties"),
+        ("properties=", "properties"),
         ("sortby=colour", "sortby"),
         ("sortby=edges", "sortby"),
         ("sortby=areaM2&after=999999", "after"),
@@ -274,7 +276,8 @@ async fn a_feature_has_an_address() {
         for member in ["id", "type", "geometry", "properties"] {
             assert_eq!(feature[member], first[member], "{collection}");
         }
-        assert_eq!(feature["links"][0]["href"], format!("http://stillage.test{items}/{id}"));
+        let here = format!("http://stillage.test{items}/{id}?crs=http://www.opengis.net/def/crs/EPSG/0/3857");
+        assert_eq!(feature["links"][0]["href"], here);
         for wrong in ["999999", "01", "x%20y"] {
             api.get(&format!("{items}/{wrong}")).await.problem(404, "not-found");
         }

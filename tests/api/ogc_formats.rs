@@ -78,6 +78,54 @@ async fn every_collection_is_a_table() {
 }
 
 #[tokio::test]
+async fn every_format_has_the_properties_that_are_named() {
+    let api = Api::new().await;
+    let map = api.hall().await;
+    for (collection, named) in
+        [("faces", ["areaM2", "label"]), ("locations", ["label", "code"]), ("vertices", ["edges", "id"])]
+    {
+        let items = format!("{map}/collections/{collection}/items");
+        let at = |format: &str| format!("{items}?properties={}&f={format}", named.join(","));
+        let in_order = [named[1], named[0]];
+        for format in ["json", "jsonfg", "json&crs=EPSG:3857"] {
+            let page = api.get(&at(format)).await.json();
+            assert_eq!(page["numberMatched"], page["numberReturned"]);
+            for feature in page["features"].as_array().expect("a list") {
+                let names: Vec<&String> = feature["properties"].as_object().expect("an object").keys().collect();
+                assert_eq!(names, in_order, "{collection} as {format}");
+                assert!(feature.get("id").is_some(), "the id is no property");
+            }
+        }
+        let table = api.get(&at("csv")).await.text();
+        assert_eq!(table.lines().next(), Some(format!("{},geometry", in_order.join(",")).as_str()));
+        let page = api.get(&at("html")).await.text();
+        let heads: Vec<&str> =
+            page.split("<th>").skip(1).filter_map(|head| head.split("</th>").next()).take(3).collect();
+        assert!(heads.ends_with(&in_order[1..]) && heads.contains(&in_order[0]), "{heads:?}");
+        let [some, all] = [at("fgb"), format!("{items}?f=fgb")].map(|path| path);
+        let (some, all) = (api.get(&some).await.body, api.get(&all).await.body);
+        assert!(some.len() < all.len() || collection == "vertices", "{} of {} bytes", some.len(), all.len());
+        let one = api.get(&format!("{items}?properties={}&limit=1", named[0])).await.json();
+        let next = links(&one, "next");
+        if let Some(next) = next.first() {
+            let next = path_of(&next["href"]);
+            assert!(next.contains(&format!("properties={}", named[0])), "{next}");
+        }
+        let id = match &one["features"][0]["id"] {
+            serde_json::Value::String(code) => code.clone(),
+            number => number.to_string(),
+        };
+        let alone = api.get(&format!("{items}/{id}?properties={}", named[0])).await.json();
+        assert_eq!(alone["properties"], one["features"][0]["properties"]);
+        assert!(links(&alone, "self")[0]["href"].as_str().is_some_and(|href| href.contains("?properties=")));
+        let page = api.get(&format!("{items}/{id}?properties={}&f=html", named[0])).await;
+        assert_eq!(page.status, 200);
+    }
+    let refused = api.get(&format!("{map}/collections/faces/items/1?properties=colour")).await;
+    assert!(refused.problem(400, "bad-parameter").to_string().contains("did you mean"), "{}", refused.text());
+}
+
+#[tokio::test]
 async fn pages_go_on_in_their_format() {
     let api = Api::new().await;
     let map = api.hall().await;

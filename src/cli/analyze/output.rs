@@ -15,6 +15,7 @@ use crate::app::StageReport;
 use crate::cli::failure::Failure;
 use crate::cli::findings::Findings;
 use crate::coordinates::Transform;
+use crate::features::query::PropertySelection;
 use crate::features::{AnalysedMap, Collection, MapNames, features};
 use crate::formats::{csv, geojson};
 use crate::render;
@@ -75,7 +76,8 @@ fn files(findings: &Findings, stages: &[StageReport]) -> Vec<(PathBuf, Vec<u8>)>
     let view = AnalysedMap { analysis, semantic, layout: &findings.layout, names: MapNames::none() };
     let layer = |collection: Collection| {
         let members: geojson::Members<'_> = &[("crs", &geojson::EPSG_3857)];
-        let bytes = geojson::feature_collection(&features(&view, collection), &Transform::map_frame(), members);
+        let all = PropertySelection::all(collection);
+        let bytes = geojson::feature_collection(&features(&view, collection), &all, &Transform::map_frame(), members);
         (PathBuf::from(format!("{}.geojson", collection.id())), bytes)
     };
     let mut files: Vec<(PathBuf, Vec<u8>)> = Collection::ALL.into_iter().map(layer).collect();

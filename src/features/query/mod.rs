@@ -1,6 +1,7 @@
-//! Which features of a collection, in which order, and how many at a time.
+//! Which features of a collection, in which order, how many at a time, and which of their properties.
 
 mod filterable;
+mod properties;
 mod selection;
 mod sort;
 #[cfg(test)]
@@ -13,6 +14,7 @@ use super::id::FeatureId;
 use crate::cql2::Filter;
 
 pub use filterable::{GEOMETRY, queryables};
+pub use properties::PropertySelection;
 pub use selection::BoxSelection;
 pub use sort::SortKey;
 

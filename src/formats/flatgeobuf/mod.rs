@@ -15,7 +15,8 @@ use stillage_core::Point;
 use stillage_core::geometry::Bounds;
 
 use crate::coordinates::{Crs, Transform};
-use crate::features::{Collection, CollectionSchema, Feature, Geometry, GeometryType, Kind, Property, Value};
+use crate::features::query::PropertySelection;
+use crate::features::{CollectionSchema, Feature, Geometry, GeometryType, Kind, Property, Value};
 
 use flat_buffer::{Field, FlatTable, buffer};
 
@@ -29,13 +30,14 @@ const DOUBLE: u8 = 10;
 const STRING: u8 = 11;
 const JSON: u8 = 12;
 
-/// Features of a collection as a file.
+/// Features of a collection with some of their properties as a file.
 #[must_use]
 pub fn collection<'a>(
-    collection: Collection,
+    properties: &PropertySelection,
     features: impl IntoIterator<Item = &'a Feature>,
     transform: &Transform,
 ) -> Vec<u8> {
+    let collection = properties.collection();
     let schema = CollectionSchema::of(collection);
     let shape = FileShape::of(schema.geometry);
     let mut bodies = Vec::new();
@@ -45,13 +47,13 @@ pub fn collection<'a>(
             feature.geometry.points().map(|&point| Point::from(transform.forward(point))).collect();
         let own = Bounds::around(&corners);
         bounds = Bounds { low: bounds.low.inf(&own.low), high: bounds.high.sup(&own.high) };
-        bodies.extend(buffer(&body(feature, shape, schema, transform)));
+        bodies.extend(buffer(&body(feature, shape, properties, transform)));
         count += 1;
     }
     let mut header = FlatTable(vec![
         (0, Field::Text(collection.id())),
         (2, Field::Byte(shape as u8)),
-        (7, Field::Tables(schema.properties.iter().enumerate().map(column).collect())),
+        (7, Field::Tables(properties.properties().map(|property| column(property, schema)).collect())),
         (8, Field::Long(count)),
         // No index.
         (9, Field::Short(0)),
@@ -94,7 +96,7 @@ fn crs(crs: Crs) -> FlatTable<'static> {
     FlatTable(vec![(0, Field::Text("EPSG")), (1, Field::Int(code as i32))])
 }
 
-fn column((index, property): (usize, &Property)) -> FlatTable<'static> {
+fn column(property: &Property, schema: &CollectionSchema) -> FlatTable<'static> {
     let Property { name, title, description, kind, nullable, .. } = *property;
     let r#type = match kind {
         Kind::Boolean => BOOLEAN,
@@ -109,13 +111,17 @@ fn column((index, property): (usize, &Property)) -> FlatTable<'static> {
         (2, Field::Text(title)),
         (3, Field::Text(description)),
         (7, Field::Byte(u8::from(nullable))),
-        // The id comes first.
-        (8, Field::Byte(u8::from(index == 0))),
+        (8, Field::Byte(u8::from(property.name == schema.properties[0].name))),
     ])
 }
 
-fn body(feature: &Feature, shape: FileShape, schema: &CollectionSchema, transform: &Transform) -> FlatTable<'static> {
-    let mut table = FlatTable(vec![(1, Field::Bytes(properties(feature, schema)))]);
+fn body(
+    feature: &Feature,
+    shape: FileShape,
+    properties: &PropertySelection,
+    transform: &Transform,
+) -> FlatTable<'static> {
+    let mut table = FlatTable(vec![(1, Field::Bytes(values(feature, properties)))]);
     if feature.geometry.points().next().is_some() {
         table.0.push((0, Field::Table(geometry(&feature.geometry, shape, transform))));
     }
@@ -123,10 +129,9 @@ fn body(feature: &Feature, shape: FileShape, schema: &CollectionSchema, transfor
 }
 
 /// The values of a feature: number of the column and value.
-fn properties(feature: &Feature, schema: &CollectionSchema) -> Vec<u8> {
+fn values(feature: &Feature, properties: &PropertySelection) -> Vec<u8> {
     let mut out = Vec::new();
-    for (index, property) in schema.properties.iter().enumerate() {
-        let value = feature.row.value(index);
+    for (index, (property, value)) in properties.values(feature).enumerate() {
         if value.is_null() {
             continue;
         }

@@ -3,8 +3,8 @@
 use stillage_core::Point;
 
 use super::*;
-use crate::features::features;
 use crate::features::tests::hall_view;
+use crate::features::{Collection, features};
 
 /// The `u32` at a place.
 fn number(bytes: &[u8], at: usize) -> usize {
@@ -34,7 +34,7 @@ fn text(bytes: &[u8], at: usize) -> &str {
 fn a_file_has_a_header_and_a_buffer_for_each_feature() {
     for wanted in Collection::ALL {
         let all = features(&hall_view(), wanted);
-        let file = collection(wanted, &all, &Transform::map_frame());
+        let file = collection(&PropertySelection::all(wanted), &all, &Transform::map_frame());
         assert_eq!(file[..8], MAGIC);
         let header = &file[8..];
         let root = 4 + number(header, 4);

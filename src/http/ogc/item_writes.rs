@@ -9,13 +9,14 @@ use axum::response::{IntoResponse, Response};
 use serde_json::{Map, Value};
 
 use super::feature_body::{self, FeaturePatchBody, FeatureWriteBody, Written, writable};
-use super::items::{self, FeaturePath, ItemQuery};
+use super::item_query::{FeaturePath, ItemQuery};
+use super::items;
 use super::items_answer::Answer;
 use super::items_format::Format;
 use crate::app::{App, AppError, Caller, MapContext};
 use crate::blocking::off_the_runtime;
 use crate::coordinates::Transform;
-use crate::features::query;
+use crate::features::query::{self, PropertySelection};
 use crate::features::{Collection, CollectionSchema, FeatureId};
 use crate::formats::geojson;
 use crate::http::docs::refusals::{Conflict, MethodNotAllowed, NotFound, PreconditionRequired};
@@ -111,6 +112,7 @@ async fn write(
         response.headers_mut().insert(header::ALLOW, HeaderValue::from_static(methods(collection)));
         return Ok(response);
     }
+    let (properties, crs) = (parameters.properties(collection)?, parameters.crs);
     let transform = parameters.transform(context.record.georeference)?;
     let is_feature = feature_body::is_feature(&body);
     let (seen, feature_id) = (Arc::clone(&context), path.feature_id);
@@ -131,8 +133,8 @@ async fn write(
     let in_body = |at: &str| format!("{pointer}{at}");
     let (context, id) = changed.map_err(|error| Problem::from(error).map_pointers(in_body))?;
     let tag = items::tag(&context, Format::GeoJson);
-    let answer = Answer { base, context, collection, format: Format::GeoJson, crs: parameters.crs, transform };
-    off_the_runtime(move || Ok(tag.on(items::feature(&answer, &id.to_string())?))).await
+    let answer = Answer { base, context, properties, format: Format::GeoJson, crs, transform };
+    off_the_runtime(move || Ok(tag.on(items::feature(&answer, &parameters, &id.to_string())?))).await
 }
 
 /// The feature that is written, and what is written of it.
@@ -146,7 +148,7 @@ fn read(
     let id = CollectionSchema::of(collection).feature_id(feature_id).map_err(|_| missing())?;
     let current = query::find(context.features(collection), &id).ok_or_else(missing)?;
     let written = if feature_body::is_feature(&body) {
-        let current = geojson::feature(current, transform, &[]);
+        let current = geojson::feature(current, &PropertySelection::all(collection), transform, &[]);
         feature_body::feature(collection, body, &serde_json::from_slice(&current).unwrap_or_default())?
     } else {
         feature_body::members(collection, body)?

@@ -4,29 +4,25 @@ use std::sync::Arc;
 
 use axum::extract::State;
 use axum::response::Response;
-use serde::Deserialize;
-use utoipa::IntoParams;
 
-use super::collections::{CollectionId, CollectionPath};
+use super::collections::CollectionPath;
 use super::filter::PropertyParameters;
+use super::item_query::{FeaturePath, ItemQuery};
 use super::items_answer::Answer;
 use super::items_format::Format;
 use super::items_query::ItemsQuery;
 use crate::app::{App, Caller, MapContext};
 use crate::blocking::off_the_runtime;
-use crate::coordinates::{Georeference, Transform};
-use crate::features::query::{self, VanishedFeature};
+use crate::features::query::{VanishedFeature, find};
 use crate::features::{Collection, CollectionSchema};
 use crate::http::docs::binary::Binary;
 use crate::http::docs::refusals::{NotAnalysed, NotFound};
 use crate::http::extract::conditional::{EntityTag, IfNoneMatch};
-use crate::http::extract::crs::CrsName;
 use crate::http::extract::negotiation::Accept;
 use crate::http::extract::{Path, Query};
 use crate::http::links::Base;
 use crate::http::problem::Problem;
 use crate::views::feature::{FeatureCollectionView, FeatureView};
-use crate::views::id::Id;
 
 /// Features of a collection
 ///
@@ -55,9 +51,9 @@ pub async fn list(
     let context = app.context(&caller, path.map_id.0).await?;
     let georeference = context.record.georeference;
     let question = query.question(collection, format, georeference)?;
-    let (crs, transform) = (query.crs(), query.transform(georeference)?);
+    let (properties, crs, transform) = (query.properties(collection)?, query.crs(), query.transform(georeference)?);
     let tag = EntityTag::of_map(&format!("items.{}", format.name()), &context);
-    let answer = Answer { base, context, collection, format, crs, transform };
+    let answer = Answer { base, context, properties, format, crs, transform };
     tag.answer_computed(&if_none_match, move || {
         let page = question.select(answer.context.features(collection)).map_err(|VanishedFeature| {
             Problem::parameter("after", "is not in the collection any more: begin again with the first page")
@@ -65,42 +61,6 @@ pub async fn list(
         Ok(answer.page(&query, &page))
     })
     .await
-}
-
-/// `/v1/maps/{mapId}/collections/{collectionId}/items/{featureId}`
-#[derive(Debug, Deserialize, IntoParams)]
-#[into_params(parameter_in = Path)]
-#[serde(rename_all = "camelCase")]
-#[allow(clippy::struct_field_names, reason = "they are the names in the path")]
-pub struct FeaturePath {
-    /// The map.
-    pub map_id: Id,
-    /// The collection.
-    pub collection_id: CollectionId,
-    /// The feature: a number, or the code of a location.
-    #[param(example = "5")]
-    pub feature_id: String,
-}
-
-/// How to write a feature.
-#[derive(Debug, Deserialize, IntoParams)]
-#[into_params(parameter_in = Query)]
-#[serde(deny_unknown_fields)]
-pub struct ItemQuery {
-    /// System of the coordinates of the answer; CRS84 when absent.
-    #[serde(default)]
-    #[param(value_type = Option<CrsName>)]
-    pub crs: CrsName,
-}
-
-impl ItemQuery {
-    /// From the map frame to the coordinates of the answer.
-    ///
-    /// # Errors
-    /// 400 where the map does not answer in them.
-    pub fn transform(&self, georeference: Option<Georeference>) -> Result<Transform, Problem> {
-        self.crs.transform(georeference).map_err(|detail| Problem::parameter("crs", detail))
-    }
 }
 
 /// A feature
@@ -125,11 +85,12 @@ pub async fn get(
     let (collection, id) = (path.collection_id.0, path.feature_id);
     let format = Format::wanted(&accept, Format::OF_ONE);
     let context = app.context(&caller, path.map_id.0).await?;
-    let (crs, transform) = (parameters.crs, parameters.transform(context.record.georeference)?);
     let tag = tag(&context, format);
-    let answer = Answer { base, context, collection, format, crs, transform };
+    let (properties, crs) = (parameters.properties(collection)?, parameters.crs);
+    let transform = parameters.transform(context.record.georeference)?;
+    let answer = Answer { base, context, properties, format, crs, transform };
     off_the_runtime(move || {
-        let response = feature(&answer, &id)?;
+        let response = feature(&answer, &parameters, &id)?;
         Ok(tag.answer(&if_none_match, || response))
     })
     .await
@@ -144,10 +105,11 @@ pub fn tag(context: &MapContext, format: Format) -> EntityTag {
 ///
 /// # Errors
 /// 404 where the collection has none.
-pub fn feature(answer: &Answer, id: &str) -> Result<Response, Problem> {
-    let wanted = CollectionSchema::of(answer.collection).feature_id(id).ok();
-    let found = wanted.and_then(|wanted| query::find(answer.context.features(answer.collection), &wanted));
-    found.map(|feature| answer.feature(feature)).ok_or_else(|| missing(answer.collection, id))
+pub fn feature(answer: &Answer, query: &ItemQuery, id: &str) -> Result<Response, Problem> {
+    let collection = answer.properties.collection();
+    let wanted = CollectionSchema::of(collection).feature_id(id).ok();
+    let found = wanted.and_then(|wanted| find(answer.context.features(collection), &wanted));
+    found.map(|feature| answer.feature(feature, query)).ok_or_else(|| missing(collection, id))
 }
 
 /// There is no such feature.

@@ -5,13 +5,14 @@ use std::sync::Arc;
 use axum::http::{HeaderMap, HeaderValue, header};
 use axum::response::{IntoResponse, Response};
 use jiff::Timestamp;
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 
+use super::item_query::ItemQuery;
 use super::items_format::Format;
 use super::items_query::ItemsQuery;
 use crate::app::MapContext;
 use crate::coordinates::{Crs, Transform};
-use crate::features::query::Page;
+use crate::features::query::{Page, PropertySelection};
 use crate::features::{Collection, CollectionSchema, Feature};
 use crate::formats::json_fg::{self, Systems};
 use crate::formats::{Json, csv, flatgeobuf, geojson};
@@ -24,16 +25,20 @@ use crate::views::link::Link;
 pub struct Answer {
     pub base: Base,
     pub context: Arc<MapContext>,
-    pub collection: Collection,
+    pub properties: PropertySelection,
     pub format: Format,
     pub crs: CrsName,
     pub transform: Transform,
 }
 
 impl Answer {
+    const fn collection(&self) -> Collection {
+        self.properties.collection()
+    }
+
     /// The path of the collection.
     fn path(&self) -> String {
-        format!("/v1/maps/{}/collections/{}", self.context.record.id, self.collection.id())
+        format!("/v1/maps/{}/collections/{}", self.context.record.id, self.collection().id())
     }
 
     /// When the answer last changed: it is the same for all who ask, as its entity tag promises.
@@ -70,36 +75,37 @@ impl Answer {
         let mut headers = self.headers();
         headers.extend(next.iter().map(|link| (header::LINK, link_header(link))));
         match self.format {
-            Format::GeoJson if self.crs.0 == Crs::Crs84 => {
+            Format::GeoJson if self.crs.0 == Crs::Crs84 && !self.properties.are_named() => {
                 let (all, texts) =
-                    (self.context.features(self.collection), self.context.feature_texts(self.collection));
+                    (self.context.features(self.collection()), self.context.feature_texts(self.collection()));
                 (headers, texts.feature_collection(all, &page.features, &members)).into_response()
             }
             Format::GeoJson => {
-                (headers, geojson::feature_collection(features, &self.transform, &members)).into_response()
+                (headers, geojson::feature_collection(features, &self.properties, &self.transform, &members))
+                    .into_response()
             }
             Format::JsonFg => self.with_systems(|systems| {
-                (headers, json_fg::feature_collection(self.collection, features, systems, &members)).into_response()
+                (headers, json_fg::feature_collection(features, &self.properties, systems, &members)).into_response()
             }),
-            // Positions of this table, which importers know, are map-frame metres whatever the request says.
-            Format::Csv if self.collection == Collection::Locations => {
+            // Importers know this table: its positions are map-frame metres whatever the request says.
+            Format::Csv if self.collection() == Collection::Locations && !self.properties.are_named() => {
                 headers.remove(CONTENT_CRS);
                 (headers, csv::locations(features)).into_response()
             }
-            Format::Csv => (headers, csv::collection(self.collection, features, &self.transform)).into_response(),
+            Format::Csv => (headers, csv::collection(&self.properties, features, &self.transform)).into_response(),
             Format::FlatGeobuf => {
-                (headers, flatgeobuf::collection(self.collection, features, &self.transform)).into_response()
+                (headers, flatgeobuf::collection(&self.properties, features, &self.transform)).into_response()
             }
             Format::Html => self.table(page, &links),
         }
     }
 
     /// A feature by itself.
-    pub fn feature(&self, feature: &Feature) -> Response {
+    pub fn feature(&self, feature: &Feature, query: &ItemQuery) -> Response {
         let path = format!("{}/items/{}", self.path(), encode(&feature.id.to_string()));
-        let address = |format: Format| match format {
-            Format::GeoJson => path.clone(),
-            other => format!("{path}?f={}", other.name()),
+        let address = |format: Format| match query.parameters(format) {
+            parameters if parameters.is_empty() => path.clone(),
+            parameters => format!("{path}?{parameters}"),
         };
         let alternate = |format: Format| self.base.link("alternate", &address(format), format.media_type());
         let mut links = vec![self.base.link("self", &address(self.format), self.format.media_type())];
@@ -107,14 +113,22 @@ impl Answer {
         links.push(self.base.link("collection", &self.path(), JSON));
         let members: [(&str, &dyn Json); 1] = [("links", &links)];
         match self.format {
-            Format::JsonFg => self
-                .with_systems(|systems| (self.headers(), json_fg::feature(feature, systems, &members)).into_response()),
+            Format::JsonFg => self.with_systems(|systems| {
+                (self.headers(), json_fg::feature(feature, &self.properties, systems, &members)).into_response()
+            }),
             Format::Html => {
-                let title = format!("{} {}", CollectionSchema::of(self.collection).title, feature.id);
+                let title = format!("{} {}", CollectionSchema::of(self.collection()).title, feature.id);
                 let drawing = page::drawing(&[self.drawn(feature)]);
-                page::document(&title, &json!({"properties": properties(feature), "links": links}), &drawing)
+                let properties: Map<String, Value> = self
+                    .properties
+                    .values(feature)
+                    .map(|(property, value)| (property.name.to_owned(), json!(value)))
+                    .collect();
+                page::document(&title, &json!({"properties": properties, "links": links}), &drawing)
             }
-            _ => (self.headers(), geojson::feature(feature, &self.transform, &members)).into_response(),
+            _ => {
+                (self.headers(), geojson::feature(feature, &self.properties, &self.transform, &members)).into_response()
+            }
         }
     }
 
@@ -127,7 +141,8 @@ impl Answer {
         };
         headers.insert(header::CONTENT_TYPE, HeaderValue::from_static(media_type));
         headers.insert(CONTENT_CRS, self.crs.header());
-        let name = extension.map(|extension| format!("attachment; filename=\"{}.{extension}\"", self.collection.id()));
+        let name =
+            extension.map(|extension| format!("attachment; filename=\"{}.{extension}\"", self.collection().id()));
         headers.extend(name.and_then(|name| Some((header::CONTENT_DISPOSITION, HeaderValue::try_from(name).ok()?))));
         headers
     }
@@ -150,16 +165,20 @@ impl Answer {
 
     /// A page of features as a page for people: a small map, and a row for each.
     fn table(&self, page: &Page<'_>, links: &[Link]) -> Response {
-        let schema = CollectionSchema::of(self.collection);
+        let schema = CollectionSchema::of(self.collection());
         let cells = |name: &'static str, texts: Vec<Markup>| {
             Markup::element("tr", &[], texts.into_iter().map(|text| Markup::element(name, &[], [text])))
         };
-        let head = cells("th", schema.properties.iter().map(|property| page::text(property.name)).collect());
+        // The id leads to the page of its feature, whether it is among the properties or not.
+        let id = &schema.properties[0];
+        let others = || self.properties.properties().filter(|property| property.name != id.name);
+        let head = std::iter::once(id).chain(others()).map(|property| page::text(property.name)).collect();
+        let head = cells("th", head);
         let drawn: Vec<LinkedFeature<'_>> = page.features.iter().map(|feature| self.drawn(feature)).collect();
         let rows = drawn.iter().map(|LinkedFeature { feature, href }| {
-            let mut texts: Vec<Markup> = feature.properties().map(|(_, value)| page::part(&value)).collect();
-            texts[0] = Markup::element("a", &[("href", href)], [texts[0].clone()]);
-            cells("td", texts)
+            let link = Markup::element("a", &[("href", href)], [page::part(&feature.id)]);
+            let values = self.properties.values(feature).filter(|(property, _)| property.name != id.name);
+            cells("td", std::iter::once(link).chain(values.map(|(_, value)| page::part(&value))).collect())
         });
         let table = Markup::element("table", &[], std::iter::once(head).chain(rows));
         let found = format!("{} of {} features", page.features.len(), page.matched);
@@ -167,8 +186,4 @@ impl Answer {
         let links = page::part(&links);
         page::page(schema.title, &[&page::drawing(&drawn), &found, &table, &links])
     }
-}
-
-fn properties(feature: &Feature) -> Value {
-    feature.properties().map(|(name, value)| (name.to_owned(), json!(value))).collect()
 }

@@ -9,10 +9,11 @@ use serde::Deserialize;
 use utoipa::IntoParams;
 
 use super::filter::{self, FilterLanguage};
+use super::item_query;
 use super::items_format::Format;
 use crate::coordinates::{Georeference, Transform};
 use crate::cql2::Filter;
-use crate::features::query::{BoxSelection, FeatureQuery, SortKey};
+use crate::features::query::{BoxSelection, FeatureQuery, PropertySelection, SortKey};
 use crate::features::{Collection, CollectionSchema};
 use crate::http::extract::bbox::Bbox;
 use crate::http::extract::crs::CrsName;
@@ -60,6 +61,9 @@ pub struct ItemsQuery {
     /// without a value come last.
     #[param(value_type = Option<Vec<String>>, style = Form, explode = false, min_items = 1, example = json!(["id"]))]
     sortby: Option<String>,
+    /// Only these properties of the features; all when absent. They come in the order of the schema.
+    #[param(value_type = Option<Vec<String>>, style = Form, explode = false, min_items = 1, example = json!(["id"]))]
+    properties: Option<String>,
     /// System of the coordinates of the answer; CRS84 when absent.
     #[serde(default)]
     #[param(value_type = Option<CrsName>)]
@@ -151,6 +155,14 @@ impl ItemsQuery {
         Ok(filters)
     }
 
+    /// Which properties are written.
+    ///
+    /// # Errors
+    /// 400 where the collection has none of such a name.
+    pub fn properties(&self, collection: Collection) -> Result<PropertySelection, Problem> {
+        item_query::properties(self.properties.as_deref(), collection)
+    }
+
     /// The system of the coordinates of the answer.
     pub const fn crs(&self) -> CrsName {
         self.crs
@@ -184,6 +196,7 @@ impl ItemsQuery {
             parameters.push(format!("filter-crs={}", encode(&self.filter_crs.uri())));
         }
         parameters.extend(self.sortby.as_ref().map(|keys| format!("sortby={}", encode(keys))));
+        parameters.extend(self.properties.as_ref().map(|names| format!("properties={}", encode(names))));
         if self.crs != CrsName::default() {
             parameters.push(format!("crs={}", encode(&self.crs.uri())));
         }
