@@ -112,6 +112,7 @@ fn answered_in_time() -> OpenApiRouter<Arc<App>> {
             axum::routing::options(ogc::item_writes::options),
         )
         .routes(routes!(fleet::at::get))
+        .routes(routes!(fleet::nearest::get))
         .routes(routes!(fleet::route::get))
         .routes(routes!(fleet::distance_matrix::create))
         .routes(routes!(fleet::exports::list))

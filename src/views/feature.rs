@@ -27,6 +27,20 @@ pub struct FeatureCollectionView {
     features: Vec<FeatureView>,
 }
 
+/// The features nearest to a point in GeoJSON (RFC 7946), each with `distanceM` among its properties.
+#[derive(Debug, Serialize, ToSchema)]
+#[schema(as = NearFeatures)]
+#[serde(rename_all = "camelCase")]
+pub struct NearFeaturesView {
+    /// `FeatureCollection`
+    #[schema(example = "FeatureCollection")]
+    r#type: String,
+    /// Features of this answer.
+    number_returned: usize,
+    /// The nearest first.
+    features: Vec<FeatureView>,
+}
+
 /// A feature in GeoJSON (RFC 7946). Its properties are those of its collection.
 #[derive(Debug, Serialize, ToSchema)]
 #[schema(as = Feature)]

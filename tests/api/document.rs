@@ -189,6 +189,7 @@ pub async fn valid(site: &Site, operation: &str) -> (Sent, &'static [u16]) {
             (sent.with("content-type", "application/geo+json"), &[200])
         }
         "locatePose" => get(format!("{map}/at?point=1,1&crs=EPSG:3857&heading=90")),
+        "getNearest" => get(format!("{map}/nearest?point=1,1&crs=EPSG:3857&collection=faces&k=3")),
         "getImage" => get(format!("{map}/image.png")),
         "getCategoriesImage" => get(format!("{map}/categories.png")),
         "getRegionsImage" => get(format!("{map}/regions.png")),
@@ -342,6 +343,7 @@ fn wrongs(site: &Site, operation: &str, good: &Sent) -> Vec<Sent> {
         "getFeature" => vec![own(&format!("{}/collections/vertices/items/999999", site.map))],
         "getExport" => vec![own(&format!("{}/exports/none.json", site.map))],
         "locatePose" => vec![own(&format!("{}/at?point=1000,0&crs=EPSG:3857", site.map))],
+        "getNearest" => vec![own(&format!("{}/nearest?point=1000,0&crs=EPSG:3857", site.map))],
         "updateFeature" | "replaceFeature" => {
             let path = format!("{}/collections/locations/items", site.map);
             let members = |code: &str| json!({"properties": {"code": code}});

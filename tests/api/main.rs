@@ -23,6 +23,7 @@ mod graph_report;
 mod jobs;
 mod maps;
 mod names;
+mod nearest;
 mod ogc_formats;
 mod ogc_part_1;
 mod ogc_part_2;

@@ -1,6 +1,7 @@
 //! Which features of a collection, in which order, how many at a time, and which of their properties.
 
 mod filterable;
+mod nearest;
 mod properties;
 mod selection;
 mod sort;
@@ -14,6 +15,7 @@ use super::id::FeatureId;
 use crate::cql2::Filter;
 
 pub use filterable::{GEOMETRY, queryables};
+pub use nearest::{NearFeature, nearest};
 pub use properties::PropertySelection;
 pub use selection::BoxSelection;
 pub use sort::SortKey;

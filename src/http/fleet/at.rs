@@ -10,7 +10,7 @@ use stillage_core::whereabouts::{AislePosition, NearestLocation, Whereabouts, wh
 use stillage_core::{Occupancy, Point};
 use utoipa::{IntoParams, ToSchema};
 
-use super::other_crs::did_you_mean_crs;
+use super::outside;
 use super::vehicle::Numbers;
 use crate::app::{App, Caller, MapContext};
 use crate::coordinates::Transform;
@@ -19,7 +19,7 @@ use crate::http::docs::refusals::{NotAnalysed, NotFound};
 use crate::http::extract::conditional::{EntityTag, IfNoneMatch};
 use crate::http::extract::crs::CrsName;
 use crate::http::extract::{MapPath, Path, Query};
-use crate::http::problem::{Problem, ProblemType};
+use crate::http::problem::Problem;
 
 /// A pose.
 #[derive(Debug, Deserialize, IntoParams)]
@@ -166,24 +166,8 @@ fn locate(context: &MapContext, transform: &Transform, at: [f64; 2], heading: Op
     let point = frame.to_grid(position);
     let heading = heading.map(|degrees| degrees.to_radians() - frame.angle_to_map(0.0));
     let found = whereabouts(&context.site(), &context.layout, point, heading);
-    let found = found.ok_or_else(|| outside(context, transform, at))?;
+    let found = found.ok_or_else(|| outside::refusal(context, transform, at))?;
     Ok(AtView::new(context, &found, position))
-}
-
-/// The point lies outside the map; the nearest one inside is named.
-fn outside(context: &MapContext, transform: &Transform, at: [f64; 2]) -> Problem {
-    let point = context.analysis.frame.to_grid(transform.inverse(at));
-    let grid = &context.grid;
-    let within = |place: f64, cells: usize| {
-        let half = grid.resolution() / 2.0;
-        place.clamp(half, (cells as f64 * grid.resolution() - half).max(half))
-    };
-    let nearest = Point::new(within(point.x, grid.width()), within(point.y, grid.height()));
-    let [x, y] = transform.readable(context.analysis.frame.to_map(nearest));
-    let away = (nearest - point).norm();
-    let hint = did_you_mean_crs(context, transform, at).map(|hint| format!("; {hint}")).unwrap_or_default();
-    let detail = format!("the point lies {away:.2} m outside the map: the nearest in it is {x},{y}{hint}");
-    Problem::new(ProblemType::OutsideMap, detail)
 }
 
 impl AtView {

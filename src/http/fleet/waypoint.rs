@@ -9,7 +9,7 @@ use utoipa::openapi::RefOr;
 use utoipa::openapi::schema::{ObjectBuilder, Schema, Type};
 use utoipa::{PartialSchema, ToSchema};
 
-use super::other_crs::did_you_mean_crs;
+use super::outside::did_you_mean_crs;
 use crate::app::{MapContext, Nameable};
 use crate::coordinates::Transform;
 use crate::did_you_mean::did_you_mean;

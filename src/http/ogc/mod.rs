@@ -5,7 +5,7 @@ pub mod conformance;
 mod execution_body;
 mod feature_body;
 pub mod filter;
-mod item_query;
+pub mod item_query;
 pub mod item_writes;
 pub mod items;
 mod items_answer;
