@@ -58,6 +58,47 @@ async fn json_fg_has_metres_beside_degrees() {
 }
 
 #[tokio::test]
+async fn a_profile_chooses_between_plain_geojson_and_json_fg() {
+    const REGISTER: &str = "http://www.opengis.net/def/profile/OGC/0/";
+    let api = Api::new().await;
+    let map = api.hall().await;
+    let [items, item] = ["items", "items/1"].map(|path| format!("{map}/collections/faces/{path}"));
+    for path in [&items, &item] {
+        let plain = api.get(path).await;
+        for (query, profile, media_type) in [
+            ("", "rfc7946", "application/geo+json"),
+            ("?profile=rfc7946", "rfc7946", "application/geo+json"),
+            ("?profile=of-somebody-else", "rfc7946", "application/geo+json"),
+            ("?profile=jsonfg", "jsonfg", "application/geo+json"),
+            ("?profile=http://www.opengis.net/def/profile/OGC/0/jsonfg-plus", "jsonfg-plus", "application/geo+json"),
+            ("?f=jsonfg", "jsonfg-plus", "application/fg+json"),
+            ("?f=jsonfg&profile=rfc7946", "jsonfg-plus", "application/fg+json"),
+        ] {
+            let answer = api.get(&format!("{path}{query}")).await;
+            assert_eq!((answer.status.as_u16(), answer.header("content-type")), (200, media_type), "{query}");
+            let json = answer.json();
+            assert_eq!(links(&json, "profile")[0]["href"], format!("{REGISTER}{profile}"), "{query}");
+            let told = answer.headers.get_all("link").iter().filter_map(|link| link.to_str().ok());
+            assert!(told.into_iter().any(|link| link.contains(&format!("<{REGISTER}{profile}>; rel=\"profile\""))));
+            assert_eq!(json.get("conformsTo").is_some(), profile != "rfc7946", "{query}");
+            assert_eq!(answer.text().contains("\"place\":"), profile != "rfc7946", "{query}");
+            if profile == "rfc7946" {
+                assert_eq!(json["features"], plain.json()["features"], "{query}");
+            }
+        }
+    }
+    let both = api.get(&format!("{items}?profile=jsonfg&limit=1")).await.json();
+    assert_eq!((&both["geometryDimension"], &both["featureType"]), (&json!(2), &json!("faces")));
+    let schema = api.get(path_of(&both["featureSchema"])).await;
+    assert_eq!(schema.header("content-type"), "application/schema+json");
+    assert!(links(&both, "next")[0]["href"].as_str().is_some_and(|next| next.contains("profile=jsonfg")));
+    let some = api.get(&format!("{items}?profile=jsonfg&properties=label&limit=1")).await.json();
+    assert!(some.get("featureSchema").is_none(), "the schema asks for more");
+    let table = api.get(&format!("{items}?f=csv&profile=jsonfg")).await;
+    assert_eq!((table.status.as_u16(), table.header("link")), (200, ""));
+}
+
+#[tokio::test]
 async fn every_collection_is_a_table() {
     let api = Api::new().await;
     let map = api.hall().await;

@@ -51,9 +51,10 @@ def json_fg_is_valid():
         jsonschema.Draft202012Validator(schema).validate(document)
 
     for collection in COLLECTIONS:
-        page = get(f"{MAP}/collections/{collection}/items?f=jsonfg&limit=100")
-        for name in ("featurecollection.min.json", "jsonfg-root-object.min.json"):
-            validate(name, page)
+        for query in ("f=jsonfg", "profile=jsonfg"):
+            page = get(f"{MAP}/collections/{collection}/items?{query}&limit=100")
+            for name in ("featurecollection.min.json", "jsonfg-root-object.min.json"):
+                validate(name, page)
     validate("feature.min.json", get(f"{MAP}/collections/faces/items/{FACES[0]['id']}?f=jsonfg"))
 
 

@@ -5,6 +5,7 @@ use utoipa::IntoParams;
 
 use super::collections::CollectionId;
 use super::items_format::Format;
+use super::profile::Profile;
 use crate::coordinates::{Georeference, Transform};
 use crate::features::Collection;
 use crate::features::query::PropertySelection;
@@ -36,6 +37,10 @@ pub struct ItemQuery {
     /// Only these properties; all when absent. They come in the order of the schema.
     #[param(value_type = Option<Vec<String>>, style = Form, explode = false, min_items = 1, example = json!(["id"]))]
     properties: Option<String>,
+    /// Profiles of GeoJSON, the most wanted first: `rfc7946` (the default), `jsonfg` or `jsonfg-plus`, or their URIs. A link
+    /// `profile` says which one the answer has.
+    #[param(value_type = Option<Vec<String>>, style = Form, explode = false, min_items = 1, example = json!(["jsonfg"]))]
+    profile: Option<String>,
     /// System of the coordinates of the answer; CRS84 when absent.
     #[serde(default)]
     #[param(value_type = Option<CrsName>)]
@@ -51,6 +56,11 @@ impl ItemQuery {
         properties(self.properties.as_deref(), collection)
     }
 
+    /// The profile in which the answer is written.
+    pub fn profile(&self, format: Format) -> Option<Profile> {
+        Profile::chosen(self.profile.as_deref(), format)
+    }
+
     /// From the map frame to the coordinates of the answer.
     ///
     /// # Errors
@@ -63,6 +73,7 @@ impl ItemQuery {
     pub fn parameters(&self, format: Format) -> String {
         let mut parameters = Vec::new();
         parameters.extend(self.properties.as_ref().map(|names| format!("properties={}", encode(names))));
+        parameters.extend(self.profile.as_ref().map(|names| format!("profile={}", encode(names))));
         if self.crs != CrsName::default() {
             parameters.push(format!("crs={}", encode(&self.crs.uri())));
         }

@@ -133,7 +133,8 @@ async fn write(
     let in_body = |at: &str| format!("{pointer}{at}");
     let (context, id) = changed.map_err(|error| Problem::from(error).map_pointers(in_body))?;
     let tag = items::tag(&context, Format::GeoJson);
-    let answer = Answer { base, context, properties, format: Format::GeoJson, crs, transform };
+    let (format, profile) = (Format::GeoJson, parameters.profile(Format::GeoJson));
+    let answer = Answer { base, context, properties, format, profile, crs, transform };
     off_the_runtime(move || Ok(tag.on(items::feature(&answer, &parameters, &id.to_string())?))).await
 }
 

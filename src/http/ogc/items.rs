@@ -36,7 +36,7 @@ use crate::views::feature::{FeatureCollectionView, FeatureView};
             (String = "text/html"), (String = "text/csv"), (Binary = "application/flatgeobuf")),
         headers(("ETag" = String, description = "Changes with the map, its analysis and its labels"),
             ("Content-Crs" = Option<String>, description = "System of the coordinates"),
-            ("Link" = Option<String>, description = "The next page"))),
+            ("Link" = Option<String>, description = "The profile, and the next page"))),
         NotFound, NotAnalysed))]
 pub async fn list(
     State(app): State<Arc<App>>,
@@ -53,7 +53,8 @@ pub async fn list(
     let question = query.question(collection, format, georeference)?;
     let (properties, crs, transform) = (query.properties(collection)?, query.crs(), query.transform(georeference)?);
     let tag = EntityTag::of_map(&format!("items.{}", format.name()), &context);
-    let answer = Answer { base, context, properties, format, crs, transform };
+    let profile = query.profile(format);
+    let answer = Answer { base, context, properties, format, profile, crs, transform };
     tag.answer_computed(&if_none_match, move || {
         let page = question.select(answer.context.features(collection)).map_err(|VanishedFeature| {
             Problem::parameter("after", "is not in the collection any more: begin again with the first page")
@@ -71,7 +72,8 @@ pub async fn list(
     responses((status = 200, description = "The feature", 
         content((FeatureView = "application/geo+json"), (FeatureView = "application/fg+json"), (String = "text/html")),
         headers(("ETag" = String, description = "Changes with the map, its analysis and its labels"),
-            ("Content-Crs" = Option<String>, description = "System of the coordinates"))),
+            ("Content-Crs" = Option<String>, description = "System of the coordinates"),
+            ("Link" = Option<String>, description = "The profile"))),
         NotFound, NotAnalysed))]
 pub async fn get(
     State(app): State<Arc<App>>,
@@ -88,7 +90,8 @@ pub async fn get(
     let tag = tag(&context, format);
     let (properties, crs) = (parameters.properties(collection)?, parameters.crs);
     let transform = parameters.transform(context.record.georeference)?;
-    let answer = Answer { base, context, properties, format, crs, transform };
+    let profile = parameters.profile(format);
+    let answer = Answer { base, context, properties, format, profile, crs, transform };
     off_the_runtime(move || {
         let response = feature(&answer, &parameters, &id)?;
         Ok(tag.answer(&if_none_match, || response))

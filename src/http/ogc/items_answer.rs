@@ -10,14 +10,15 @@ use serde_json::{Map, Value, json};
 use super::item_query::ItemQuery;
 use super::items_format::Format;
 use super::items_query::ItemsQuery;
+use super::profile::Profile;
 use crate::app::MapContext;
 use crate::coordinates::{Crs, Transform};
 use crate::features::query::{Page, PropertySelection};
 use crate::features::{Collection, CollectionSchema, Feature};
-use crate::formats::json_fg::{self, Systems};
+use crate::formats::json_fg::{self, JsonFgDocument};
 use crate::formats::{Json, csv, flatgeobuf, geojson};
 use crate::http::extract::crs::{CONTENT_CRS, CrsName};
-use crate::http::links::{Base, JSON, encode, header as link_header};
+use crate::http::links::{Base, JSON, JSON_SCHEMA, encode, header as link_header};
 use crate::http::page::{self, LinkedFeature, Markup};
 use crate::views::link::Link;
 
@@ -27,6 +28,7 @@ pub struct Answer {
     pub context: Arc<MapContext>,
     pub properties: PropertySelection,
     pub format: Format,
+    pub profile: Option<Profile>,
     pub crs: CrsName,
     pub transform: Transform,
 }
@@ -34,6 +36,10 @@ pub struct Answer {
 impl Answer {
     const fn collection(&self) -> Collection {
         self.properties.collection()
+    }
+
+    fn is_json_fg(&self) -> bool {
+        self.profile.is_some_and(Profile::is_json_fg)
     }
 
     /// The path of the collection.
@@ -62,7 +68,8 @@ impl Answer {
         let mut links = vec![self.base.link("self", &address(self.format, query.after()), self.format.media_type())];
         links.extend(others.map(alternate));
         links.push(self.base.link("collection", &self.path(), JSON));
-        links.extend(next.clone());
+        let profile = self.profile.map(Profile::link);
+        links.extend(profile.iter().chain(&next).cloned());
         let time_stamp = self.time_stamp();
         let returned = page.features.len();
         let members: [(&str, &dyn Json); 4] = [
@@ -73,20 +80,20 @@ impl Answer {
         ];
         let features = page.features.iter().copied();
         let mut headers = self.headers();
-        headers.extend(next.iter().map(|link| (header::LINK, link_header(link))));
+        headers.extend(next.iter().chain(&profile).map(|link| (header::LINK, link_header(link))));
         match self.format {
+            Format::GeoJson | Format::JsonFg if self.is_json_fg() => self.as_json_fg(|document| {
+                (headers, json_fg::feature_collection(features, &self.properties, document, &members)).into_response()
+            }),
             Format::GeoJson if self.crs.0 == Crs::Crs84 && !self.properties.are_named() => {
                 let (all, texts) =
                     (self.context.features(self.collection()), self.context.feature_texts(self.collection()));
                 (headers, texts.feature_collection(all, &page.features, &members)).into_response()
             }
-            Format::GeoJson => {
+            Format::GeoJson | Format::JsonFg => {
                 (headers, geojson::feature_collection(features, &self.properties, &self.transform, &members))
                     .into_response()
             }
-            Format::JsonFg => self.with_systems(|systems| {
-                (headers, json_fg::feature_collection(features, &self.properties, systems, &members)).into_response()
-            }),
             // Importers know this table: its positions are map-frame metres whatever the request says.
             Format::Csv if self.collection() == Collection::Locations && !self.properties.are_named() => {
                 headers.remove(CONTENT_CRS);
@@ -111,10 +118,14 @@ impl Answer {
         let mut links = vec![self.base.link("self", &address(self.format), self.format.media_type())];
         links.extend(Format::OF_ONE.into_iter().filter(|format| *format != self.format).map(alternate));
         links.push(self.base.link("collection", &self.path(), JSON));
+        let profile = self.profile.map(Profile::link);
+        links.extend(profile.clone());
+        let mut headers = self.headers();
+        headers.extend(profile.iter().map(|link| (header::LINK, link_header(link))));
         let members: [(&str, &dyn Json); 1] = [("links", &links)];
         match self.format {
-            Format::JsonFg => self.with_systems(|systems| {
-                (self.headers(), json_fg::feature(feature, &self.properties, systems, &members)).into_response()
+            Format::GeoJson | Format::JsonFg if self.is_json_fg() => self.as_json_fg(|document| {
+                (headers, json_fg::feature(feature, &self.properties, document, &members)).into_response()
             }),
             Format::Html => {
                 let title = format!("{} {}", CollectionSchema::of(self.collection()).title, feature.id);
@@ -126,9 +137,7 @@ impl Answer {
                     .collect();
                 page::document(&title, &json!({"properties": properties, "links": links}), &drawing)
             }
-            _ => {
-                (self.headers(), geojson::feature(feature, &self.properties, &self.transform, &members)).into_response()
-            }
+            _ => (headers, geojson::feature(feature, &self.properties, &self.transform, &members)).into_response(),
         }
     }
 
@@ -147,15 +156,18 @@ impl Answer {
         headers
     }
 
-    /// The metres of JSON-FG: those of the map frame where degrees are asked for.
-    fn with_systems<T>(&self, write: impl FnOnce(Systems<'_>) -> T) -> T {
+    /// Writes JSON-FG: its metres are those of the map frame where degrees are asked for.
+    fn as_json_fg<T>(&self, write: impl FnOnce(JsonFgDocument<'_>) -> T) -> T {
         let (map_frame, uri) = (Transform::map_frame(), self.crs.uri());
         let degrees = Transform::new(Crs::Crs84, self.context.record.georeference);
         let (place, place_uri) = match self.crs.0 {
             Crs::Crs84 => (&map_frame, json_fg::ENGINEERING_2D),
             _ => (&self.transform, uri.as_str()),
         };
-        write(Systems { place, place_uri, geometry: &degrees })
+        let schema = self.base.link("describedby", &format!("{}/schema", self.path()), JSON_SCHEMA).href;
+        // The schema asks for properties that a selection leaves out.
+        let schema = Some(schema.as_str()).filter(|_| !self.properties.are_named());
+        write(JsonFgDocument { place, place_uri, geometry: &degrees, schema })
     }
 
     fn drawn<'a>(&self, feature: &'a Feature) -> LinkedFeature<'a> {

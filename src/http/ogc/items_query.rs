@@ -11,6 +11,7 @@ use utoipa::IntoParams;
 use super::filter::{self, FilterLanguage};
 use super::item_query;
 use super::items_format::Format;
+use super::profile::Profile;
 use crate::coordinates::{Georeference, Transform};
 use crate::cql2::Filter;
 use crate::features::query::{BoxSelection, FeatureQuery, PropertySelection, SortKey};
@@ -64,6 +65,10 @@ pub struct ItemsQuery {
     /// Only these properties of the features; all when absent. They come in the order of the schema.
     #[param(value_type = Option<Vec<String>>, style = Form, explode = false, min_items = 1, example = json!(["id"]))]
     properties: Option<String>,
+    /// Profiles of GeoJSON, the most wanted first: `rfc7946` (the default), `jsonfg` or `jsonfg-plus`, or their URIs. A link
+    /// `profile` says which one the answer has.
+    #[param(value_type = Option<Vec<String>>, style = Form, explode = false, min_items = 1, example = json!(["jsonfg"]))]
+    profile: Option<String>,
     /// System of the coordinates of the answer; CRS84 when absent.
     #[serde(default)]
     #[param(value_type = Option<CrsName>)]
@@ -163,6 +168,11 @@ impl ItemsQuery {
         item_query::properties(self.properties.as_deref(), collection)
     }
 
+    /// The profile in which the answer is written.
+    pub fn profile(&self, format: Format) -> Option<Profile> {
+        Profile::chosen(self.profile.as_deref(), format)
+    }
+
     /// The system of the coordinates of the answer.
     pub const fn crs(&self) -> CrsName {
         self.crs
@@ -197,6 +207,7 @@ impl ItemsQuery {
         }
         parameters.extend(self.sortby.as_ref().map(|keys| format!("sortby={}", encode(keys))));
         parameters.extend(self.properties.as_ref().map(|names| format!("properties={}", encode(names))));
+        parameters.extend(self.profile.as_ref().map(|names| format!("profile={}", encode(names))));
         if self.crs != CrsName::default() {
             parameters.push(format!("crs={}", encode(&self.crs.uri())));
         }

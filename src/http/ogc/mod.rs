@@ -13,5 +13,6 @@ mod items_format;
 pub mod items_query;
 pub mod jobs;
 pub mod processes;
+mod profile;
 pub mod queryables;
 pub mod root;
