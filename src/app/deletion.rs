@@ -3,9 +3,21 @@
 use jiff::{SignedDuration, Timestamp};
 use uuid::Uuid;
 
+use super::maps::MAX_PAGE;
 use super::{App, AppError, Caller, MapRecord};
 use crate::jobs::{delete_hidden, kept_since};
-use crate::store::{StoreError, now};
+use crate::store::{HiddenMap, StoreError, now};
+
+/// A map that was deleted and can still be restored.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DeletedMap {
+    /// The map as it was.
+    pub map: MapRecord,
+    /// When it was deleted.
+    pub deleted: Timestamp,
+    /// Until when it can be restored.
+    pub restorable_until: Timestamp,
+}
 
 impl App {
     /// Deletes a map. Its jobs go with it: one that runs stops within a second. It can be restored as long as deleted maps are
@@ -44,11 +56,32 @@ impl App {
         }
     }
 
+    /// Deleted maps that can be restored, newest first.
+    pub async fn deleted_maps(
+        &self,
+        caller: &Caller,
+        limit: u32,
+        after: Option<Uuid>,
+    ) -> Result<Vec<DeletedMap>, AppError> {
+        let hidden_after = kept_since(self.config.keep_deleted);
+        let maps = self.store.hidden_maps(caller.tenant(), hidden_after, limit.min(MAX_PAGE), after).await?;
+        let deleted = |HiddenMap { map, hidden }| DeletedMap {
+            map,
+            deleted: hidden,
+            restorable_until: self.end_of_keeping(hidden),
+        };
+        Ok(maps.into_iter().map(deleted).collect())
+    }
+
     /// Until when a deleted map can be restored; `None` for one that cannot.
     pub async fn restorable_until(&self, caller: &Caller, id: Uuid) -> Result<Option<Timestamp>, AppError> {
         let Some(deleted) = self.store.hidden_since(caller.tenant(), id).await? else { return Ok(None) };
-        let keep = SignedDuration::try_from(self.config.keep_deleted).unwrap_or(SignedDuration::MAX);
-        let until = deleted.checked_add(keep).unwrap_or(Timestamp::MAX);
+        let until = self.end_of_keeping(deleted);
         Ok((until > now()).then_some(until))
+    }
+
+    fn end_of_keeping(&self, deleted: Timestamp) -> Timestamp {
+        let keep = SignedDuration::try_from(self.config.keep_deleted).unwrap_or(SignedDuration::MAX);
+        deleted.checked_add(keep).unwrap_or(Timestamp::MAX)
     }
 }

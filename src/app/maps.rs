@@ -19,7 +19,7 @@ const MAX_NAME: usize = 200;
 const MAX_KEY: usize = 255;
 
 /// Most records that one page holds.
-const MAX_PAGE: u32 = 10_000;
+pub(super) const MAX_PAGE: u32 = 10_000;
 
 impl App {
     /// Decodes and stores a map and its first job, in one transaction. `true` when the job is new (202), `false` when

@@ -66,6 +66,7 @@ pub use crate::records::{
 pub use caller::Caller;
 pub use comparisons::{LocationComparison, MapComparison, PairAlignment, VersionComparison};
 pub use corrections::WantedCorrection;
+pub use deletion::DeletedMap;
 pub use error::{AppError, FieldProblem};
 pub use file_context::FileMap;
 pub use geometric_level::AppliedCorrections;

@@ -73,6 +73,7 @@ fn answered_in_time() -> OpenApiRouter<Arc<App>> {
         .routes(routes!(guard::observe::metrics))
         .routes(routes!(maps::map::list))
         .routes(routes!(maps::map::get, maps::map::update, maps::deletion::delete))
+        .routes(routes!(maps::deletion::list))
         .routes(routes!(maps::deletion::restore))
         .routes(routes!(maps::analyses::list, maps::analyses::create))
         .routes(routes!(maps::analyses::activate))

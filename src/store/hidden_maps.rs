@@ -11,6 +11,15 @@ use uuid::Uuid;
 use super::StoreError;
 use crate::records::{MapRecord, Tenant};
 
+/// A map that was deleted, and when.
+#[derive(Debug, Clone, PartialEq)]
+pub struct HiddenMap {
+    /// The map as it was.
+    pub map: MapRecord,
+    /// When it was deleted.
+    pub hidden: Timestamp,
+}
+
 /// What is kept of deleted maps.
 #[async_trait]
 pub trait HiddenMaps {
@@ -26,6 +35,15 @@ pub trait HiddenMaps {
 
     /// When a map of this tenant was hidden, if it is.
     async fn hidden_since(&self, tenant: &Tenant, id: Uuid) -> Result<Option<Timestamp>, StoreError>;
+
+    /// Maps of this tenant that were hidden after a time, newest first, after one when paging.
+    async fn hidden_maps(
+        &self,
+        tenant: &Tenant,
+        hidden_after: Timestamp,
+        limit: u32,
+        after: Option<Uuid>,
+    ) -> Result<Vec<HiddenMap>, StoreError>;
 
     /// Brings a map back that was hidden after a time, with its jobs; `None` when there is none.
     async fn restore_map(

@@ -49,7 +49,7 @@ pub use analyses::{Analyses, MapState, NewAnalysis, Outdated, Request, Snapshot}
 pub use blobs::{Blob, BlobId, Blobs, LocalBlobs, Stored};
 pub use engine::Store;
 pub use error::StoreError;
-pub use hidden_maps::HiddenMaps;
+pub use hidden_maps::{HiddenMap, HiddenMaps};
 pub use jobs::{Jobs, NewJob};
 pub use maps::{IdempotencyKey, Maps, NewMapRow, Upload};
 pub use queue::Queue;

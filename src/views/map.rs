@@ -78,6 +78,6 @@ impl MapView {
 pub struct MapList {
     /// Newest first.
     pub maps: Vec<MapView>,
-    /// Itself, and the next page.
+    /// Itself, the deleted maps, and the next page.
     pub links: Vec<Link>,
 }

@@ -9,6 +9,7 @@ pub mod category;
 pub mod cogency_matrix;
 pub mod comparison;
 pub mod correction;
+pub mod deleted_map;
 pub mod diagnostics;
 pub mod evaluation;
 pub mod export;

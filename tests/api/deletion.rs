@@ -66,6 +66,27 @@ async fn a_deleted_map_can_be_restored() {
 }
 
 #[tokio::test]
+async fn deleted_maps_are_listed_until_they_are_restored() {
+    let api = Api::new().await;
+    let (first, second) = (api.hall().await, api.hall().await);
+    let list = async |query: &str| api.get(&format!("/v1/deleted-maps{query}")).await.json();
+    assert_eq!(list("").await["maps"], json!([]));
+    for map in [&first, &second] {
+        api.send(request(Method::DELETE, map, &[], Body::empty())).await;
+    }
+    let page = list("?limit=1").await;
+    let id = |page: &serde_json::Value| format!("/v1/maps/{}", page["maps"][0]["id"].as_str().expect("an id"));
+    assert_eq!((page["maps"].as_array().map(Vec::len), id(&page)), (Some(1), second.clone()));
+    let until = page["maps"][0]["restorableUntil"].as_str().expect("a time");
+    assert!(until > page["maps"][0]["deleted"].as_str().expect("a time"), "{page}");
+    let next = page["links"][1]["href"].as_str().and_then(|href| href.split_once('?')).expect("a next page").1;
+    assert_eq!(id(&list(&format!("?{next}")).await), first);
+    let restore = page["maps"][0]["links"][0]["href"].as_str().expect("an address").replace("http://stillage.test", "");
+    assert_eq!(api.send(request(Method::POST, &restore, &[], Body::empty())).await.status, 200);
+    assert_eq!(list("").await["maps"].as_array().map(Vec::len), Some(1));
+}
+
+#[tokio::test]
 async fn a_map_that_was_deleted_before_its_analysis_is_analysed_when_it_is_restored() {
     let api = Api::new().await;
     let job = api.send(upload(&pgm(HALL), METADATA)).await;

@@ -157,6 +157,7 @@ pub async fn valid(site: &Site, operation: &str) -> (Sent, &'static [u16]) {
         "getMap" => get(map.clone()),
         "updateMap" => (Sent::new(Method::PATCH, map).json(&json!({"name": "Hall"})).with("if-match", "*"), &[200]),
         "deleteMap" => (Sent::new(Method::DELETE, waiting_map(&site.api).await).with("if-match", "*"), &[204]),
+        "listDeletedMaps" => get("/v1/deleted-maps".into()),
         "restoreMap" => {
             let deleted = waiting_map(&site.api).await;
             assert_eq!(Sent::new(Method::DELETE, &deleted).to(&site.api).await.status, 204);

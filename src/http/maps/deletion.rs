@@ -1,22 +1,24 @@
-//! Maps are deleted, and restored for a while after that.
+//! Maps are deleted, and restored for a while after that; what can be restored is listed.
 
 use std::sync::Arc;
 
 use axum::Json;
 use axum::extract::{Request, State};
-use axum::http::{StatusCode, header};
+use axum::http::{HeaderMap, StatusCode, header};
 use axum::middleware::Next;
 use axum::response::{IntoResponse, Response};
 use jiff::{RoundMode, TimestampRound, Unit};
 use uuid::Uuid;
 
 use super::map::view;
-use crate::app::{App, Caller};
+use crate::app::{App, Caller, DeletedMap};
 use crate::http::docs::refusals::NotFound;
 use crate::http::extract::conditional::{EntityTag, IfMatch};
-use crate::http::extract::{MapPath, Path};
-use crate::http::links::Base;
+use crate::http::extract::{MapPath, Paging, Path, Query};
+use crate::http::links::{Base, JSON, header as link_header};
+use crate::http::paging::cut;
 use crate::http::problem::Problem;
+use crate::views::deleted_map::{DeletedMapList, DeletedMapView};
 use crate::views::map::MapView;
 
 /// Delete a map
@@ -39,10 +41,36 @@ pub async fn delete(
     Ok(StatusCode::NO_CONTENT)
 }
 
+/// List deleted maps
+///
+/// Those that can still be restored, the newest map first.
+#[utoipa::path(get, path = "/v1/deleted-maps", tag = "maps", operation_id = "listDeletedMaps", params(Paging),
+    responses((status = 200, description = "A page of deleted maps", body = DeletedMapList,
+        headers(("Link" = Option<String>, description = "The next page")))))]
+pub async fn list(
+    State(app): State<Arc<App>>,
+    caller: Caller,
+    base: Base,
+    Query(paging): Query<Paging>,
+) -> Result<Response, Problem> {
+    let limit = paging.limit.0;
+    let (maps, more) = cut(app.deleted_maps(&caller, limit + 1, paging.after.map(|id| id.0)).await?, limit);
+    let next = maps.last().filter(|_| more);
+    let next = next.map(|last| format!("/v1/deleted-maps?limit={limit}&after={}", last.map.id));
+    let next = next.map(|path| base.link("next", &path, JSON));
+    let headers: HeaderMap = next.iter().map(|link| (header::LINK, link_header(link))).collect();
+    let links = std::iter::once(base.link("self", "/v1/deleted-maps", JSON)).chain(next).collect();
+    let view = |deleted: DeletedMap| {
+        let restore = base.link("related", &format!("/v1/maps/{}/restore", deleted.map.id), JSON);
+        DeletedMapView::new(deleted, vec![restore.titled("POST restores it")])
+    };
+    Ok((headers, Json(DeletedMapList { maps: maps.into_iter().map(view).collect(), links })).into_response())
+}
+
 /// Restore a map
 ///
 /// Brings a deleted map back as it was, with its analyses, labels, names and jobs; what waited or ran goes on. A map that is
-/// there stays as it is. Answers about a deleted map (404) say until when it can be restored.
+/// there stays as it is. `GET /v1/deleted-maps` lists what can be restored, and answers about a deleted map (404) say until when.
 #[utoipa::path(post, path = "/v1/maps/{mapId}/restore", tag = "maps", operation_id = "restoreMap", params(MapPath),
     responses((status = 200, description = "The map", body = MapView,
         headers(("ETag" = String, description = "Its version"))),

@@ -135,7 +135,11 @@ pub async fn list(
     let next = maps.last().filter(|_| more).map(|last| format!("/v1/maps?limit={limit}&after={}", last.id));
     let next = next.map(|path| base.link("next", &path, JSON));
     let headers: axum::http::HeaderMap = next.iter().map(|link| (header::LINK, link_header(link))).collect();
-    let links = std::iter::once(base.link("self", "/v1/maps", JSON)).chain(next).collect();
+    let own = [
+        base.link("self", "/v1/maps", JSON),
+        base.link("related", "/v1/deleted-maps", JSON).titled("Deleted maps that can be restored"),
+    ];
+    let links = own.into_iter().chain(next).collect();
     let maps = maps.into_iter().map(|map| view(&base, map)).collect();
     Ok((headers, Json(MapList { maps, links })).into_response())
 }

@@ -17,10 +17,19 @@ pub async fn a_hidden_map_is_not_there_until_it_is_restored(engine: &impl Engine
     assert_eq!(store.hidden_since(&local(), job.map).await.unwrap(), Some(deleted));
     assert_eq!(store.hidden_since(&Tenant::new("other"), job.map).await.unwrap(), None);
     assert_eq!(store.sweep_blobs(Duration::ZERO).await.unwrap(), 0, "its blobs stay");
+    let just_before = deleted - SignedDuration::from_micros(1);
+    let hidden = async |tenant: &Tenant, hidden_after, limit, after| {
+        let maps = store.hidden_maps(tenant, hidden_after, limit, after).await.unwrap();
+        maps.into_iter().map(|hidden| (hidden.map, hidden.hidden)).collect::<Vec<_>>()
+    };
+    assert_eq!(hidden(&local(), just_before, 9, None).await, [(record.clone(), deleted)]);
+    assert_eq!(hidden(&local(), deleted, 9, None).await, [], "it cannot be restored any more");
+    assert_eq!(hidden(&local(), just_before, 9, Some(job.map)).await, [], "the next page");
+    assert_eq!(hidden(&local(), just_before, 0, None).await, []);
+    assert_eq!(hidden(&Tenant::new("other"), just_before, 9, None).await, []);
 
     assert_eq!(store.restore_map(&Tenant::new("other"), job.map, Timestamp::MIN, now()).await.unwrap(), None);
     assert_eq!(store.restore_map(&local(), job.map, deleted, now()).await.unwrap(), None, "too late");
-    let just_before = deleted - SignedDuration::from_micros(1);
     assert_eq!(store.restore_map(&local(), job.map, just_before, now()).await.unwrap(), Some(record));
     assert_eq!(store.analyses(&local(), job.map).await.unwrap(), analyses);
     assert_eq!((counts(store).await, store.hidden_since(&local(), job.map).await.unwrap()), ((1, 1, 1), None));

@@ -8,7 +8,7 @@ use uuid::Uuid;
 use super::Sqlite;
 use super::rows::{Columns, map_record};
 use crate::records::{MapRecord, Tenant};
-use crate::store::{HiddenMaps, Maps, StoreError};
+use crate::store::{HiddenMap, HiddenMaps, Maps, StoreError};
 
 #[async_trait]
 impl HiddenMaps for Sqlite {
@@ -45,6 +45,26 @@ impl HiddenMaps for Sqlite {
             .fetch_optional(&self.readers)
             .await?;
         row.map(|row| row.time("hidden")).transpose()
+    }
+
+    async fn hidden_maps(
+        &self,
+        tenant: &Tenant,
+        hidden_after: Timestamp,
+        limit: u32,
+        after: Option<Uuid>,
+    ) -> Result<Vec<HiddenMap>, StoreError> {
+        let rows = sqlx::query(
+            "SELECT * FROM maps WHERE hidden_from = $1 AND hidden > $2 AND ($3 IS NULL OR id < $3) \
+             ORDER BY id DESC LIMIT $4",
+        )
+        .bind(tenant.as_str())
+        .bind(hidden_after.as_microsecond())
+        .bind(after.map(|id| id.to_string()))
+        .bind(limit)
+        .fetch_all(&self.readers)
+        .await?;
+        rows.iter().map(|row| Ok(HiddenMap { map: map_record(row)?, hidden: row.time("hidden")? })).collect()
     }
 
     async fn restore_map(
