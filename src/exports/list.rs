@@ -63,6 +63,8 @@ pub enum SingleExport {
     GraphMl,
     /// Faces as `FlatGeobuf`.
     Faces,
+    /// All collections as a `GeoPackage`.
+    GeoPackage,
 }
 
 /// The option of the exports that read the graph.
@@ -184,6 +186,14 @@ const EXPORTS: &[Export] = &[
         purpose: "Faces with their properties as FlatGeobuf, for GIS",
         options: &["crs"],
         kind: ExportKind::Single(SingleExport::Faces),
+    },
+    Export {
+        format: "geopackage",
+        name: "map.gpkg",
+        media_type: "application/geopackage+sqlite3",
+        purpose: "All collections as a GeoPackage, for GIS",
+        options: &[],
+        kind: ExportKind::Single(SingleExport::GeoPackage),
     },
     Export {
         format: "bundle",

@@ -14,7 +14,7 @@
 //! | [`nav2_route`] | route graph of Nav2 |
 //! | [`rmf_nav_graph`], [`rmf_building`] | Open-RMF |
 //! | `straight_graph`, `yaml` | the graph cut at the bends of its lanes; texts and numbers in YAML |
-//! | `faces` | the faces as `FlatGeobuf` |
+//! | `faces`, `geopackage` | the faces as `FlatGeobuf`; all collections as a `GeoPackage` |
 //! | [`vda5050_download_map`] | the order to a vehicle to fetch the bundle |
 //! | [`vda5050_zone_set`], [`vda5050_zone_rules`], `vda5050_header` | zones of VDA 5050; their rules; heads of messages |
 //! | `zones`, `hole_free` | what vehicles may do on each face; areas without holes |
@@ -26,6 +26,7 @@
 pub mod archive;
 mod bundle;
 mod faces;
+mod geopackage;
 pub mod graph_ml;
 mod hole_free;
 pub mod lif_1;

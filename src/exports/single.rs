@@ -7,7 +7,7 @@ use super::list::SingleExport;
 use super::options::ExportOptions;
 use super::source::{ExportError, ExportSource};
 use super::{
-    faces, graph_ml, lif_1, lif_2, locations_csv, locations_xlsx, moving_ai, nav2_masks, nav2_route,
+    faces, geopackage, graph_ml, lif_1, lif_2, locations_csv, locations_xlsx, moving_ai, nav2_masks, nav2_route,
     nav2_vector_objects, rmf_building, rmf_nav_graph, vda5050_zone_set,
 };
 
@@ -32,6 +32,7 @@ pub(super) fn single(
         SingleExport::LocationsXlsx => locations_xlsx::locations(source)?,
         SingleExport::GraphMl => graph_ml::graph(source),
         SingleExport::Faces => faces::faces(source, options.crs),
+        SingleExport::GeoPackage => geopackage::map(source),
     })
 }
 

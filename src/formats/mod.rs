@@ -4,6 +4,7 @@ pub mod csv;
 mod feature_texts;
 pub mod flatgeobuf;
 pub mod geojson;
+pub mod geopackage;
 mod json;
 pub mod json_fg;
 #[cfg(test)]

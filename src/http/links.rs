@@ -20,6 +20,8 @@ pub const CSV: &str = "text/csv";
 pub const JSON_FG: &str = "application/fg+json";
 /// The binary format of features.
 pub const FLAT_GEOBUF: &str = "application/flatgeobuf";
+/// All collections of a map in one `SQLite` file.
+pub const GEO_PACKAGE: &str = "application/geopackage+sqlite3";
 /// A page for people.
 pub const HTML: &str = "text/html";
 /// A JSON Schema.

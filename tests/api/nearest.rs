@@ -28,11 +28,9 @@ async fn the_nearest_features_come_first_with_their_distances() {
     let filter = format!("id%3C%3E{}", at["face"]["id"]);
     let beside = ask(&format!("point=1,1&crs=EPSG:3857&collection=faces&filter={filter}")).await.json();
     assert_ne!(beside["features"][0]["id"], at["face"]["id"]);
-    let again = api.get_with(
-        &format!("{map}/nearest?point=1,1&crs=EPSG:3857&k=4&properties=code"),
-        &[("if-none-match", locations.header("etag"))],
-    );
-    assert_eq!(again.await.status, 304);
+    let path = format!("{map}/nearest?point=1,1&crs=EPSG:3857&k=4&properties=code");
+    let again = api.get_with(&path, &[("if-none-match", locations.header("etag"))]).await;
+    assert_eq!(again.status, 304);
 }
 
 #[tokio::test]

@@ -1,6 +1,7 @@
 """Breaks exports one by one: each fault has to be found by the step that is there for it."""
 
 import shutil
+import sqlite3
 import sys
 import tempfile
 import zipfile
@@ -92,6 +93,13 @@ def change_crs(path):
     return True
 
 
+def drop_layer(path):
+    with sqlite3.connect(path) as database:
+        for table in ("gpkg_geometry_columns", "gpkg_contents"):
+            database.execute(f"DELETE FROM {table} WHERE table_name = 'faces'")
+    return True
+
+
 def faults():
     """What is broken, the step that finds it, the file, and the way to break it."""
     for step, name, old, new in TEXTS:
@@ -102,6 +110,7 @@ def faults():
     yield "locations.xlsx: a formula", "tables", "locations.xlsx", change_sheet
     yield "faces.fgb: its end is missing", "flatgeobuf", "faces.fgb", cut
     yield "faces.fgb: another system", "flatgeobuf", "faces.fgb", change_crs
+    yield "map.gpkg: a layer is missing", "geopackage", "map.gpkg", drop_layer
     yield "bundle.zip: its end is missing", "bundle", "bundle.zip", cut
 
 

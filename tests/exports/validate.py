@@ -344,6 +344,28 @@ def flatgeobuf(folder, _kinds):
     check(numbers == set(map(int, faces)), "faces.fgb: other faces than in the zone set")
 
 
+def geopackage(folder, _kinds):
+    path = folder / "map.gpkg"
+    run = subprocess.run(["ogrinfo", "-ro", "-so", "-al", "-json", path], capture_output=True, text=True)
+    warnings = [line for line in run.stderr.splitlines() if "ERROR" in line or "Warning" in line]
+    check(run.returncode == 0 and not warnings, f"map.gpkg: GDAL: {warnings or run.stderr[:300]}")
+    layers = {layer["name"]: layer for layer in strict_json(run.stdout)["layers"]} if run.returncode == 0 else {}
+    check(len(layers) == 12, f"map.gpkg: {sorted(layers)}")
+    zoned = strict_json((folder / "vda5050-zone-set.json").read_text())["zoneSet"]["zones"]
+    faces = {zone["zoneId"].split("-")[1] for zone in zoned}
+    with (folder / "locations-generic.csv" if (folder / "locations-generic.csv").exists() else folder / "locations.csv").open() as file:
+        locations = sum(1 for _ in csv.DictReader(file))
+    for name, count in (("faces", len(faces)), ("locations", locations)):
+        layer = layers.get(name, {})
+        check(layer.get("featureCount") == count, f"map.gpkg: {layer.get('featureCount')} {name}, not {count}")
+        fields = {field["name"]: field["type"] for field in layer.get("fields", [])}
+        expected = {"faces": {"id": "Integer", "label": "String", "areaM2": "Real"}, "locations": {"code": "String"}}[name]
+        for column, kind in expected.items():
+            check(fields.get(column, "").startswith(kind), f"map.gpkg: {name}.{column} is {fields.get(column)}")
+        systems = [field["coordinateSystem"]["projjson"]["id"]["code"] for field in layer.get("geometryFields", [])]
+        check(systems == [3857], f"map.gpkg: {name} is in {systems}")
+
+
 def bundle(folder, _kinds):
     with zipfile.ZipFile(folder / "bundle.zip") as archive:
         check(archive.testzip() is None, "bundle.zip: broken")
@@ -361,7 +383,7 @@ def bundle(folder, _kinds):
         check({line.split("  ")[1] for line in sums} == listed, "bundle.zip: SHA256SUMS is not whole")
 
 
-STEPS = [lif, zones, route, masks, vector_objects, rmf, same_graph, tables, graphml, flatgeobuf, bundle]
+STEPS = [lif, zones, route, masks, vector_objects, rmf, same_graph, tables, graphml, flatgeobuf, geopackage, bundle]
 
 
 def problems_of(step, folder, kinds):

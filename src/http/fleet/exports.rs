@@ -98,6 +98,7 @@ impl IntoParams for ExportParameters {
         content((serde_json::Value = "application/json"), (serde_json::Value = "application/geo+json"),
             (String = "application/yaml"), (String = "text/csv; charset=utf-8"), (String = "text/plain; charset=utf-8"),
             (String = "application/graphml+xml"), (Binary = "application/zip"), (Binary = "application/flatgeobuf"),
+            (Binary = "application/geopackage+sqlite3"),
             (Binary = "application/vnd.openxmlformats-officedocument.spreadsheetml.sheet")),
         headers(("ETag" = String, description = "Changes with the map, its analysis, its labels and the options"),
             ("Content-Disposition" = String, description = "Name of the file"))),

@@ -16,7 +16,7 @@ use crate::http::extract::conditional::{EntityTag, IfMatch, IfNoneMatch};
 use crate::http::extract::negotiation::Accept;
 use crate::http::extract::prefer::Prefer;
 use crate::http::extract::{JsonBody, MapPath, Paging, Path, Query, present};
-use crate::http::links::{Base, GEO_JSON, HTML, JSON, OPENAPI_3_0, header as link_header};
+use crate::http::links::{Base, GEO_JSON, GEO_PACKAGE, HTML, JSON, OPENAPI_3_0, header as link_header};
 use crate::http::ogc::jobs;
 use crate::http::page::{self, Markup};
 use crate::http::paging::cut;
@@ -53,6 +53,7 @@ fn map_links(base: &Base, map: &MapRecord) -> Vec<Link> {
         to("related", "/changes", JSON).titled("What changed since a version of the labels"),
         to("version-history", "/semantics/versions", JSON).titled("Versions of the labels"),
         to("related", "/exports", JSON).titled("Files for fleet managers, planners and inventory systems"),
+        to("enclosure", "/exports/map.gpkg", GEO_PACKAGE).titled("All collections as a GeoPackage"),
         to("related", "/routes", GEO_JSON).titled("Routes between two places"),
     ];
     links.extend(pictures::NAMES.map(|(name, kind, title)| to("preview", &format!("/{name}"), kind).titled(title)));

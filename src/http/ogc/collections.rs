@@ -19,7 +19,7 @@ use crate::http::extract::conditional::{EntityTag, IfNoneMatch};
 use crate::http::extract::crs::{CRS84, CrsName};
 use crate::http::extract::negotiation::Accept;
 use crate::http::extract::{MapPath, Path};
-use crate::http::links::{Base, FLAT_GEOBUF, HTML, JSON, JSON_SCHEMA, encode};
+use crate::http::links::{Base, FLAT_GEOBUF, GEO_PACKAGE, HTML, JSON, JSON_SCHEMA, encode};
 use crate::http::page::{self, LinkedFeature, Markup};
 use crate::http::problem::Problem;
 use crate::views::id::Id;
@@ -179,6 +179,8 @@ pub async fn list(
         let links = vec![
             base.link("self", &own, JSON),
             base.link("alternate", &format!("{own}?f=html"), HTML).titled("The collections as a page"),
+            base.link("enclosure", &format!("/v1/maps/{}/exports/map.gpkg", path.map_id), GEO_PACKAGE)
+                .titled("All collections as a GeoPackage"),
             base.link("up", &format!("/v1/maps/{}", path.map_id), JSON),
         ];
         let title = format!("Collections of {}", context.record.name);
