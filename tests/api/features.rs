@@ -194,6 +194,9 @@ async fn items_are_cached_and_compressed() {
     let small = api.get_with(&path, &[("accept-encoding", "zstd")]).await;
     assert_eq!(small.header("content-encoding"), "zstd");
     assert!(small.header("vary").contains("accept"));
+    let for_browsers = api.get_with(&path, &[("accept-encoding", "br")]).await;
+    assert_eq!(for_browsers.header("content-encoding"), "br");
+    assert!(for_browsers.header("etag").ends_with("-br\"") && for_browsers.body.len() < 10_000);
     let again = api.get_with(&path, &[("accept-encoding", "zstd"), ("if-none-match", small.header("etag"))]).await;
     assert_eq!(again.status, 304);
     api.send_json(Method::PATCH, &map, &[], &json!({"georeference": {"lon": 12.86, "lat": 56.66}})).await;
@@ -215,7 +218,7 @@ async fn an_answer_given_again_is_the_same_and_counted() {
     let api = Api::new().await;
     let map = api.hall().await;
     let path = format!("{map}/collections/faces/items");
-    for coding in ["", "gzip", "zstd"] {
+    for coding in ["", "br", "gzip", "zstd"] {
         let headers = [("accept-encoding", coding)];
         let (first, again) = (api.get_with(&path, &headers).await, api.get_with(&path, &headers).await);
         assert_eq!(first.body, again.body, "{coding}");
@@ -229,7 +232,7 @@ async fn an_answer_given_again_is_the_same_and_counted() {
         assert_eq!(unchanged.headers.get_all("vary").iter().count(), first.headers.get_all("vary").iter().count());
         assert_eq!((unchanged.header("content-type"), unchanged.header("content-encoding")), ("", ""));
     }
-    assert_eq!((answered(&api, 200).await, answered(&api, 304).await), (6, 3));
+    assert_eq!((answered(&api, 200).await, answered(&api, 304).await), (8, 4));
 }
 
 #[tokio::test]

@@ -18,7 +18,7 @@ use crate::http::problem::{Problem, ProblemType};
 use crate::store::MapState;
 
 /// The codings of the compression layer.
-const CODINGS: [&str; 2] = ["gzip", "zstd"];
+const CODINGS: [&str; 3] = ["br", "gzip", "zstd"];
 
 /// A strong entity tag.
 #[derive(Debug, Clone)]
