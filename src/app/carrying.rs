@@ -24,7 +24,7 @@ use crate::store::{BlobId, NewCorrections, NewSemanticsRow, StoreError, now};
 
 /// Whether a decision that a person made on another analysis is to be carried over to the one with this id, on which
 /// `in_force` is the newest version.
-fn is_to_be_carried(before: &SemanticsRecord, analysis: Uuid, in_force: Option<&SemanticsRecord>) -> bool {
+pub(super) fn is_to_be_carried(before: &SemanticsRecord, analysis: Uuid, in_force: Option<&SemanticsRecord>) -> bool {
     before.analysis != analysis
         && match in_force {
             // Where nobody decided, the new suggestion stands.
@@ -160,7 +160,7 @@ impl App {
     }
 
     /// The analysis whose labels are carried over: from memory, or from its blob.
-    async fn earlier_analysis(
+    pub(super) async fn earlier_analysis(
         &self,
         known: Option<Arc<MapContext>>,
         blob: &BlobId,
