@@ -23,7 +23,7 @@ async fn the_nearest_features_come_first_with_their_distances() {
     let under = ask("point=1,1&crs=EPSG:3857&collection=faces").await.json();
     assert_eq!(
         (&under["features"][0]["id"], &under["features"][0]["properties"]["distanceM"]),
-        (&at["face"]["id"], &0.into())
+        (&at["face"]["id"], &0.0.into())
     );
     let filter = format!("id%3C%3E{}", at["face"]["id"]);
     let beside = ask(&format!("point=1,1&crs=EPSG:3857&collection=faces&filter={filter}")).await.json();
