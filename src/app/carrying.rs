@@ -53,7 +53,6 @@ impl App {
         if !is_to_be_carried(&before, analysis, in_force.as_ref()) {
             return Ok(in_force);
         }
-        let (_, corrections) = self.corrections_of(caller, map, Some(&before)).await?;
         let known = previous.filter(|known| known.analysis_id == before.analysis);
         let earlier = match self.earlier_analysis(known, &blob, geometry).await {
             Ok(earlier) => earlier,
@@ -63,17 +62,33 @@ impl App {
                 return Ok(in_force);
             }
         };
+        let replaces = in_force.map_or(0, |version| version.version);
+        let (row, level) = self.carried_row(caller, onto, geometry, (before, earlier), replaces).await?;
+        self.last_corrected.keep(analysis, level);
+        self.carry_row(caller, row).await.map(Some)
+    }
+
+    /// The version that a decision `before`, on an `earlier` analysis, becomes on another one (`onto`: its map and its id), and
+    /// that one under the corrections.
+    pub(super) async fn carried_row(
+        &self,
+        caller: &Caller,
+        (map, analysis): (Uuid, Uuid),
+        geometry: &GeometricLevel,
+        (before, earlier): (SemanticsRecord, GeometricLevel),
+        replaces: u64,
+    ) -> Result<(NewSemanticsRow, GeometricLevel), AppError> {
+        let (_, corrections) = self.corrections_of(caller, map, Some(&before)).await?;
         let (rule_set, new, decision) = (read_rule_set(&before.draft)?, geometry.clone(), before.assignment);
         let carry = move || {
             let (earlier, new) = (earlier.corrected(corrections.clone()), new.corrected(corrections));
             (carried(&earlier, &rule_set, &decision, before.version, &new), new)
         };
         let ((assignment, carried), level) = off_the_runtime(carry).await;
-        self.last_corrected.keep(analysis, level);
         let row = NewSemanticsRow {
             map,
             analysis,
-            replaces: in_force.map_or(0, |version| version.version),
+            replaces,
             rule_set: before.rule_set,
             draft: before.draft,
             assignment,
@@ -83,7 +98,7 @@ impl App {
             carried: Some(carried),
             restores: None,
         };
-        self.carry_row(caller, row).await.map(Some)
+        Ok((row, level))
     }
 
     /// Carries the corrections of the map of the site before one to its first analysis, and stores them as the first version.

@@ -10,6 +10,7 @@
 //! | `carrying` | the labels of another analysis, carried over to the one in force |
 //! | `corrections` | what people corrected about a map |
 //! | `history` | back and forth in the versions |
+//! | `proposals` | analyses as they would answer if they were in force |
 //! | `label_preview` | what a change of the labels would do |
 //! | `face_labels` | the label of a single face |
 //! | `registries` | uploads aligned to an earlier map, the codes of a site's places |
@@ -49,6 +50,7 @@ mod map_states;
 mod maps;
 mod name_import;
 mod names;
+mod proposals;
 mod registries;
 mod routers;
 mod rule_sets;
@@ -75,5 +77,6 @@ pub use label_preview::LabelPreview;
 pub use map_context::MapContext;
 pub use name_import::{NameChange, NameReport};
 pub use names::{Nameable, area_kind};
+pub use proposals::Proposal;
 pub use semantics_change::{RuleSetChoice, SemanticsChange, Unnamed};
 pub use service::App;

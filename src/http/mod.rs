@@ -76,6 +76,8 @@ fn answered_in_time() -> OpenApiRouter<Arc<App>> {
         .routes(routes!(maps::deletion::list))
         .routes(routes!(maps::deletion::restore))
         .routes(routes!(maps::analyses::list, maps::analyses::create))
+        .routes(routes!(maps::analyses::get))
+        .routes(routes!(maps::analyses::faces))
         .routes(routes!(maps::analyses::activate))
         .routes(routes!(maps::analyses::diagnostics))
         .routes(routes!(maps::evaluations::create))

@@ -102,6 +102,9 @@ pub trait Analyses {
     /// The analyses of a map, newest first; none when there is no such map.
     async fn analyses(&self, tenant: &Tenant, map: Uuid) -> Result<Vec<AnalysisRecord>, StoreError>;
 
+    /// The blob of an analysis of a map by this version of the algorithms; `None` when there is no such analysis.
+    async fn analysis_blob(&self, tenant: &Tenant, map: Uuid, analysis: Uuid) -> Result<Option<BlobId>, StoreError>;
+
     /// Maps of all tenants whose analysis in force was made by another version of the algorithms.
     async fn outdated(&self) -> Result<Vec<Outdated>, StoreError>;
 

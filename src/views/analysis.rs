@@ -11,7 +11,7 @@ use super::id::Id;
 use super::link::Link;
 use super::options::AnalysisOptionsView;
 use super::remarks::{DiagnosticView, StageView};
-use crate::records::{AnalysisRecord, SemanticsRecord};
+use crate::records::{AnalysisRecord, CarryRecord, SemanticsRecord};
 
 /// A finished analysis.
 #[derive(Debug, Serialize, ToSchema)]
@@ -30,20 +30,28 @@ pub struct AnalysisView {
     /// What became of the labels of the analysis that answered before, when they were last carried over to this one.
     #[serde(skip_serializing_if = "Option::is_none")]
     carried: Option<CarriedView>,
+    /// What would become of the labels that people gave if the analysis was activated now. Told of a proposal that is asked
+    /// for by itself.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    would_carry: Option<CarriedView>,
     /// What each stage cost.
     stages: Vec<StageView>,
     /// Remarks on the result.
     diagnostics: Vec<DiagnosticView>,
+    /// Itself, its faces, and where a `POST` activates it.
+    links: Vec<Link>,
 }
 
 impl AnalysisView {
     /// An analysis of a map whose analysis in force has the id `in_force`, and whose labels have these versions, newest
     /// first.
     #[must_use]
-    pub fn new(record: AnalysisRecord, in_force: Option<Uuid>, versions: &[SemanticsRecord]) -> Self {
+    pub fn new(record: AnalysisRecord, in_force: Option<Uuid>, versions: &[SemanticsRecord], links: Vec<Link>) -> Self {
         let mut on_it = versions.iter().filter(|version| version.analysis == record.id);
         Self {
             carried: on_it.find_map(|version| version.carried.clone()).map(CarriedView::from),
+            would_carry: None,
+            links,
             in_force: in_force == Some(record.id),
             id: Id(record.id),
             map_id: Id(record.map),
@@ -52,6 +60,12 @@ impl AnalysisView {
             diagnostics: record.diagnostics.iter().map(Into::into).collect(),
             options: record.options,
         }
+    }
+
+    /// Tells what would become of the labels that people gave.
+    #[must_use]
+    pub fn with_prospect(self, would_carry: Option<CarryRecord>) -> Self {
+        Self { would_carry: would_carry.map(CarriedView::from), ..self }
     }
 }
 

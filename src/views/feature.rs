@@ -27,17 +27,16 @@ pub struct FeatureCollectionView {
     features: Vec<FeatureView>,
 }
 
-/// The features nearest to a point in GeoJSON (RFC 7946), each with `distanceM` among its properties.
+/// Features in GeoJSON (RFC 7946), all at once.
 #[derive(Debug, Serialize, ToSchema)]
-#[schema(as = NearFeatures)]
+#[schema(as = FeatureList)]
 #[serde(rename_all = "camelCase")]
-pub struct NearFeaturesView {
+pub struct FeatureListView {
     /// `FeatureCollection`
     #[schema(example = "FeatureCollection")]
     r#type: String,
     /// Features of this answer.
     number_returned: usize,
-    /// The nearest first.
     features: Vec<FeatureView>,
 }
 

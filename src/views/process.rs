@@ -4,7 +4,6 @@ use serde::Serialize;
 use serde_json::{Value, json};
 use utoipa::ToSchema;
 
-use super::id::Id;
 use super::link::Link;
 use crate::app::ProcessDescription;
 
@@ -83,7 +82,7 @@ impl ProcessView {
         let link = json!({"type": "object", "format": "uri-reference", "required": ["href"]});
         let output = |title: &str, schema: &Value| json!({"title": title, "schema": schema});
         let outputs = json!({
-            "analysis": output("Id of the analysis", &json!({"type": "string", "format": "uuid"})),
+            "analysis": output("Link to the analysis, which may be a proposal beside the one in force", &link),
             "map": output("Link to the map, the root of an OGC API of its own", &link),
             "faces": output("Link to its labelled faces", &link),
             "locations": output("Link to its storage locations", &link),
@@ -96,9 +95,9 @@ impl ProcessView {
 #[derive(Debug, Serialize, ToSchema)]
 #[schema(as = Results)]
 pub struct ResultsView {
-    /// Id of the analysis.
+    /// The analysis, which may be a proposal beside the one that answers under the other links.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub analysis: Option<Id>,
+    pub analysis: Option<Link>,
     /// The map.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub map: Option<Link>,

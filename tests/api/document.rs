@@ -115,6 +115,13 @@ fn name_hall(map: &str) -> Sent {
     Sent::new(Method::POST, format!("{map}/corrections")).json(&correction).with("if-match", "*")
 }
 
+/// The path of an analysis of the first map.
+async fn proposal(site: &Site) -> String {
+    let list = site.api.get(&format!("{}/analyses", site.map)).await.json();
+    let id = list["analyses"][0]["id"].as_str().expect("an id").to_owned();
+    format!("{}/analyses/{id}", site.map)
+}
+
 fn rule_set(id: &str) -> Value {
     json!({"id": id, "labels": [
         {"id": "co", "name": "corridor", "color": "#1f77b4", "functionality": ["drivable"], "connectsTo": ["co"]},
@@ -165,6 +172,8 @@ pub async fn valid(site: &Site, operation: &str) -> (Sent, &'static [u16]) {
         }
         "listAnalyses" => get(format!("{map}/analyses")),
         "createAnalysis" => (Sent::new(Method::POST, format!("{map}/analyses")).json(&json!({"seed": 7})), &[202, 200]),
+        "getAnalysis" => get(proposal(site).await),
+        "getAnalysisFaces" => get(format!("{}/faces", proposal(site).await)),
         "activateAnalysis" => {
             let list = site.api.get(&format!("{map}/analyses")).await.json();
             let id = list["analyses"].as_array().expect("a list").last().expect("the first one")["id"].clone();

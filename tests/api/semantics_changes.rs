@@ -143,9 +143,13 @@ async fn an_earlier_version_is_restored_as_a_new_one() {
     api.send(request(Method::POST, &path, &stale, Body::empty())).await.problem(412, "precondition-failed");
 }
 
-/// Label by the middle of each face.
+/// Label by the shape of each face.
 async fn labels_by_place(api: &Api, map: &str) -> BTreeMap<String, String> {
     let faces = api.get(&format!("{map}/collections/faces/items?limit=1000")).await.json();
+    by_place(&faces)
+}
+
+fn by_place(faces: &Value) -> BTreeMap<String, String> {
     let faces = faces["features"].as_array().expect("faces").iter();
     let label = |face: &Value| (face["geometry"].to_string(), face["properties"]["label"].to_string());
     faces.map(label).collect()
@@ -182,6 +186,17 @@ async fn labels_are_carried_over_to_another_analysis() {
         change(&api, &map, Method::PATCH, &json!({"assignment": {"0": "ro"}, "overrides": {"3": "ju"}})).await;
     assert_eq!(decided.status, 200, "{}", decided.text());
     let labels = labels_by_place(&api, &map).await;
+    let proposal = api.get(&same_faces).await.json();
+    assert_eq!(
+        (&proposal["inForce"], &proposal["wouldCarry"]),
+        (&json!(false), &json!({"from": 1, "kept": 2, "lost": []}))
+    );
+    let faces = api.get(&format!("{same_faces}/faces?properties=label")).await.json();
+    assert_eq!(by_place(&faces), labels, "its faces can be looked at before");
+    assert_eq!(
+        api.get(&format!("{map}/semantics/versions")).await.json()["versions"].as_array().map(Vec::len),
+        Some(1)
+    );
     let analysis = activate(&api, &same_faces).await;
     assert_eq!(analysis["carried"], json!({"from": 1, "kept": 2, "lost": []}));
     let semantics = api.get(&format!("{map}/semantics")).await.json();
@@ -216,8 +231,9 @@ async fn what_other_faces_cannot_hold_is_told_as_lost() {
     assert_eq!(change(&api, &map, Method::PATCH, &patch).await.status, 200);
     // One face for the whole map.
     let whole = propose(&api, &map, &json!({"decomposition": {"method": "paper", "minPeak": 0.9}})).await;
+    let would_carry = api.get(&whole).await.json()["wouldCarry"].take();
     let carried = activate(&api, &whole).await["carried"].take();
-
+    assert_eq!(would_carry, carried, "it is told before");
     assert_eq!((&carried["kept"], carried["lost"].as_array().map(Vec::len)), (&json!(0), Some(1)), "{carried}");
     let lost = &carried["lost"][0];
     assert_eq!((lost["face"].to_string(), &lost["label"]), (smallest, &json!("ju")));

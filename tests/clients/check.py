@@ -135,7 +135,7 @@ def owslib_reads():
 def owslib_executes():
     """OWSLib: processes, a description, an execution that waits, one that does not, and its results."""
     client = Processes(f"{SERVICE}/v1/")
-    assert any(uri.endswith("ogcapi-processes-1/1.0/conf/core") for uri in client.conformance()["conformsTo"])
+    assert any(uri.endswith("ogcapi-common-1/1.0/conf/core") for uri in client.conformance()["conformsTo"])
     assert [process["id"] for process in client.processes()] == ["semantic-map"]
     assert "mapId" in client.process("semantic-map")["inputs"]
     inputs = {"mapId": MAP.rsplit("/", 1)[1]}
@@ -143,7 +143,10 @@ def owslib_executes():
     job = client.execute("semantic-map", inputs | {"options": {"seed": 7}}, async_=True)["jobID"]
     while get(f"{SERVICE}/v1/jobs/{job}")["status"] in ("accepted", "running"):
         time.sleep(0.2)
-    assert get(f"{SERVICE}/v1/jobs/{job}/results")["map"]["href"] == MAP
+    results = get(f"{SERVICE}/v1/jobs/{job}/results")
+    assert results["map"]["href"] == MAP
+    proposal = get(results["analysis"]["href"])
+    assert proposal["inForce"] is False and proposal["options"]["seed"] == 7, proposal
     assert job in [one["jobID"] for one in get(f"{SERVICE}/v1/jobs?status=successful&minDuration=0")["jobs"]]
 
 

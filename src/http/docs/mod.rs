@@ -78,7 +78,7 @@ pub fn pages_of_the_api(base: &Base) -> [Link; 7] {
         base.link("service-desc", "/openapi-3.0.json", OPENAPI_3_0).titled("The API as an OpenAPI 3.0 document"),
         base.link("service-doc", "/docs/", HTML).titled("The API reference"),
         base.link("http://www.opengis.net/def/rel/ogc/1.0/conformance", "/v1/conformance", JSON)
-            .titled("The standards that processes and jobs meet"),
+            .titled("The standards that are met here"),
         base.link("http://www.opengis.net/def/rel/ogc/1.0/processes", "/v1/processes", JSON).titled("The processes"),
         base.link("http://www.opengis.net/def/rel/ogc/1.0/job-list", "/v1/jobs", JSON).titled("The jobs"),
         base.link("data", "/v1/maps", JSON).titled("The maps"),

@@ -24,7 +24,7 @@ use crate::http::ogc::collections::CollectionId;
 use crate::http::ogc::filter::{self, FilterLanguage};
 use crate::http::ogc::item_query::properties;
 use crate::http::problem::Problem;
-use crate::views::feature::NearFeaturesView;
+use crate::views::feature::FeatureListView;
 
 /// Most features of an answer.
 const MAX_COUNT: u32 = 1_000;
@@ -67,7 +67,7 @@ pub struct NearestQuery {
 /// the nearest one inside.
 #[utoipa::path(get, path = "/v1/maps/{mapId}/nearest", tag = "fleet", operation_id = "getNearest",
     params(MapPath, NearestQuery),
-    responses((status = 200, description = "The features", body = NearFeaturesView, content_type = "application/geo+json",
+    responses((status = 200, description = "The features", body = FeatureListView, content_type = "application/geo+json",
         headers(("ETag" = String, description = "Changes with the map, its analysis, its labels and its names"),
             ("Content-Crs" = String, description = "System of the coordinates"))),
         NotFound, NotAnalysed))]

@@ -4,22 +4,31 @@ use std::sync::Arc;
 
 use axum::Json;
 use axum::extract::State;
+use axum::http::{HeaderValue, header};
 use axum::response::{IntoResponse, Response};
 use serde::Deserialize;
 use utoipa::IntoParams;
+use uuid::Uuid;
 
 use crate::app::{AnalysisRecord, AnalysisTicket, App, Caller};
+use crate::blocking::off_the_runtime;
+use crate::features::Collection;
+use crate::formats::geojson;
 use crate::http::docs::refusals::{NoSpace, NotAnalysed, NotFound};
 use crate::http::extract::conditional::{EntityTag, IfNoneMatch};
+use crate::http::extract::crs::{CONTENT_CRS, CrsName};
 use crate::http::extract::{JsonBody, MapPath, Path, Query};
-use crate::http::links::{Base, JSON};
+use crate::http::links::{Base, GEO_JSON, JSON};
+use crate::http::ogc::item_query::properties;
 use crate::http::ogc::jobs;
 use crate::http::problem::Problem;
 use crate::options::RequestedOptions;
 use crate::views::analysis::{AnalysisList, AnalysisView};
 use crate::views::diagnostics::Diagnostics;
+use crate::views::feature::FeatureListView;
 use crate::views::id::Id;
 use crate::views::job::JobView;
+use crate::views::link::Link;
 use crate::views::options::AnalysisOptionsView;
 
 /// List analyses
@@ -37,7 +46,11 @@ pub async fn list(
     let in_force = app.map(&caller, path.map_id.0).await?.analysis;
     let versions = app.semantics_versions(&caller, path.map_id.0).await?;
     let analyses = app.analyses(&caller, path.map_id.0).await?.into_iter();
-    let analyses = analyses.map(|record| AnalysisView::new(record, in_force, &versions)).collect();
+    let view = |record: AnalysisRecord| {
+        let links = links(&base, &record, in_force);
+        AnalysisView::new(record, in_force, &versions, links)
+    };
+    let analyses = analyses.map(view).collect();
     let links = vec![base.link("self", &format!("/v1/maps/{}/analyses", path.map_id), JSON)];
     Ok(Json(AnalysisList { analyses, links }))
 }
@@ -87,7 +100,7 @@ pub async fn create(
     // The use case names the options as a part of an upload; here they are the whole body.
     let in_body = |pointer: &str| pointer.strip_prefix("/options").unwrap_or(pointer).to_owned();
     Ok(match ticket.map_err(|error| Problem::from(error).map_pointers(in_body))? {
-        AnalysisTicket::Existing(record) => Json(document(&app, &caller, *record).await?).into_response(),
+        AnalysisTicket::Existing(record) => Json(document(&app, &caller, &base, *record).await?).into_response(),
         AnalysisTicket::Job(job) => jobs::accepted(&base, *job),
     })
 }
@@ -104,17 +117,89 @@ pub async fn create(
 pub async fn activate(
     State(app): State<Arc<App>>,
     caller: Caller,
+    base: Base,
     Path(path): Path<AnalysisPath>,
 ) -> Result<Json<AnalysisView>, Problem> {
     let record = app.activate_analysis(&caller, path.map_id.0, path.analysis_id.0).await?;
-    Ok(Json(document(&app, &caller, record).await?))
+    Ok(Json(document(&app, &caller, &base, record).await?))
+}
+
+/// An analysis
+///
+/// Of a proposal, `wouldCarry` says which labels that people gave would be kept and lost if it was activated now.
+#[utoipa::path(get, path = "/v1/maps/{mapId}/analyses/{analysisId}", tag = "maps", operation_id = "getAnalysis",
+    params(AnalysisPath),
+    responses((status = 200, description = "The analysis", body = AnalysisView),
+        NotFound, NotAnalysed))]
+pub async fn get(
+    State(app): State<Arc<App>>,
+    caller: Caller,
+    base: Base,
+    Path(path): Path<AnalysisPath>,
+) -> Result<Json<AnalysisView>, Problem> {
+    let record = app.analysis(&caller, path.map_id.0, path.analysis_id.0).await?;
+    let proposal = app.proposal(&caller, path.map_id.0, record.id).await?;
+    Ok(Json(document(&app, &caller, &base, record).await?.with_prospect(proposal.carried)))
+}
+
+/// How to write faces.
+#[derive(Debug, Deserialize, IntoParams)]
+#[into_params(parameter_in = Query)]
+#[serde(deny_unknown_fields)]
+pub struct FacesQuery {
+    /// Only these properties; all when absent. They come in the order of the schema.
+    #[param(value_type = Option<Vec<String>>, style = Form, explode = false, min_items = 1, example = json!(["label"]))]
+    properties: Option<String>,
+    /// System of the coordinates; CRS84 when absent.
+    #[serde(default)]
+    #[param(value_type = Option<CrsName>)]
+    crs: CrsName,
+}
+
+/// Faces of an analysis
+///
+/// As they are, or of a proposal as they would be if it was activated now: with the labels of people where those would be kept,
+/// else with the suggested ones.
+#[utoipa::path(get, path = "/v1/maps/{mapId}/analyses/{analysisId}/faces", tag = "maps",
+    operation_id = "getAnalysisFaces", params(AnalysisPath, FacesQuery),
+    responses((status = 200, description = "All faces", body = FeatureListView, content_type = "application/geo+json",
+        headers(("Content-Crs" = String, description = "System of the coordinates"))),
+        NotFound, NotAnalysed))]
+pub async fn faces(
+    State(app): State<Arc<App>>,
+    caller: Caller,
+    Path(path): Path<AnalysisPath>,
+    Query(query): Query<FacesQuery>,
+) -> Result<Response, Problem> {
+    let properties = properties(query.properties.as_deref(), Collection::Faces)?;
+    let context = app.proposal(&caller, path.map_id.0, path.analysis_id.0).await?.context;
+    let transform =
+        query.crs.transform(context.record.georeference).map_err(|detail| Problem::parameter("crs", detail))?;
+    let headers = [(header::CONTENT_TYPE, HeaderValue::from_static(GEO_JSON)), (CONTENT_CRS, query.crs.header())];
+    let written = move || {
+        let faces = context.features(Collection::Faces);
+        geojson::feature_collection(faces, &properties, &transform, &[("numberReturned", &faces.len())])
+    };
+    Ok((headers, off_the_runtime(written).await).into_response())
+}
+
+/// An analysis, its faces, and the way to put it in force.
+fn links(base: &Base, record: &AnalysisRecord, in_force: Option<Uuid>) -> Vec<Link> {
+    let path = format!("/v1/maps/{}/analyses/{}", record.map, record.id);
+    let to = |rel, below: &str, media_type| base.link(rel, &format!("{path}{below}"), media_type);
+    let mut links = vec![to("self", "", JSON), to("related", "/faces", GEO_JSON).titled("Its labelled faces")];
+    if in_force != Some(record.id) {
+        links.push(to("related", "/activate", JSON).titled("POST puts it in force"));
+    }
+    links
 }
 
 /// The document of an analysis as it is now.
-async fn document(app: &App, caller: &Caller, record: AnalysisRecord) -> Result<AnalysisView, Problem> {
+async fn document(app: &App, caller: &Caller, base: &Base, record: AnalysisRecord) -> Result<AnalysisView, Problem> {
     let in_force = app.map(caller, record.map).await?.analysis;
     let versions = app.semantics_versions(caller, record.map).await?;
-    Ok(AnalysisView::new(record, in_force, &versions))
+    let links = links(base, &record, in_force);
+    Ok(AnalysisView::new(record, in_force, &versions, links))
 }
 
 /// Signals and timings

@@ -32,7 +32,7 @@ pub struct ExecuteBody {
     /// The outputs that a synchronous answer holds, by name; all when absent.
     #[schema(value_type = Option<Object>, example = json!({"faces": {}}))]
     outputs: Option<BTreeMap<String, Value>>,
-    /// The form of a synchronous answer; a document when absent.
+    /// The form of a synchronous answer. When absent: the value alone where one output is named, else a document.
     response: Option<ResponseForm>,
 }
 
@@ -96,8 +96,8 @@ impl Execution {
 
     /// The output whose value is the whole answer, if there is one.
     pub fn raw_output(&self) -> Option<&str> {
-        let outputs = self.outputs.as_ref().filter(|_| matches!(self.response, Some(ResponseForm::Raw)))?;
-        outputs.keys().next().map(String::as_str)
+        let outputs = self.outputs.as_ref().filter(|_| !matches!(self.response, Some(ResponseForm::Document)))?;
+        outputs.keys().next().filter(|_| outputs.len() == 1).map(String::as_str)
     }
 
     /// Where in the body a pointer into an upload or into options leads.

@@ -22,7 +22,6 @@ use crate::http::extract::{JsonBody, Path};
 use crate::http::links::{Base, GEO_JSON, HTML, JSON};
 use crate::http::page;
 use crate::http::problem::Problem;
-use crate::views::id::Id;
 use crate::views::job::JobView;
 use crate::views::process::{ProcessList, ProcessSummaryView, ProcessView, ResultsView};
 
@@ -148,7 +147,7 @@ fn results(base: &Base, map: Uuid, analysis: Uuid, wants: impl Fn(&str) -> bool)
         wants(output).then(|| base.link("item", &format!("/v1/maps/{map}{below}"), media_type))
     };
     ResultsView {
-        analysis: wants("analysis").then_some(Id(analysis)),
+        analysis: link("analysis", &format!("/analyses/{analysis}"), JSON),
         map: link("map", "", JSON),
         faces: link("faces", "/collections/faces/items", GEO_JSON),
         locations: link("locations", "/collections/locations/items", GEO_JSON),

@@ -95,6 +95,20 @@ impl Analyses for Sqlite {
         rows.iter().map(analysis_record).collect()
     }
 
+    async fn analysis_blob(&self, tenant: &Tenant, map: Uuid, analysis: Uuid) -> Result<Option<BlobId>, StoreError> {
+        let row = sqlx::query(
+            "SELECT analyses.blob FROM analyses JOIN maps ON maps.id = analyses.map \
+             WHERE maps.tenant = $1 AND maps.id = $2 AND analyses.id = $3 AND analyses.algorithm = $4",
+        )
+        .bind(tenant.as_str())
+        .bind(map.to_string())
+        .bind(analysis.to_string())
+        .bind(ALGORITHM_VERSION)
+        .fetch_optional(&self.readers)
+        .await?;
+        row.map(|row| row.blob("blob")).transpose()
+    }
+
     async fn outdated(&self) -> Result<Vec<Outdated>, StoreError> {
         let rows = sqlx::query(
             "SELECT maps.tenant, maps.id, analyses.options FROM maps JOIN analyses ON analyses.id = maps.analysis \
