@@ -19,10 +19,10 @@ use jiff::Timestamp;
 use labelled::LabelledSite;
 use stillage::exports::{ExportOptions, ExportSource, list, write};
 use stillage::features::MapNames;
+use stillage_core::SiteCells;
 use stillage_core::graph::navigation_graph;
 use stillage_core::layout::{LayoutSpec, layout};
 use stillage_core::routing::Router;
-use stillage_core::SiteCells;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let folder = std::env::args().nth(1).map(PathBuf::from);

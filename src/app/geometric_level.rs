@@ -121,7 +121,7 @@ impl GeometricLevel {
                 corrections: Arc::default(),
             };
         }
-        let Corrected { analysis, faces, labels, names, outcomes } =
+        let Corrected { analysis, faces, labels, names, outcomes, .. } =
             corrections::apply(&grid, &analysed, &cells_analysed.faces, &list);
         Self {
             grid,
