@@ -1,6 +1,6 @@
 /** The language of the page: the reader's choice, else that of the browser. */
 
-import { texts, type TextName } from "./texts";
+import { texts, type TextName } from "./texts/texts";
 
 export type Language = "en" | "de";
 

@@ -159,7 +159,9 @@ test("locations are sorted as people count", async () => {
 });
 
 test("every text is there in both languages, with the same values to fill in", async () => {
-  const { texts } = await load("texts.ts");
+  const { TABLES, texts } = await load("texts/texts.ts");
+  const names = TABLES.flatMap((table) => Object.keys(table));
+  assert.equal(new Set(names).size, names.length, "no table replaces a text of another one");
   const values = (text) => [...text.matchAll(/\{\w+\}/g)].map(String).sort();
   for (const [name, [english, german]] of Object.entries(texts)) {
     assert.ok(english.length > 0 && german.length > 0, name);

@@ -3,7 +3,7 @@
 import { spawn } from "node:child_process";
 import { mkdtemp, readFile, rm } from "node:fs/promises";
 import { tmpdir } from "node:os";
-import { join } from "node:path";
+import { join, resolve } from "node:path";
 import { createInterface } from "node:readline";
 
 import { chromium } from "playwright-core";
@@ -74,6 +74,7 @@ export async function startBrowser(options = {}) {
     args: ["--no-sandbox", "--disable-gpu", "--disable-background-networking", "--disable-component-update"],
   });
   const context = await browser.newContext({ viewport: { width: 1280, height: 720 }, locale: "en-GB", ...options });
+  if (process.env.STILLAGE_PAGE) await showPage(context, resolve(process.env.STILLAGE_PAGE));
   const page = await context.newPage();
   const complaints = [];
   page.on("pageerror", (error) => complaints.push(error.message));
@@ -83,6 +84,19 @@ export async function startBrowser(options = {}) {
       complaints.push(message.text());
   });
   return { browser, page, complaints };
+}
+
+/** Shows the page of a folder in the place of the one in the program, under the same policy. */
+async function showPage(context, folder) {
+  const isDocument = (request) => request.resourceType() === "document";
+  await context.route(/^http:\/\/127\.0\.0\.1:\d+\/(#.*)?$/, async (route) => {
+    if (!isDocument(route.request())) return route.fallback();
+    const response = await route.fetch();
+    return route.fulfill({ response, body: await readFile(join(folder, "index.html")) });
+  });
+  await context.route("**/assets/*", (route) =>
+    route.fulfill({ path: join(folder, new URL(route.request().url()).pathname) }),
+  );
 }
 
 /** Opens a map with a tool and waits until it is drawn. */

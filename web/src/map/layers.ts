@@ -3,7 +3,7 @@
 import type { FeatureLike } from "ol/Feature";
 import type { Style } from "ol/style";
 
-import type { TextName } from "../texts";
+import type { TextName } from "../texts/texts";
 import { rowOf } from "./geojson";
 import { area, COLORS, dot, label, line } from "./look";
 

@@ -8,7 +8,7 @@ import type { Coordinates } from "../../map/coordinates";
 import type { Point } from "../../map/frame";
 import type { MapCanvas } from "../../map/map_canvas";
 import type { MapView } from "../../service/types";
-import type { TextName } from "../../texts";
+import type { TextName } from "../../texts/texts";
 
 export interface Workspace {
   readonly map: MapView;

@@ -1,0 +1,22 @@
+/** Texts of what several pages say: English, German. */
+
+import type { Texts } from "./text";
+
+export const everywhereTexts = {
+  skip: ["Skip to the content", "Zum Inhalt springen"],
+  language: ["Language", "Sprache"],
+  reference: ["API reference", "API-Referenz"],
+  maps: ["Maps", "Karten"],
+  cancel: ["Cancel", "Abbrechen"],
+  keep: ["Keep", "Behalten"],
+  delete: ["Delete", "Löschen"],
+  remove: ["Remove {name}", "{name} entfernen"],
+  progress: ["Progress", "Fortschritt"],
+  unreachable: ["The service does not answer", "Der Dienst antwortet nicht"],
+  unreachableMeaning: [
+    "Nothing is lost: what you entered stays here. Check that the service runs and try again.",
+    "Nichts ist verloren: Ihre Eingaben bleiben hier. Prüfen Sie, ob der Dienst läuft, und versuchen Sie es erneut.",
+  ],
+  aboutProblem: ["About this kind of problem", "Über diese Art von Problem"],
+  licenses: ["Licences of the packages in this page", "Lizenzen der Pakete in dieser Seite"],
+} as const satisfies Texts;
