@@ -98,6 +98,36 @@ test("a map is deleted after a question", async () => {
   assert.equal((await json(service.base, "/v1/maps")).body.maps.length, body.maps.length - 1);
 });
 
+test("a deletion is undone, also after the page was closed, as long as the service keeps the map", async () => {
+  await page.reload();
+  await page.getByRole("button", { name: "Bring back Hall 6" }).click();
+  await page.getByRole("heading", { name: "Hall 6" }).waitFor();
+  assert.equal(await page.getByText("was deleted").count(), 0);
+  await page.evaluate(() => {
+    const gone = [{ id: "01a22711-7884-74c4-958b-49286e02bea9", name: "Long gone" }];
+    localStorage.setItem("stillage.deleted", JSON.stringify(gone));
+  });
+  await page.reload();
+  await page.getByRole("heading", { name: "Hall 6" }).waitFor();
+  await page.getByText("“Long gone” was deleted").waitFor({ state: "detached" });
+});
+
+test("a map is renamed; where somebody else was faster, their name is told and one's own stays", async () => {
+  await page.getByRole("button", { name: "Rename Hall 6" }).click();
+  const dialog = page.getByRole("dialog");
+  const name = dialog.getByLabel("Name");
+  await name.fill("Hall 7");
+  const { body } = await json(service.base, "/v1/maps");
+  const { id } = body.maps.find((map) => map.name === "Hall 6");
+  const headers = { "content-type": "application/json" };
+  await json(service.base, `/v1/maps/${id}`, { method: "PATCH", headers, body: JSON.stringify({ name: "Hall 8" }) });
+  await dialog.getByRole("button", { name: "Rename" }).click();
+  await dialog.getByText("it is called “Hall 8” now").waitFor();
+  assert.equal(await name.inputValue(), "Hall 7");
+  await name.press("Enter");
+  await page.getByRole("heading", { name: "Hall 7" }).waitFor();
+});
+
 test("files are dropped on the page", async () => {
   const transfer = await page.evaluateHandle(() => {
     const transfer = new DataTransfer();

@@ -7,6 +7,7 @@ import type { COLORS } from "../map/look";
 import type { Reading } from "../map/layers";
 import { getTagged, get, send, type Tagged } from "../service/request";
 import type { CogencyMatrix, Label, RuleSet, Semantics } from "../service/types";
+import { readStored, writeStored } from "../stored";
 import { emptyDraft, isEmpty, labelUnder, patchOf, type Draft } from "./draft";
 import { changed, step, trackOf, type Track } from "./undo";
 
@@ -26,7 +27,7 @@ export class Labels implements Reading {
     /** The row of a face. */
     private readonly faceRow: (id: number) => Readonly<Record<string, unknown>> | undefined,
   ) {
-    this.draftNow = this.stored() ?? emptyDraft(read.body.version);
+    this.draftNow = readStored<Draft>(this.key) ?? emptyDraft(read.body.version);
     this.track = trackOf(read.body.version);
   }
 
@@ -50,22 +51,12 @@ export class Labels implements Reading {
   /** Keeps a draft, in the browser too: it outlives a closed page and a service that is gone. */
   set draft(draft: Draft) {
     this.draftNow = draft;
-    if (isEmpty(draft)) localStorage.removeItem(this.key);
-    else localStorage.setItem(this.key, JSON.stringify(draft));
+    writeStored(this.key, isEmpty(draft) ? undefined : draft);
     this.tell();
   }
 
   private get key(): string {
     return `stillage.draft.${this.map}`;
-  }
-
-  private stored(): Draft | undefined {
-    try {
-      return (JSON.parse(localStorage.getItem(this.key) ?? "null") as Draft | null) ?? undefined;
-    } catch {
-      // No page of today wrote it.
-      return undefined;
-    }
   }
 
   onChange(listener: () => void): () => void {

@@ -1,6 +1,6 @@
 /** Maps: the list, upload, deletion. */
 
-import { ask, get } from "./request";
+import { ask, get, Refused, send, type Tagged } from "./request";
 import type { Job, MapView } from "./types";
 
 /** All maps, newest first, page after page. */
@@ -48,4 +48,25 @@ async function json(response: Response): Promise<Job> {
 
 export async function deleteMap(id: string): Promise<void> {
   await ask(`v1/maps/${id}`, { method: "DELETE" });
+}
+
+/** Another name, where nobody changed the map since it was read with this tag. */
+export function renameMap(id: string, name: string, tag: string): Promise<Tagged<MapView>> {
+  return send("PATCH", `v1/maps/${id}`, { name }, tag);
+}
+
+/** Brings a deleted map back. */
+export async function restoreMap(id: string): Promise<void> {
+  await ask(`v1/maps/${id}/restore`, { method: "POST" });
+}
+
+/** Whether a deleted map can still be brought back: the service says so as long as it keeps it. */
+export async function isKept(id: string): Promise<boolean> {
+  try {
+    await ask(`v1/maps/${id}`);
+    return false;
+  } catch (error) {
+    if (!(error instanceof Refused) || error.status === 0) throw error;
+    return error.status === 404 && error.problem.detail.includes(`/v1/maps/${id}/restore`);
+  }
 }

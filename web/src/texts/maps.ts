@@ -43,7 +43,18 @@ export const mapsTexts = {
   deleteOne: ["Delete {name}", "{name} löschen"],
   deleteQuestion: ["Delete “{name}”?", "„{name}“ löschen?"],
   deleteMeaning: [
-    "The map goes with its analyses, its labels and their versions.",
-    "Die Karte wird mit ihren Analysen, ihren Labels und deren Versionen gelöscht.",
+    "The map goes with its analyses, its labels and their versions. It can be brought back for a while.",
+    "Die Karte wird mit ihren Analysen, ihren Labels und deren Versionen gelöscht. Eine Zeit lang lässt sie sich zurückholen.",
+  ],
+  deletedMaps: ["Deleted maps", "Gelöschte Karten"],
+  deletedMap: ["“{name}” was deleted.", "„{name}“ wurde gelöscht."],
+  undoDeletion: ["Undo", "Rückgängig"],
+  undoDeletionOf: ["Bring back {name}", "{name} zurückholen"],
+  rename: ["Rename", "Umbenennen"],
+  renameOne: ["Rename {name}", "{name} umbenennen"],
+  renameTitle: ["Rename the map", "Karte umbenennen"],
+  changedMeanwhile: [
+    "Somebody else changed the map meanwhile; it is called “{name}” now. Rename it again to give it your name.",
+    "Inzwischen hat jemand anderes die Karte geändert; sie heißt jetzt „{name}“. Benennen Sie erneut um, um Ihren Namen zu vergeben.",
   ],
 } as const satisfies Texts;

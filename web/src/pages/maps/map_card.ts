@@ -4,6 +4,7 @@ import { ofMap } from "../../address";
 import { button, h } from "../../dom";
 import { moment, number, t } from "../../language";
 import { confirm } from "../../parts/confirm";
+import { rename } from "../../parts/rename";
 import { jobProgress, type JobEvents } from "../../parts/job_progress";
 import { isOver } from "../../service/jobs";
 import { deleteMap } from "../../service/maps";
@@ -18,12 +19,18 @@ export interface CardJob {
   readonly isWatched: boolean;
 }
 
-export function mapCard(map: MapView, job: CardJob, events: JobEvents): HTMLElement {
+/** What the list does after a card's actions. */
+export interface CardEvents extends JobEvents {
+  /** The map was deleted. */
+  readonly deleted: (map: MapView) => void;
+}
+
+export function mapCard(map: MapView, job: CardJob, events: CardEvents): HTMLElement {
   const isAnalysed = Boolean(map.analysisId);
   const remove = async (): Promise<void> => {
     if (!(await confirm(t("deleteQuestion", { name: map.name }), t("deleteMeaning"), t("delete")))) return;
     await deleteMap(map.id);
-    events.changed();
+    events.deleted(map);
   };
   const name = isAnalysed ? h("a", { href: ofMap(map.id) }, map.name) : map.name;
   return h(
@@ -38,7 +45,16 @@ export function mapCard(map: MapView, job: CardJob, events: JobEvents): HTMLElem
       ...map.warnings.map((warning) => h("p", { class: "warning" }, warning.message)),
       state(map, job, events),
     ),
-    button(t("delete"), () => void remove().catch(events.failed), { "aria-label": t("deleteOne", { name: map.name }) }),
+    h(
+      "div",
+      { class: "line" },
+      button(t("rename"), () => void rename(map.id, events.changed).catch(events.failed), {
+        "aria-label": t("renameOne", { name: map.name }),
+      }),
+      button(t("delete"), () => void remove().catch(events.failed), {
+        "aria-label": t("deleteOne", { name: map.name }),
+      }),
+    ),
   );
 }
 

@@ -7,6 +7,7 @@ import { clear, problemBox, show } from "../../parts/problem";
 import { latestJobs, watchedJobs } from "../../service/jobs";
 import { listMaps } from "../../service/maps";
 import type { MapView } from "../../service/types";
+import { deletedMaps } from "./deleted_maps";
 import { mapCard } from "./map_card";
 import { uploadForm } from "./upload";
 
@@ -16,6 +17,8 @@ export function mapsPage(): Page {
   const following: (() => void)[] = [];
   let isLeft = false;
   const failed = (error: unknown): void => show(problems, error);
+
+  const deleted = deletedMaps(() => void read().catch(failed), failed);
 
   function stopFollowing(): void {
     for (const stop of following.splice(0)) stop();
@@ -29,6 +32,10 @@ export function mapsPage(): Page {
     const events = {
       changed: () => void read().catch(failed),
       failed,
+      deleted: (map: MapView) => {
+        deleted.add(map);
+        void read().catch(failed);
+      },
       following: (stop: () => void) => void following.push(stop),
     };
     const watched = watchedJobs([...jobs.values()]);
@@ -40,7 +47,7 @@ export function mapsPage(): Page {
     else replace(list, ...maps.map(card));
   }
 
-  void read().catch(failed);
+  void read().then(deleted.check).catch(failed);
   document.title = `${t("maps")} · stillage`;
   const element = h(
     "div",
@@ -50,7 +57,7 @@ export function mapsPage(): Page {
     h(
       "div",
       { class: "columns" },
-      list,
+      h("div", {}, deleted.element, list),
       uploadForm(() => void read().catch(failed)),
     ),
     h("p", {}, h("a", { href: "assets/licenses.txt" }, h("small", {}, t("licenses")))),
