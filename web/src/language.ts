@@ -1,5 +1,6 @@
 /** The language of the page: the reader's choice, else that of the browser. */
 
+import type { Text } from "./texts/text";
 import { texts, type TextName } from "./texts/texts";
 
 export type Language = "en" | "de";
@@ -18,8 +19,13 @@ export function choose(chosen: Language): void {
 
 /** A text in the language of the page; `{name}` in it gives way to the value of that name. */
 export function t(name: TextName, values: Record<string, string | number> = {}): string {
-  const text: string = texts[name][language() === "en" ? 0 : 1];
+  const text = inLanguage(texts[name]);
   return text.replace(/\{(\w+)\}/g, (whole, key: string) => (key in values ? String(values[key]) : whole));
+}
+
+/** The text of a table in the language of the page. */
+export function inLanguage([english, german]: Text): string {
+  return language() === "en" ? english : german;
 }
 
 /** A number with so many digits after the point, as the language writes it. */

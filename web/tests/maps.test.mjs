@@ -41,14 +41,23 @@ test("a picture without its YAML is asked for it before anything is sent", async
 test("an option out of its range is refused with its place and its range", async () => {
   await files("metadata");
   await page.getByText("Options of the analysis").click();
-  const gradient = page.getByLabel("bins", { exact: true });
-  await page.getByText("Bins of the histogram over half a turn.").waitFor();
+  const gradient = page.getByLabel("Bins", { exact: true });
+  await page.getByText("Bins of the histogram over half a turn. (orientation/bins)").waitFor();
   await gradient.fill("5");
   await page.evaluate(() => (document.querySelector("form.upload").noValidate = true));
   await page.getByRole("button", { name: "Upload and analyse" }).click();
   await page.locator(".problem code", { hasText: "/options/orientation/bins" }).waitFor();
   await picture(page, "refusal");
   await gradient.fill("");
+});
+
+test("options are explained in German too", async () => {
+  await page.getByLabel("Language").selectOption("de");
+  await page.getByText("Optionen der Analyse").click();
+  await page.getByText("Klassen des Histogramms über eine halbe Drehung. (orientation/bins)").waitFor();
+  await picture(page, "options-german");
+  await page.getByLabel("Sprache").selectOption("en");
+  await files("image", "metadata");
 });
 
 test("a map is uploaded, watched, and there", async () => {
@@ -58,7 +67,6 @@ test("a map is uploaded, watched, and there", async () => {
   await page.getByText("Analysed").waitFor();
   await page.getByRole("link", { name: "Hall 1" }).waitFor();
   await page.locator("img.thumbnail").evaluate((image) => image.decode());
-  await page.getByText("Options of the analysis").click();
   await page.evaluate(() => scrollTo(0, 0));
   await picture(page, "maps");
 });

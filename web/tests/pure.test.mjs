@@ -1,6 +1,7 @@
 /** The functions of the page that touch no document. */
 
 import assert from "node:assert/strict";
+import { readFile } from "node:fs/promises";
 import { after, before, test } from "node:test";
 
 import { createServer } from "vite";
@@ -167,6 +168,21 @@ test("every text is there in both languages, with the same values to fill in", a
     assert.ok(english.length > 0 && german.length > 0, name);
     assert.deepEqual(values(english), values(german), name);
   }
+});
+
+test("every option has its name and its meaning in both languages, the English one as the document has it", async () => {
+  const { optionFields } = await load("service/options.ts");
+  const { optionGroups, optionTexts } = await load("texts/options.ts");
+  const { components } = JSON.parse(await readFile(new URL("../../openapi/openapi.json", import.meta.url), "utf8"));
+  const fields = optionFields(components.schemas);
+  assert.deepEqual(
+    fields.map(({ path, meaning }) => [path.join("/"), meaning.replaceAll("\n", " ")]),
+    Object.entries(optionTexts).map(([path, { meaning }]) => [path, meaning[0].replaceAll("\n", " ")]),
+  );
+  assert.deepEqual(
+    [...new Set(fields.map(({ path }) => path.slice(0, -1).join(" ")))].sort(),
+    Object.keys(optionGroups).sort(),
+  );
 });
 
 test("options come from the document with their meaning and their range", async () => {

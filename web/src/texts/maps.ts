@@ -29,7 +29,6 @@ export const mapsTexts = {
   name: ["Name", "Name"],
   nameMeaning: ["That of the file when empty", "Der Name der Datei, wenn leer"],
   options: ["Options of the analysis", "Optionen der Analyse"],
-  general: ["General", "Allgemein"],
   automatic: ["automatic", "automatisch"],
   standard: ["{value} (default)", "{value} (Standard)"],
   upload: ["Upload and analyse", "Hochladen und analysieren"],

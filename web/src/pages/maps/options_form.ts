@@ -1,9 +1,10 @@
 /** The options of an analysis with their meaning, from the OpenAPI document. What stays empty keeps its default. */
 
 import { choice, field, h, replace } from "../../dom";
-import { t } from "../../language";
+import { inLanguage, t } from "../../language";
 import { problemBox, show } from "../../parts/problem";
 import { readOptionFields, type OptionField } from "../../service/options";
+import { optionGroups, optionTexts } from "../../texts/options";
 
 export interface OptionsForm {
   readonly element: HTMLElement;
@@ -42,9 +43,16 @@ function groups(fields: readonly OptionField[]): [string, OptionField[]][] {
   return [...groups];
 }
 
-function fieldset(name: string, fields: readonly OptionField[], chosen: Map<string, unknown>): HTMLElement {
-  const inputs = fields.map((option) => field(option.path.at(-1) ?? "", input(option, chosen), option.meaning));
-  return h("fieldset", {}, h("legend", {}, name || t("general")), ...inputs);
+function fieldset(group: string, fields: readonly OptionField[], chosen: Map<string, unknown>): HTMLElement {
+  const title = group in optionGroups ? inLanguage(optionGroups[group as keyof typeof optionGroups]) : group;
+  const inputs = fields.map((option) => {
+    const id = option.path.join("/");
+    const texts = optionTexts[id];
+    const name = texts ? inLanguage(texts.name) : (option.path.at(-1) ?? "");
+    const meaning = texts ? inLanguage(texts.meaning) : option.meaning;
+    return field(name, input(option, chosen), `${meaning} (${id})`);
+  });
+  return h("fieldset", {}, h("legend", {}, title), ...inputs);
 }
 
 function input(option: OptionField, chosen: Map<string, unknown>): HTMLElement {
