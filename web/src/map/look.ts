@@ -17,6 +17,10 @@ export const COLORS = {
   location: "#00614a",
   chosen: "#c2185b",
   route: "#0047ab",
+  added: "#0072b2",
+  removed: "#d55e00",
+  changed: "#cc79a7",
+  stale: "#e69f00",
 } as const;
 
 const made = new Map<string, Style>();

@@ -14,7 +14,7 @@ import type { Collections } from "./collections";
 import { boxOf, type Box, type Grid, type Point } from "./frame";
 import { LAYERS, type LayerKind, type Reading } from "./layers";
 import { CHOSEN } from "./look";
-import { rasterLayer } from "./raster";
+import { pictureOf, rasterLayer } from "./raster";
 
 /** How near a line or a point has to be to the pointer, pixels. */
 const NEAR = 6;
@@ -33,6 +33,12 @@ export class MapCanvas {
   readonly hovered = new VectorSource();
   readonly box: Box;
   readonly raster;
+  /** Plain metres of the map frame. */
+  readonly projection = new Projection({
+    code: "map-frame",
+    units: "m",
+    getPointResolution: (resolution) => resolution,
+  });
   private readonly layers = new Map<string, (VectorLayer | VectorImageLayer)[]>();
 
   constructor(
@@ -44,12 +50,8 @@ export class MapCanvas {
     private readonly failed: (error: unknown) => void,
   ) {
     this.box = boxOf(grid);
-    const projection = new Projection({
-      code: "map-frame",
-      units: "m",
-      getPointResolution: (resolution) => resolution,
-    });
-    this.raster = rasterLayer(grid, picture, projection);
+    const { projection } = this;
+    this.raster = rasterLayer(pictureOf(grid), picture, projection);
     this.map = new OlMap({
       target,
       layers: [this.raster],
@@ -85,6 +87,11 @@ export class MapCanvas {
     for (const layer of layers) this.map.addLayer(layer);
   }
 
+  /** The layers of the map's collections, without its picture and what tools draw. */
+  ownLayers(): (VectorLayer | VectorImageLayer)[] {
+    return [...this.layers.values()].flat();
+  }
+
   /** A layer of a tool, above the map's own. */
   overlay(
     source: VectorSource,
@@ -113,7 +120,7 @@ export class MapCanvas {
 
   /** Draws anew: what colours follow from has changed. */
   redraw(): void {
-    for (const layer of [...this.layers.values()].flat()) layer.changed();
+    for (const layer of this.ownLayers()) layer.changed();
   }
 
   /** The features at a point: from the uppermost shown layer to the lowest. */

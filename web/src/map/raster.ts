@@ -4,12 +4,33 @@ import ImageLayer from "ol/layer/Image";
 import type { Projection } from "ol/proj";
 import ImageCanvasSource from "ol/source/ImageCanvas";
 
-import { ofPixel, type Grid } from "./frame";
+import { ofPixel, type Grid, type Point } from "./frame";
 
 /** Screen pixels of a cell from which on cells are shown as squares instead of being smoothed. */
 const SQUARES_FROM = 1.5;
 
-export function rasterLayer(grid: Grid, path: string, projection: Projection): ImageLayer<ImageCanvasSource> {
+/** A picture and where it is drawn. */
+export interface PlacedPicture {
+  /** Columns and rows. */
+  readonly width: number;
+  readonly height: number;
+  /** Side of a cell, metres. */
+  readonly cellM: number;
+  /** A point of the picture (pixels from its upper left corner) in the map frame. */
+  place(pixel: Point): Point;
+}
+
+/** The picture of a grid where the grid lies. */
+export function pictureOf(grid: Grid): PlacedPicture {
+  const { width, height, frame } = grid;
+  return { width, height, cellM: frame.resolutionM, place: (pixel) => ofPixel(grid, pixel) };
+}
+
+export function rasterLayer(
+  placed: PlacedPicture,
+  path: string,
+  projection: Projection,
+): ImageLayer<ImageCanvasSource> {
   const picture = new Image();
   const canvas = document.createElement("canvas");
   const source = new ImageCanvasSource({
@@ -20,13 +41,13 @@ export function rasterLayer(grid: Grid, path: string, projection: Projection): I
       const context = canvas.getContext("2d");
       if (!context || !picture.complete || picture.naturalWidth === 0) return canvas;
       const scale = pixelRatio / resolution;
-      const place = ([x, y]: readonly [number, number]): [number, number] => [
+      const onCanvas = ([x, y]: readonly [number, number]): [number, number] => [
         (x - (extent[0] ?? 0)) * scale,
         ((extent[3] ?? 0) - y) * scale,
       ];
-      const corner = place(ofPixel(grid, [0, 0]));
-      const right = place(ofPixel(grid, [1, 0]));
-      const down = place(ofPixel(grid, [0, 1]));
+      const corner = onCanvas(placed.place([0, 0]));
+      const right = onCanvas(placed.place([1, 0]));
+      const down = onCanvas(placed.place([0, 1]));
       context.setTransform(
         right[0] - corner[0],
         right[1] - corner[1],
@@ -35,8 +56,8 @@ export function rasterLayer(grid: Grid, path: string, projection: Projection): I
         corner[0],
         corner[1],
       );
-      context.imageSmoothingEnabled = grid.frame.resolutionM * scale < SQUARES_FROM;
-      context.drawImage(picture, 0, 0, grid.width, grid.height);
+      context.imageSmoothingEnabled = placed.cellM * scale < SQUARES_FROM;
+      context.drawImage(picture, 0, 0, placed.width, placed.height);
       context.setTransform(1, 0, 0, 1, 0, 0);
       return canvas;
     },

@@ -1,5 +1,6 @@
 /** Every text of the page by its name. What the service says stays in its own words. */
 
+import { compareTexts } from "./compare";
 import { decideTexts } from "./decide";
 import { everywhereTexts } from "./everywhere";
 import { handOverTexts } from "./hand_over";
@@ -25,6 +26,7 @@ export const texts = {
   ...mapTexts,
   ...lookTexts,
   ...decideTexts,
+  ...compareTexts,
   ...routesTexts,
   ...handOverTexts,
 };

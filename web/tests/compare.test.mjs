@@ -1,0 +1,112 @@
+/** Comparing: two versions of the labels, two scans of a site. */
+
+import assert from "node:assert/strict";
+import { after, before, test } from "node:test";
+
+import {
+  changeLabels,
+  EXAMPLE,
+  json,
+  openMap,
+  picture,
+  startBrowser,
+  startService,
+  uploadExample,
+} from "./service.mjs";
+import { readFile } from "node:fs/promises";
+
+let service;
+let browser;
+let page;
+let complaints;
+let map;
+
+before(async () => {
+  service = await startService();
+  map = await uploadExample(service.base, "Hall 1");
+  ({ browser, page, complaints } = await startBrowser());
+});
+after(async () => {
+  await browser?.close();
+  await service?.stop();
+});
+
+const choose = async (name) => {
+  const select = page.getByLabel("Compare with");
+  const option = select.locator("option", { hasText: name });
+  await option.waitFor({ state: "attached" });
+  await select.selectOption(await option.getAttribute("value"));
+};
+
+test("a version is laid beside the one in force, and each change leads to its place", async () => {
+  const { body } = await json(service.base, `/v1/maps/${map}/collections/faces/items?label=pc&limit=2`);
+  const [first, second] = body.features.map(({ id }) => id);
+  await changeLabels(service.base, map, { overrides: { [first]: "ro", [second]: "ju" } });
+  await openMap(page, service.base, map, "compare");
+  await choose("Version 0");
+  await page.getByText("Faces with another label: 2").waitFor();
+  await page.getByText("Locations removed: 2").waitFor();
+  await page.waitForTimeout(500);
+  await picture(page, "compare-versions");
+  const before = page.url();
+  await page.getByRole("button", { name: new RegExp(`Face ${first}: .* → room`) }).click();
+  await page.waitForTimeout(500);
+  assert.notEqual(page.url(), before);
+});
+
+test("the divider is moved by keys and shows the labels of either side", async () => {
+  const pixel = async () => {
+    const { x, y, width, height } = await page.locator(".canvas").boundingBox();
+    const clip = { x: x + width / 2 - 30, y: y + height / 2 - 12, width: 20, height: 8 };
+    return (await page.screenshot({ clip })).toString("base64");
+  };
+  const divider = page.getByLabel("Divider between the two");
+  const sides = [];
+  for (const key of ["Home", "End"]) {
+    await divider.press(key);
+    await page.waitForTimeout(400);
+    sides.push(await pixel());
+  }
+  assert.notEqual(sides[0], sides[1]);
+});
+
+test("another scan of the site is laid on the map: what moved, went and came is told", async () => {
+  const form = new FormData();
+  const metadata = (await readFile(EXAMPLE.metadata, "utf8")).replace(/origin: .*/, "origin: [1.5, -2.0, 0.0]");
+  form.append("image", new Blob([await readFile(EXAMPLE.image)]), "warehouse.png");
+  form.append("metadata", new Blob([metadata]), "warehouse.yaml");
+  form.append("name", "Second scan");
+  form.append("previous", map);
+  const { body: job } = await json(service.base, "/v1/maps", { method: "POST", body: form });
+  await (await fetch(`${service.base}/v1/jobs/${job.jobID}/events`)).text();
+  await openMap(page, service.base, map, "look");
+  await page.getByRole("button", { name: "Show all" }).click();
+  await page.waitForTimeout(500);
+  await openMap(page, service.base, map, "compare");
+  await choose("Second scan");
+  await page.getByText("From “Hall 1” to “Second scan”").waitFor();
+  await page.getByText(/locations are as they were/).waitFor();
+  await page.getByText("Locations added: 2").waitFor();
+  await page.waitForTimeout(500);
+  await picture(page, "compare-maps");
+});
+
+test("a map of another building is refused with the reason", async () => {
+  const rows = Array.from({ length: 80 }, (_, y) =>
+    Array.from({ length: 60 }, (_, x) => (x % 59 === 0 || y % 79 === 0 || (x === 30 && y < 50) ? 100 : 0)),
+  );
+  const message = {
+    info: { resolution: 0.1, width: 60, height: 80, origin: { position: { x: 0, y: 0, z: 0 } } },
+    data: rows.flat(),
+  };
+  const headers = { "content-type": "application/json" };
+  const wish = { method: "POST", headers, body: JSON.stringify(message) };
+  const { body: job } = await json(service.base, "/v1/maps?name=Office", wish);
+  await (await fetch(`${service.base}/v1/jobs/${job.jobID}/events`)).text();
+  await openMap(page, service.base, map, "look");
+  await openMap(page, service.base, map, "compare");
+  await choose("Office");
+  await page.locator(".problem").waitFor();
+});
+
+test("the page had nothing to complain about", () => assert.deepEqual(complaints, []));
