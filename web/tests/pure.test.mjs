@@ -151,6 +151,33 @@ test("a route is asked for in the coordinates of the service", async () => {
   assert.deepEqual([query.get("from"), query.get("to"), query.get("crs")], ["1.5,-2", "location:03-012", "EPSG:3857"]);
 });
 
+test("lanes are drawn once, and a dead end is the way back to where lanes meet", async () => {
+  const { lanesOf, stretch } = await load("pages/map/routes/lanes.ts");
+  const edge = (startNodeId, endNodeId) => ({ startNodeId, endNodeId });
+  const nodes = ["A", "B", "C", "D"].map((nodeId, x) => ({ nodeId, nodePosition: { x, y: 0 } }));
+  const edges = [edge("A", "B"), edge("B", "A"), edge("B", "C"), edge("D", "B")];
+  const lanes = lanesOf({ layouts: [{ nodes, edges }] });
+  assert.equal(lanes.pairs.length, 3);
+  assert.deepEqual(lanes.nodes.get("C"), [2, 0]);
+  const names = (pairs) => pairs.map((pair) => [...pair].sort().join("")).sort();
+  assert.deepEqual(names(stretch(lanes, "A", "C")), ["AB", "BC"]);
+  assert.deepEqual(names(stretch(lanes, "A", null)), ["AB", "BC", "BD"]);
+});
+
+test("a point that was moved is moved back", async () => {
+  const { moved, movedBack } = await load("map/motion.ts");
+  const motion = { shiftM: [3, -1], turnDeg: 90 };
+  const near = (left, right) => assert.ok(Math.hypot(left[0] - right[0], left[1] - right[1]) < 1e-9, `${left}`);
+  near(moved(motion, [1, 0]), [3, 0]);
+  near(movedBack(motion, moved(motion, [5, 7])), [5, 7]);
+});
+
+test("a version gives a face its own label, else that of its category", async () => {
+  const { labelIn } = await load("labels/draft.ts");
+  const label = labelIn({ assignment: { 2: "pc" }, overrides: [{ face: 7, label: "ju" }] });
+  assert.deepEqual([label({ id: 7, category: 2 }), label({ id: 8, category: 2 })], ["ju", "pc"]);
+});
+
 test("locations are sorted as people count", async () => {
   const { shownRows } = await load("pages/map/hand_over/table_rows.ts");
   const rows = ["2-10", "2-9", "1-1"].map((code) => ({ code, occupancy: code === "1-1" ? "empty" : "occupied" }));

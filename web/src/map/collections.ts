@@ -19,6 +19,8 @@ export class Collections {
   private readonly sources = new Map<string, VectorSource>();
   private readonly readings = new Map<string, Promise<VectorSource>>();
 
+  private readonly listeners = new Set<() => void>();
+
   constructor(
     private readonly map: string,
     private readonly coordinates: Coordinates,
@@ -45,6 +47,13 @@ export class Collections {
     const known = [...this.readings.keys()];
     this.readings.clear();
     await Promise.all(known.map((collection) => this.read(collection)));
+    for (const listener of this.listeners) listener();
+  }
+
+  /** Tells when all was read anew. Returns how to stop. */
+  onRefresh(listener: () => void): () => void {
+    this.listeners.add(listener);
+    return () => void this.listeners.delete(listener);
   }
 
   private async fill(collection: string): Promise<VectorSource> {

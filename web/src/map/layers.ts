@@ -124,8 +124,14 @@ export const LAYERS: readonly LayerKind[] = [
     maxResolution: 0.06,
     style: (feature) => {
       const row = rowOf(feature);
-      return [line(COLORS.location, 1), label(String(row["name"] ?? row["code"]))];
+      const name = String(row["name"] ?? row["code"]);
+      return row["stale"] === true
+        ? [line(COLORS.stale, 3, [6, 4]), label(`${name} ?`)]
+        : [line(COLORS.location, 1), label(name)];
     },
-    legend: [[COLORS.location, "locations"]],
+    legend: [
+      [COLORS.location, "codeCurrent"],
+      [COLORS.stale, "codeStale"],
+    ],
   },
 ];

@@ -29,4 +29,11 @@ export const mapTexts = {
   invalid: ["invalid: open", "ungültig: offen"],
   connected: ["connected", "verbunden"],
   disconnected: ["disconnected", "getrennt"],
+  codeCurrent: ["code is sure", "Code ist sicher"],
+  codeStale: ["code to be confirmed", "Code zu bestätigen"],
+  staleMeaning: [
+    "This place may be another one than the earlier scan knew by this code.",
+    "Dieser Platz ist vielleicht ein anderer als der, den die frühere Aufnahme unter diesem Code kannte.",
+  ],
+  confirmCode: ["It is {code}", "Es ist {code}"],
 } as const satisfies Texts;

@@ -4,12 +4,16 @@ import type Feature from "ol/Feature";
 
 import { button, h, replace } from "../../dom";
 import { number, t } from "../../language";
+import { confirmCodes } from "../../service/codes";
 import { rowOf } from "../../map/geojson";
+import type { Collections } from "../../map/collections";
 import type { MapCanvas } from "../../map/map_canvas";
 
 export function inspector(
   map: string,
   canvas: MapCanvas,
+  collections: Collections,
+  failed: (error: unknown) => void,
 ): { readonly element: HTMLElement; choose(features: readonly Feature[]): void } {
   const element = h("aside", { class: "inspector card", "aria-label": t("properties"), hidden: true });
 
@@ -21,7 +25,9 @@ export function inspector(
     replace(
       element,
       button("×", () => choose([]), { class: "close", "aria-label": t("close") }),
-      ...features.map((feature, index) => section(map, feature, index === 0, () => mark(feature))),
+      ...features.map((feature, index) =>
+        section(map, feature, index === 0, () => mark(feature), confirmation(feature)),
+      ),
     );
   }
 
@@ -30,16 +36,42 @@ export function inspector(
     canvas.chosen.addFeature(feature.clone());
   }
 
+  /** The question whether a code is right, where that is not sure. */
+  function confirmation(feature: Feature): HTMLElement | undefined {
+    const row = rowOf(feature);
+    if (row["stale"] !== true) return undefined;
+    const code = String(row["code"]);
+    const confirm = async (): Promise<void> => {
+      await confirmCodes(map, [code]);
+      await collections.refresh();
+      const now = collections.source("locations").getFeatureById(`locations/${code}`);
+      choose(now && !Array.isArray(now) ? [now] : []);
+    };
+    return h(
+      "p",
+      { class: "warning" },
+      `${t("staleMeaning")} `,
+      button(t("confirmCode", { code }), () => void confirm().catch(failed)),
+    );
+  }
+
   return { element, choose };
 }
 
-function section(map: string, feature: Feature, isOpen: boolean, opened: () => void): HTMLElement {
+function section(
+  map: string,
+  feature: Feature,
+  isOpen: boolean,
+  opened: () => void,
+  question?: HTMLElement,
+): HTMLElement {
   const [collection = "", ...id] = String(feature.getId()).split("/");
   const name = id.join("/");
   const details = h(
     "details",
     { open: isOpen },
     h("summary", {}, `${collection} ${name}`),
+    question,
     h(
       "table",
       {},

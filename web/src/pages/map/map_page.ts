@@ -59,7 +59,7 @@ async function open(id: string, panel: HTMLElement, target: HTMLElement, problem
   const failed = (error: unknown): void => show(problems, error);
   const grid = { frame: diagnostics.frame, width: map.width, height: map.height };
   const canvas = new MapCanvas(target, grid, `v1/maps/${id}/image.png`, collections, labels, failed);
-  const details = inspector(id, canvas);
+  const details = inspector(id, canvas, collections, failed);
   const workspace: Workspace = {
     map,
     collections,

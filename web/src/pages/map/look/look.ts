@@ -5,12 +5,14 @@ import { number, t } from "../../../language";
 import type { OpenTool, Tool, Workspace } from "../workspace";
 import { measuring } from "./measure";
 import { searchField } from "./search";
+import { staleCodes } from "./stale_codes";
 
 export const look: Tool = { id: "look", name: "look", open };
 
 function open(workspace: Workspace): OpenTool {
   const { map, canvas } = workspace;
   const measure = measuring(workspace);
+  const stale = staleCodes(workspace);
   const toggle = button(t("measure"), () => toggle.setAttribute("aria-pressed", String(measure.toggle())), {
     "aria-pressed": "false",
   });
@@ -30,6 +32,7 @@ function open(workspace: Workspace): OpenTool {
       button(t("showAll"), () => canvas.fit(canvas.box, 250)),
     ),
     measure.element,
+    stale.element,
     h("p", {}, size),
     h("p", {}, h("small", {}, t("lookMeaning"))),
     h("p", {}, h("a", { href: `v1/maps/${map.id}?f=html`, target: "_blank", rel: "noopener" }, t("mapDocument"))),
@@ -42,6 +45,9 @@ function open(workspace: Workspace): OpenTool {
     key: (event) => {
       if (event.key === "Escape" && measure.isOn()) toggle.click();
     },
-    close: measure.close,
+    close: () => {
+      measure.close();
+      stale.close();
+    },
   };
 }

@@ -1,0 +1,110 @@
+/** Codes that wait for a person, and what the report on the navigation graph draws. */
+
+import assert from "node:assert/strict";
+import { after, before, test } from "node:test";
+
+import { clickMap, json, openMap, picture, startBrowser, startService } from "./service.mjs";
+
+/** Metres of a cell. */
+const CELL = 0.1;
+const [WIDTH, HEIGHT] = [360, 240];
+
+/** Walls in the hall, cells: two aisles that nobody enters, and one with a narrow place that is shut at its end. */
+const WALLS = [
+  { x: [60, 62], y: [0, 50] },
+  { x: [298, 300], y: [0, 50] },
+  { x: [60, 62], y: [70, 110] },
+  { x: [298, 300], y: [70, 110] },
+  { x: [298, 300], y: [130, 170] },
+  { x: [180, 184], y: [130, 161] },
+];
+
+/** A hall that looks the same turned by half a turn: which way a second scan lies on the first is in doubt. */
+function symmetricHall(walls = []) {
+  const isRack = (x, y) => x >= 60 && x < 300 && [50, 110, 170].some((row) => y >= row && y < row + 20);
+  const isWall = (x, y) => x < 2 || y < 2 || x >= WIDTH - 2 || y >= HEIGHT - 2;
+  const isUpright = (x, y) => isRack(x, y) && ((x - 60) % 12 < 2 || (x - 60) % 12 === 11);
+  const cell = (index) => {
+    const [x, y] = [index % WIDTH, Math.floor(index / WIDTH)];
+    const [left, up] = [x, y];
+    const isMore = walls.some(({ x, y }) => left >= x[0] && left < x[1] && up >= y[0] && up < y[1]);
+    return isMore || isWall(x, y) || isUpright(x, y) || isUpright(WIDTH - 1 - x, HEIGHT - 1 - y) ? 100 : 0;
+  };
+  const origin = { position: { x: 0, y: 0, z: 0 } };
+  return {
+    info: { resolution: CELL, width: WIDTH, height: HEIGHT, origin },
+    data: Array.from({ length: WIDTH * HEIGHT }, (_, index) => cell(index)),
+  };
+}
+
+let service;
+let browser;
+let page;
+let complaints;
+let map;
+
+async function scan(query, hall = symmetricHall()) {
+  const headers = { "content-type": "application/json" };
+  const wish = { method: "POST", headers, body: JSON.stringify(hall) };
+  const { body } = await json(service.base, `/v1/maps?${new URLSearchParams(query)}`, wish);
+  await (await fetch(`${service.base}/v1/jobs/${body.jobID}/events`)).text();
+  return body.mapId;
+}
+
+const staleCount = async () => (await json(service.base, `/v1/maps/${map}/registry`)).body.stale;
+
+before(async () => {
+  service = await startService();
+  const previous = await scan({ name: "First scan" });
+  map = await scan({ name: "Second scan", previous });
+  ({ browser, page, complaints } = await startBrowser());
+});
+after(async () => {
+  await browser?.close();
+  await service?.stop();
+});
+
+test("stale codes are listed, marked on the map, and one is confirmed by a click on its place", async () => {
+  const count = await staleCount();
+  assert.ok(count > 2, `${count} stale codes`);
+  await openMap(page, service.base, map);
+  await page.getByText(`Codes to be confirmed: ${count}`).waitFor();
+  await page.locator("section.stale li button").first().click();
+  await page.waitForTimeout(700);
+  await picture(page, "stale");
+  await page.getByRole("button", { name: /^It is / }).click();
+  await page.getByText(`Codes to be confirmed: ${count - 1}`).waitFor();
+  await page.getByRole("button", { name: /^It is / }).waitFor({ state: "detached" });
+  assert.equal(await staleCount(), count - 1);
+});
+
+test("a stale place that is clicked on the map asks, too; all are confirmed at once", async () => {
+  const items = `/v1/maps/${map}/collections/locations/items?stale=true&limit=1&crs=EPSG:3857`;
+  const [place] = (await json(service.base, items)).body.features;
+  await page.getByRole("button", { name: "Show all" }).click();
+  await page.waitForTimeout(500);
+  await clickMap(page, place.properties.centre);
+  await page.getByRole("button", { name: `It is ${place.id}` }).waitFor();
+  await page.getByRole("button", { name: "Confirm all" }).click();
+  await page.getByText("Codes to be confirmed").waitFor({ state: "detached" });
+  assert.equal(await staleCount(), 0);
+});
+
+test("the report draws lanes, dead ends, narrow passages and unreachable locations", async () => {
+  const walled = await scan({ name: "With walls" }, symmetricHall(WALLS));
+  const report = (await json(service.base, `/v1/maps/${walled}/graph-report`)).body;
+  const counts = [report.deadEnds, report.narrowPassages, report.unreachableLocations].map(({ length }) => length);
+  assert.ok(
+    counts.every((count) => count > 0),
+    `dead ends, narrow passages, unreachable locations: ${counts}`,
+  );
+  await openMap(page, service.base, walled, "routes");
+  await page.getByText("Report on the navigation graph").click();
+  await page.getByText(`Dead ends: ${counts[0]}`).waitFor();
+  await page.getByText(`Narrow passages: ${counts[1]}`).waitFor();
+  await page.getByText(`Unreachable locations: ${counts[2]}`).waitFor();
+  await page.waitForTimeout(500);
+  await picture(page, "graph-lanes");
+});
+
+test("the page had nothing to complain about", () => assert.deepEqual(complaints, []));
