@@ -4,8 +4,10 @@ import "./style/base.css";
 import * as address from "./address";
 import { choice, h, replace } from "./dom";
 import { choose, language, t, type Language } from "./language";
+import { onConnection } from "./service/connection";
 import { mapsPage } from "./pages/maps/maps_page";
 
+const connection = h("div", { class: "connection", role: "status" });
 const main = h("main", { id: "main" });
 /** Ends what the shown page goes on doing: streams, listeners. */
 let leave = (): void => undefined;
@@ -67,10 +69,11 @@ async function show(): Promise<void> {
 function begin(): void {
   document.documentElement.lang = language();
   main.tabIndex = -1;
-  replace(document.body, header(), main);
+  replace(document.body, header(), connection, main);
   shown = "";
   void show();
 }
 
+onConnection((isGone) => replace(connection, isGone && t("connecting")));
 addEventListener("hashchange", () => void show());
 begin();

@@ -90,6 +90,8 @@ test("a category is decided: seen at once, saved as a version, undone, redone", 
   const other = before === "co" ? "ju" : "co";
   await category.getByRole("combobox").selectOption(other);
   await page.getByText("Changes: 1").waitFor();
+  const faces = (await json(service.base, `/v1/maps/${map}/collections/faces/items?category=${id}&limit=1`)).body;
+  await page.getByText(`Faces with another label: ${faces.numberMatched}`).waitFor();
   assert.equal((await semantics()).version, 0, "nothing is stored before it is saved");
   await picture(page, "decide");
   await page.getByRole("button", { name: "Save" }).click();
@@ -118,12 +120,12 @@ test("a focused category takes its label by a key; a draft outlives the page and
   await page.getByText("Changes: 1").waitFor();
   await page.route("**/semantics", (route) => route.abort());
   await page.getByRole("button", { name: "Save" }).click();
-  await page.getByText("The service does not answer").waitFor();
+  await page.locator(".problem", { hasText: "The service does not answer" }).waitFor();
   await page.getByText("Changes: 1").waitFor();
   await page.unroute("**/semantics");
   await page.getByRole("button", { name: "Save" }).click();
   await page.getByText("Version 5 is in force").waitFor();
-  assert.equal(await page.getByText("The service does not answer").count(), 0);
+  assert.equal(await page.locator(".problem").count(), 0);
   await page.getByRole("button", { name: "Undo" }).click();
   await page.getByText("Version 6 is in force").waitFor();
 });
@@ -168,16 +170,34 @@ test("a rule set is made of a built-in one, with a rule of its own", async () =>
   await page.getByLabel("Id", { exact: true }).fill("hall");
   await page.getByLabel("Name 4").fill("workshop");
   await page.keyboard.press("Tab");
-  await page.getByLabel("workshop and corridor").selectOption("cogent");
+  await page.getByLabel("pallet cell and corridor").selectOption("cogent");
   await picture(page, "rules");
-  await page.getByRole("button", { name: "Save the rule set" }).click();
+  await page.getByRole("button", { name: "Try on the map" }).click();
   await page.getByRole("dialog").waitFor({ state: "detached" });
-  const { body } = await json(service.base, "/v1/rule-sets/hall");
-  assert.deepEqual(body.cogency, [{ when: ["ro", "co"], then: "cogent" }]);
-  assert.equal(body.labels[3].name, "workshop");
+  await page.getByText("Edges: obstruction").waitFor();
+  await picture(page, "rules-tried");
+  assert.equal((await fetch(`${service.base}/v1/rule-sets/hall`)).status, 404, "nothing is stored before it is saved");
   await page.getByRole("button", { name: "Save", exact: true }).click();
   await page.getByText("Version 12 is in force").waitFor();
+  const { body } = await json(service.base, "/v1/rule-sets/hall");
+  assert.deepEqual(body.cogency, [{ when: ["pc", "co"], then: "cogent" }]);
+  assert.equal(body.labels[3].name, "workshop");
   assert.equal((await semantics()).ruleSet, "hall");
+});
+
+test("a rule set that somebody else changed meanwhile is not overwritten before that is told", async () => {
+  await page.getByRole("button", { name: "Edit labels and rules" }).click();
+  await page.getByLabel("Name 4").fill("office");
+  await page.getByRole("button", { name: "Try on the map" }).click();
+  const { body, tag } = await json(service.base, "/v1/rule-sets/hall");
+  const headers = { "content-type": "application/json", "if-match": tag };
+  const theirs = { labels: body.labels.map((label) => ({ ...label, color: "#123456" })) };
+  await json(service.base, "/v1/rule-sets/hall", { method: "PUT", headers, body: JSON.stringify(theirs) });
+  await page.getByRole("button", { name: "Save", exact: true }).click();
+  await page.getByText("The labels or rules of the rule set").waitFor();
+  await page.getByRole("button", { name: "Save", exact: true }).click();
+  await page.getByText("is in force").waitFor();
+  assert.equal((await json(service.base, "/v1/rule-sets/hall")).body.labels[3].name, "office");
   await changeLabels(service.base, map, { ruleSet: "site" });
 });
 

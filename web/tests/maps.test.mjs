@@ -151,7 +151,7 @@ test("a service that is gone loses nothing of what was entered", async () => {
   await page.route("**/v1/maps", (route) => route.abort());
   await files("metadata");
   await page.getByRole("button", { name: "Upload and analyse" }).click();
-  await page.getByText("The service does not answer").waitFor();
+  await page.locator(".problem", { hasText: "The service does not answer" }).waitFor();
   assert.equal(await page.getByLabel("Name", { exact: true }).inputValue(), "Hall 9");
   assert.equal(await page.locator(".chip").count(), 2);
 });

@@ -84,6 +84,29 @@ test("a draft lies over the labels in force", async () => {
   assert.deepEqual(patchOf(draft), { assignment: { 3: "pc" } });
 });
 
+test("a rule set that is not stored is previewed whole and saved by its id", async () => {
+  const { emptyDraft, patchOf, previewOf } = await load("labels/draft.ts");
+  const document = { id: "hall", labels: [] };
+  const draft = (isStored) => ({ ...emptyDraft(1), rules: { document, isStored } });
+  assert.deepEqual(previewOf(draft(false)), { ruleSet: document });
+  assert.deepEqual(previewOf(draft(true)), { ruleSet: "hall" });
+  assert.deepEqual(patchOf(draft(false)), { ruleSet: "hall" });
+});
+
+test("only counts that change are told", async () => {
+  const { effectRows } = await load("pages/map/decide/effect_rows.ts");
+  const [same, less] = [
+    { before: 3, after: 3 },
+    { before: 3, after: 2 },
+  ];
+  const labels = [{ label: "pc", faces: less, locations: same, connectedLinks: same }];
+  const rows = effectRows({ labels, edges: { cogent: same, invalid: less }, links: { connected: same } });
+  assert.deepEqual(rows, [
+    { what: "effectFaces", label: "pc", ...less },
+    { what: "effectInvalid", ...less },
+  ]);
+});
+
 test("what somebody else changed is told", async () => {
   const { differences } = await load("labels/draft.ts");
   const before = { ruleSet: "site", assignment: { 0: "co" }, overrides: [{ face: 1, label: "ju" }] };

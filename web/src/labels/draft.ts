@@ -1,11 +1,21 @@
 /** Changes to the labels of a map that are not saved yet. */
 
 import type { Semantics } from "../service/types";
+import type { RuleSetDocument } from "./rule_set_draft";
+
+/** A rule set that is to read the map. */
+export interface DraftedRules {
+  readonly document: RuleSetDocument;
+  /** Whether the service has it as it is here. */
+  readonly isStored: boolean;
+  /** The tag of the stored one that it replaces; a new one where it is absent. */
+  readonly replaces?: string;
+}
 
 export interface Draft {
   /** The version it was begun on. */
   readonly version: number;
-  readonly ruleSet?: string;
+  readonly rules?: DraftedRules;
   /** Label by category. */
   readonly assignment: Readonly<Record<string, string>>;
   /** Label by face; null gives a face that of its category again. */
@@ -22,17 +32,23 @@ export function isEmpty(draft: Draft): boolean {
 
 export function changeCount(draft: Draft): number {
   return (
-    Object.keys(draft.assignment).length + Object.keys(draft.overrides).length + (draft.ruleSet === undefined ? 0 : 1)
+    Object.keys(draft.assignment).length + Object.keys(draft.overrides).length + (draft.rules === undefined ? 0 : 1)
   );
 }
 
-/** The merge patch that saves a draft. */
-export function patchOf({ ruleSet, assignment, overrides }: Draft): Record<string, unknown> {
+/** The merge patch that saves a draft whose rule set is stored. */
+export function patchOf({ rules, assignment, overrides }: Draft): Record<string, unknown> {
   return {
-    ...(ruleSet === undefined ? {} : { ruleSet }),
+    ...(rules === undefined ? {} : { ruleSet: rules.document.id }),
     ...(Object.keys(assignment).length > 0 ? { assignment } : {}),
     ...(Object.keys(overrides).length > 0 ? { overrides } : {}),
   };
+}
+
+/** The body that previews a draft: a rule set that is not stored is sent whole. */
+export function previewOf(draft: Draft): Record<string, unknown> {
+  const isSentWhole = draft.rules !== undefined && !draft.rules.isStored;
+  return isSentWhole ? { ...patchOf(draft), ruleSet: draft.rules.document } : patchOf(draft);
 }
 
 /** The label of a face under a draft. `read` is the label that the service told. */

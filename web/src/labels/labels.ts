@@ -5,10 +5,11 @@ import type { FeatureLike } from "ol/Feature";
 import { rowOf } from "../map/geojson";
 import type { COLORS } from "../map/look";
 import type { Reading } from "../map/layers";
-import { getTagged, get, send, type Tagged } from "../service/request";
+import { getTagged, get, Refused, send, type Tagged } from "../service/request";
 import type { CogencyMatrix, Label, RuleSet, Semantics } from "../service/types";
 import { readStored, writeStored } from "../stored";
 import { emptyDraft, isEmpty, labelUnder, patchOf, type Draft } from "./draft";
+import { cogencyOf, editable } from "./rule_set_draft";
 import { changed, step, trackOf, type Track } from "./undo";
 
 /** A colour for what has no label. */
@@ -17,12 +18,14 @@ const NONE = "#bdbdbd";
 export class Labels implements Reading {
   private draftNow: Draft;
   private track: Track;
+  /** Labels by face as the service says that the draft would give them. */
+  private previewed: ReadonlyMap<number, string> | undefined;
   private readonly listeners = new Set<() => void>();
 
   private constructor(
     private readonly map: string,
     private read: Tagged<Semantics>,
-    public ruleSet: RuleSet,
+    private rulesInForce: RuleSet,
     private matrix: CogencyMatrix,
     /** The row of a face. */
     private readonly faceRow: (id: number) => Readonly<Record<string, unknown>> | undefined,
@@ -44,6 +47,12 @@ export class Labels implements Reading {
     return this.read.body;
   }
 
+  /** The rule set whose labels are shown: the drafted one, else that in force. */
+  get ruleSet(): Pick<RuleSet, "id" | "labels"> {
+    const { rules } = this.draftNow;
+    return rules ? { id: rules.document.id, labels: [...rules.document.labels] } : this.rulesInForce;
+  }
+
   get draft(): Draft {
     return this.draftNow;
   }
@@ -51,6 +60,7 @@ export class Labels implements Reading {
   /** Keeps a draft, in the browser too: it outlives a closed page and a service that is gone. */
   set draft(draft: Draft) {
     this.draftNow = draft;
+    this.previewed = undefined;
     writeStored(this.key, isEmpty(draft) ? undefined : draft);
     this.tell();
   }
@@ -72,17 +82,42 @@ export class Labels implements Reading {
     this.draft = emptyDraft(this.inForce.version);
   }
 
+  /** What the service says of the draft: the faces whose labels it would change. It holds until the draft changes. */
+  showPreview(changed: ReadonlyMap<number, string>): void {
+    this.previewed = changed;
+    this.tell();
+  }
+
   /** Saves the draft as a new version, over exactly the version that was read: 412 where another one is in force. */
   async save(): Promise<void> {
-    const saved = await send<Semantics>(
-      "PATCH",
-      `v1/maps/${this.map}/semantics`,
-      patchOf(this.draftNow),
-      this.read.tag,
-    );
+    await this.storeRules();
+    const patch = patchOf(this.draftNow);
+    if (Object.keys(patch).length === 0) return this.reread();
+    const saved = await send<Semantics>("PATCH", `v1/maps/${this.map}/semantics`, patch, this.read.tag);
     this.track = changed(this.track, saved.body.version);
     await this.accept(saved);
     this.discard();
+  }
+
+  /** Stores the drafted rule set, so that labels can name it. */
+  private async storeRules(): Promise<void> {
+    const { rules, ...others } = this.draftNow;
+    if (!rules || rules.isStored) return;
+    const { document, replaces } = rules;
+    const path = `v1/rule-sets/${encodeURIComponent(document.id)}`;
+    try {
+      if (replaces === undefined) await send("POST", "v1/rule-sets", document);
+      else await send("PUT", path, document, replaces);
+    } catch (error) {
+      // Somebody else changed the rule set: what is drafted lies over theirs from now on.
+      if (error instanceof Refused && error.status === 412) {
+        const { tag } = await getTagged<RuleSet>(path);
+        this.draft = { ...others, rules: { document, isStored: false, replaces: tag } };
+      }
+      throw error;
+    }
+    const isInForce = document.id === this.inForce.ruleSet;
+    this.draft = isInForce ? others : { ...others, rules: { document, isStored: true } };
   }
 
   /** Reads what is in force now; the draft stays. */
@@ -126,7 +161,7 @@ export class Labels implements Reading {
 
   private async accept(read: Tagged<Semantics>): Promise<void> {
     this.read = read;
-    [this.ruleSet, this.matrix] = await rulesOf(read.body.ruleSet);
+    [this.rulesInForce, this.matrix] = await rulesOf(read.body.ruleSet);
   }
 
   label(id: string): Label | undefined {
@@ -138,6 +173,8 @@ export class Labels implements Reading {
   }
 
   labelOf(row: Readonly<Record<string, unknown>>): string {
+    const previewed = this.previewed?.get(Number(row["id"]));
+    if (previewed !== undefined) return previewed;
     const face = { id: Number(row["id"]), category: Number(row["category"]) };
     return labelUnder(this.draftNow, this.inForce, face, String(row["label"]));
   }
@@ -155,10 +192,12 @@ export class Labels implements Reading {
       typeof id === "number" ? this.faceRow(id) : undefined,
     );
     const [left, right] = sides.map((side) => side && this.labelOf(side));
+    if (!left || !right) return read;
+    const { rules } = this.draftNow;
     const isChanged = sides.some((side) => side && this.labelOf(side) !== side["label"]);
-    if (!isChanged || !left || !right) return read;
-    const [row1, column] = [left, right].map((id) => this.matrix.labels.findIndex((label) => label.id === id));
-    return this.matrix.cogency[row1 ?? -1]?.[column ?? -1] ?? read;
+    if (!isChanged && !rules) return read;
+    const document = rules?.document ?? { ...this.rulesInForce, cogency: this.rulesInForce.cogency ?? [] };
+    return cogencyOf(editable(document), this.matrix, left, right) ?? read;
   }
 }
 

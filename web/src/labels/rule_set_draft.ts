@@ -65,11 +65,17 @@ export function withCogency(
 }
 
 /** The document that the service reads. */
-export function documentOf(draft: RuleSetDraft): {
-  id: string;
-  labels: readonly Label[];
-  cogency?: readonly CogencyRule[];
-} {
-  const { id, labels, cogency } = draft;
+export interface RuleSetDocument {
+  readonly id: string;
+  readonly labels: readonly Label[];
+  readonly cogency?: readonly CogencyRule[];
+}
+
+export function documentOf({ id, labels, cogency }: RuleSetDraft): RuleSetDocument {
   return { id, labels, ...(cogency.length > 0 ? { cogency } : {}) };
+}
+
+/** The document as a draft again. */
+export function editable({ id, labels, cogency }: RuleSetDocument): RuleSetDraft {
+  return { id, labels, cogency: cogency ?? [] };
 }

@@ -1,5 +1,6 @@
 /** Requests to the service. Every refusal becomes a `Refused`, with the problem detail that the service sent. */
 
+import { foundNobody } from "./connection";
 import type { components } from "./openapi";
 
 export type Problem = components["schemas"]["Problem"];
@@ -42,6 +43,7 @@ export async function ask(path: string, wish: Wish = {}): Promise<Response> {
     response = await fetch(path, request);
   } catch (error) {
     if (error instanceof DOMException && error.name === "AbortError") throw error;
+    foundNobody();
     throw new Refused({ type: "about:blank", title: "", status: 0, detail: "", instance: path });
   }
   if (!response.ok) throw new Refused(await problemOf(response, path));

@@ -19,4 +19,8 @@ export const everywhereTexts = {
   ],
   aboutProblem: ["About this kind of problem", "Über diese Art von Problem"],
   licenses: ["Licences of the packages in this page", "Lizenzen der Pakete in dieser Seite"],
+  connecting: [
+    "The service does not answer. It is asked again until it does; nothing is lost.",
+    "Der Dienst antwortet nicht. Er wird weiter gefragt, bis er antwortet; nichts geht verloren.",
+  ],
 } as const satisfies Texts;

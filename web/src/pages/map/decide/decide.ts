@@ -6,6 +6,7 @@ import { get } from "../../../service/request";
 import type { Category } from "../../../service/types";
 import type { OpenTool, Tool, Workspace } from "../workspace";
 import { categoryList } from "./category_list";
+import { effect } from "./effect";
 import { faceSelection } from "./face_selection";
 import { historyList } from "./history";
 import { ruleSetChoice } from "./rule_set_choice";
@@ -18,7 +19,14 @@ function open(workspace: Workspace): OpenTool {
   const selection = faceSelection(workspace);
   const content = h("div", {});
   const bar = saveBar(workspace, reread);
-  const element = h("div", {}, h("p", {}, h("small", {}, t("decideMeaning"))), content, bar.element);
+  const outcome = effect(workspace);
+  const element = h(
+    "div",
+    {},
+    h("p", {}, h("small", {}, t("decideMeaning"))),
+    content,
+    h("div", { class: "bar" }, outcome.element, bar.element),
+  );
   let categories: Category[] = [];
   let isClosed = false;
 
@@ -28,7 +36,7 @@ function open(workspace: Workspace): OpenTool {
     const isHistoryOpen = element.querySelector<HTMLDetailsElement>("details.history")?.open ?? false;
     replace(
       content,
-      ruleSetChoice(workspace, reread),
+      ruleSetChoice(workspace),
       selection.element(),
       h("h2", {}, t("categories")),
       ...categoryList(workspace, categories, selection),
@@ -59,6 +67,7 @@ function open(workspace: Workspace): OpenTool {
     close: () => {
       isClosed = true;
       stop();
+      outcome.close();
       selection.close();
     },
   };

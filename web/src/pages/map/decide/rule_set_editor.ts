@@ -2,23 +2,31 @@
 
 import { button, field, h, replace } from "../../../dom";
 import { t } from "../../../language";
-import { documentOf, draftOf, type RuleSetDraft } from "../../../labels/rule_set_draft";
-import { clear, problemBox, show } from "../../../parts/problem";
-import { get, getTagged, send } from "../../../service/request";
+import type { DraftedRules } from "../../../labels/draft";
+import { documentOf, draftOf, editable, type RuleSetDraft } from "../../../labels/rule_set_draft";
+import { get, getTagged } from "../../../service/request";
 import type { CogencyMatrix, RuleSet } from "../../../service/types";
 import { cogencyTable } from "./cogency_table";
 import { labelTable } from "./label_table";
 
-/** Opens the editor for a rule set; tells the id of what was saved. */
-export async function editRuleSet(id: string, saved: (id: string) => Promise<void>): Promise<void> {
-  const path = `v1/rule-sets/${encodeURIComponent(id)}`;
+/** The rule set that every service has. */
+const BUILT_IN = "site";
+
+/** Opens the editor for a rule set, or for a draft of one; tells what is to be tried on the map. */
+export async function editRuleSet(
+  id: string,
+  drafted: DraftedRules | undefined,
+  wanted: (rules: DraftedRules) => void,
+): Promise<void> {
+  const isUnsaved = drafted !== undefined && !drafted.isStored;
+  // What is new has no stored one to begin with.
+  const path = `v1/rule-sets/${encodeURIComponent(isUnsaved && drafted.replaces === undefined ? BUILT_IN : id)}`;
   const [{ body: ruleSet, tag }, derived] = await Promise.all([
     getTagged<RuleSet>(path),
     get<CogencyMatrix>(`${path}/matrix`),
   ]);
-  const problems = problemBox();
   const content = h("div", {});
-  let draft = draftOf(ruleSet);
+  let draft = isUnsaved ? editable(drafted.document) : draftOf(ruleSet);
 
   const change = (next: RuleSetDraft): void => {
     draft = next;
@@ -36,17 +44,13 @@ export async function editRuleSet(id: string, saved: (id: string) => Promise<voi
     );
 
   const name = h("input", { type: "text", value: draft.id });
-  const save = async (): Promise<void> => {
-    clear(problems);
+  const tryOut = (): void => {
     const document = documentOf({ ...draft, id: name.value.trim() });
-    try {
-      if (!ruleSet.builtIn && document.id === ruleSet.id) await send("PUT", path, document, tag);
-      else await send("POST", "v1/rule-sets", document);
-      dialog.close();
-      await saved(document.id);
-    } catch (error) {
-      show(problems, error);
-    }
+    const isReplaced = !ruleSet.builtIn && document.id === ruleSet.id;
+    const replaces =
+      isUnsaved && document.id === drafted.document.id ? (drafted.replaces ?? "") : isReplaced ? tag : "";
+    dialog.close();
+    wanted({ document, isStored: false, ...(replaces === "" ? {} : { replaces }) });
   };
   const add = (): void => {
     const id = `l${draft.labels.length + 1}`;
@@ -63,13 +67,13 @@ export async function editRuleSet(id: string, saved: (id: string) => Promise<voi
     ruleSet.builtIn && h("p", {}, t("builtIn", { id: ruleSet.id })),
     field(t("ruleSetId"), name, t("ruleSetIdMeaning")),
     content,
-    problems,
+    h("p", {}, h("small", {}, t("tryRulesMeaning"))),
     h(
       "div",
       { class: "actions" },
       button(t("addLabel"), add),
       button(t("cancel"), () => dialog.close()),
-      button(t("saveRules"), () => void save(), { class: "primary" }),
+      button(t("tryRules"), tryOut, { class: "primary" }),
     ),
   );
   dialog.addEventListener("close", () => dialog.remove());

@@ -48,7 +48,7 @@ export function saveBar(
         "div",
         { class: "problem" },
         h("strong", {}, t("conflict")),
-        h("ul", {}, ...theirs.map((one) => h("li", {}, told(one)))),
+        h("ul", {}, ...(theirs.length > 0 ? theirs.map(told) : [t("changedRules")]).map((text) => h("li", {}, text))),
         h("p", {}, t("conflictMeaning")),
       ),
     );
@@ -75,6 +75,6 @@ export function saveBar(
 
   // A draft that was kept in the browser can be older than what is in force.
   if (changeCount(labels.draft) > 0 && labels.draft.version !== labels.inForce.version) showConflict().catch(failed);
-  const element = h("div", { class: "bar" }, conflict, h("div", { class: "line" }, save, discard, undo, redo), count);
+  const element = h("div", {}, conflict, h("div", { class: "line" }, save, discard, undo, redo), count);
   return { element, update };
 }
