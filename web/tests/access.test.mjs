@@ -5,7 +5,7 @@ import { readFile } from "node:fs/promises";
 import { createRequire } from "node:module";
 import { after, before, test } from "node:test";
 
-import { openMap, picture, startBrowser, startService, uploadExample } from "./service.mjs";
+import { changeLabels, openMap, picture, startBrowser, startService, uploadExample } from "./service.mjs";
 
 const axe = await readFile(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
 let service;
@@ -14,6 +14,7 @@ let map;
 before(async () => {
   service = await startService();
   map = await uploadExample(service.base, "Hall 1");
+  await changeLabels(service.base, map, { assignment: { 0: "ro" } });
 });
 after(() => service?.stop());
 
@@ -33,6 +34,12 @@ const PAGES = {
     await PAGES.decide(page);
     await page.getByRole("button", { name: /Edit labels|Labels und Regeln/ }).click();
     await page.getByRole("dialog").waitFor();
+  },
+  compare: async (page) => {
+    await openMap(page, service.base, map, "compare");
+    await page.locator("option", { hasText: "Version 0" }).waitFor({ state: "attached" });
+    await page.getByRole("combobox", { name: /Compare with|Vergleichen mit/ }).selectOption("version 0");
+    await page.locator(".swipe").waitFor();
   },
   routes: (page) => openMap(page, service.base, map, "routes"),
   "hand-over": (page) =>

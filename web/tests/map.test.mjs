@@ -249,6 +249,34 @@ test("the map is compared with its truth, which is drawn over it", async () => {
   await picture(page, "evaluation");
 });
 
+test("a service that ends and comes back loses no draft: its effect is told and it is saved", async () => {
+  await page.reload();
+  await openMap(page, service.base, map, "decide");
+  const select = page.locator("section.category").first().getByRole("combobox");
+  const other = (await select.inputValue()) === "co" ? "ju" : "co";
+  await service.interrupt();
+  await select.selectOption(other);
+  await page.getByText("It is asked again until it does").waitFor();
+  await page.getByText("Changes: 1").waitFor();
+  await picture(page, "gone");
+  await service.resume();
+  await page.getByText("It is asked again until it does").waitFor({ state: "detached" });
+  await page.getByText("Faces with another label").waitFor();
+  await page.getByRole("button", { name: "Save" }).click();
+  await page.getByText(/Version \d+ is in force/).waitFor();
+  await page.getByRole("button", { name: "Undo" }).click();
+  await page.getByText(/Version \d+ is in force/).waitFor();
+});
+
+test("a map that is opened while the service is gone is there once it is back", async () => {
+  await service.interrupt();
+  await page.evaluate((map) => (location.hash = `#/maps/${map}/look`), "01a22711-7884-74c4-958b-49286e02bea9");
+  await page.evaluate((map) => (location.hash = `#/maps/${map}/look`), map);
+  await page.locator(".problem", { hasText: "The service does not answer" }).waitFor();
+  await service.resume();
+  await page.getByRole("heading", { name: "Hall 1" }).waitFor();
+});
+
 test("a georeferenced map is shown and driven on in its own metres", async () => {
   const headers = { "content-type": "application/json" };
   const georeference = { lon: 12.8572, lat: 56.6745, heading: 30 };

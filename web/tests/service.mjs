@@ -18,22 +18,40 @@ export const EXAMPLE = {
 /** Starts the service; resolves once it listens. */
 export async function startService() {
   const folder = await mkdtemp(join(tmpdir(), "stillage-web-"));
-  const options = ["serve", "--listen", "127.0.0.1:0", "--data", folder, "--log", "warn"];
+  let program = await run(folder, "127.0.0.1:0");
+  const end = async () => {
+    const ended = new Promise((done) => program.once("exit", done));
+    program.kill();
+    await ended;
+  };
+  const service = {
+    base: program.base,
+    /** Ends the service, and keeps what it stored. */
+    interrupt: end,
+    /** Starts it again at the same address with what it stored. */
+    resume: async () => {
+      program = await run(folder, new URL(service.base).host);
+    },
+    stop: async () => {
+      await end();
+      await rm(folder, { recursive: true });
+    },
+  };
+  return service;
+}
+
+/** Runs the program on a folder. */
+async function run(folder, address) {
+  const options = ["serve", "--listen", address, "--data", folder, "--log", "warn"];
   const program = spawn(process.env.STILLAGE_BINARY, options, { stdio: ["ignore", "pipe", "inherit"] });
-  const base = await new Promise((listening, failed) => {
+  program.base = await new Promise((listening, failed) => {
     program.once("exit", (code) => failed(new Error(`the service ended with ${code}`)));
     createInterface({ input: program.stdout }).on("line", (line) => {
       const address = line.match(/listening on (\S+)/);
       if (address) listening(address[1]);
     });
   });
-  const stop = async () => {
-    const ended = new Promise((done) => program.once("exit", done));
-    program.kill();
-    await ended;
-    await rm(folder, { recursive: true });
-  };
-  return { base, stop };
+  return program;
 }
 
 /** JSON from the service. */

@@ -12,6 +12,7 @@ import type { Properties } from "../../map/geojson";
 import { rowOf } from "../../map/geojson";
 import { MapCanvas } from "../../map/map_canvas";
 import { clear, problemBox, show } from "../../parts/problem";
+import { onConnection } from "../../service/connection";
 import { get } from "../../service/request";
 import type { Diagnostics, MapView } from "../../service/types";
 import type { Page } from "../page";
@@ -29,10 +30,19 @@ export function mapPage(id: string): Page {
   const element = h("div", { class: "workspace" }, panel, h("div", { class: "view" }, target));
   const leaving: (() => void)[] = [];
   let isLeft = false;
-  open(id, panel, target, problems).then(
-    (leave) => void (isLeft ? leave() : leaving.push(leave)),
-    (error: unknown) => show(problems, error),
-  );
+  const begin = (): void =>
+    void open(id, panel, target, problems).then(
+      (leave) => {
+        stopWaiting();
+        if (isLeft) leave();
+        else leaving.push(leave);
+      },
+      (error: unknown) => show(problems, error),
+    );
+  // What could not be opened is opened once the service is back.
+  const stopWaiting = onConnection((isGone) => !isGone && begin());
+  leaving.push(stopWaiting);
+  begin();
   return {
     element,
     leave: () => {

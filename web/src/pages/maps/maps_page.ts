@@ -4,6 +4,7 @@ import { h, replace } from "../../dom";
 import { t } from "../../language";
 import type { Page } from "../page";
 import { clear, problemBox, show } from "../../parts/problem";
+import { onConnection } from "../../service/connection";
 import { latestJobs, watchedJobs } from "../../service/jobs";
 import { listMaps } from "../../service/maps";
 import type { MapView } from "../../service/types";
@@ -47,7 +48,9 @@ export function mapsPage(): Page {
     else replace(list, ...maps.map(card));
   }
 
-  void read().then(deleted.check).catch(failed);
+  const begin = (): void => void read().then(deleted.check).catch(failed);
+  const stopWaiting = onConnection((isGone) => !isGone && begin());
+  begin();
   document.title = `${t("maps")} · stillage`;
   const element = h(
     "div",
@@ -64,6 +67,7 @@ export function mapsPage(): Page {
   );
   const leave = (): void => {
     isLeft = true;
+    stopWaiting();
     stopFollowing();
   };
   return { element, leave };
