@@ -212,7 +212,7 @@ test("locations are sorted as people count", async () => {
 test("every text is there in both languages, with the same values to fill in", async () => {
   const { TABLES, texts } = await load("texts/texts.ts");
   const names = TABLES.flatMap((table) => Object.keys(table));
-  assert.equal(new Set(names).size, names.length, "no table replaces a text of another one");
+  assert.deepEqual(names.sort(), Object.keys(texts).sort(), "no table is missing or replaces a text of another one");
   const values = (text) => [...text.matchAll(/\{\w+\}/g)].map(String).sort();
   for (const [name, [english, german]] of Object.entries(texts)) {
     assert.ok(english.length > 0 && german.length > 0, name);
@@ -275,4 +275,152 @@ test("only so many jobs are followed that a browser has connections left", async
     job("1", "successful"),
   ];
   assert.deepEqual([...watchedJobs(jobs)], ["2", "3", "4"]);
+});
+
+const near = (points, wanted) =>
+  points.forEach((point, index) =>
+    point.forEach((value, axis) => assert.ok(Math.abs(value - wanted[index][axis]) < 1e-9, JSON.stringify(points))),
+  );
+
+test("a rectangle lies along a direction, and a corner of it is moved against the opposite one", async () => {
+  const { alongLongSide, rectangleOf, turned, withCorner } = await load("corrections/geometry.ts");
+  const rectangle = rectangleOf([1, 1], [4, 2], 0);
+  near(rectangle, [
+    [1, 1],
+    [4, 1],
+    [4, 2],
+    [1, 2],
+  ]);
+  near(alongLongSide(turned(rectangle)), [
+    [4, 2],
+    [1, 2],
+    [1, 1],
+    [4, 1],
+  ]);
+  near(withCorner(rectangle, 2, [6, 3]), [
+    [1, 1],
+    [6, 1],
+    [6, 3],
+    [1, 3],
+  ]);
+  near(withCorner(rectangle, 1, [6, 0]), [
+    [1, 0],
+    [6, 0],
+    [6, 2],
+    [1, 2],
+  ]);
+  const diagonal = rectangleOf([0, 0], [0, 2], Math.PI / 4);
+  near(diagonal, [
+    [0, 0],
+    [1, 1],
+    [0, 2],
+    [-1, 1],
+  ]);
+});
+
+test("a row is cut into as many places as are asked for, or as its pitch allows", async () => {
+  const { placeCount, rectangleOf, rowPlaces } = await load("corrections/geometry.ts");
+  const rectangle = rectangleOf([0, 0], [10, 2], 0);
+  assert.equal(placeCount({ rectangle, places: 7 }), 7);
+  assert.equal(placeCount({ rectangle, pitchM: 1.2 }), 8);
+  const places = rowPlaces(rectangle, 5, 2);
+  assert.equal(places.length, 10);
+  near(places[6], [
+    [2, 1],
+    [4, 1],
+    [4, 2],
+    [2, 2],
+  ]);
+});
+
+test("a point is drawn to a corner, else to where a direction meets an edge, else to an edge, else along a direction", async () => {
+  const { snapped } = await load("corrections/snap.ts");
+  const targets = {
+    corners: [[5, 5]],
+    edges: [
+      [
+        [0, 3],
+        [10, 3],
+      ],
+    ],
+    directions: [0, Math.PI / 2],
+  };
+  assert.deepEqual(snapped([5.1, 4.9], undefined, targets, 0.2), { point: [5, 5], to: "corner" });
+  const meeting = snapped([2.05, 2.9], [2, 0], targets, 0.2);
+  near([meeting.point], [[2, 3]]);
+  assert.deepEqual(snapped([7, 2.9], undefined, targets, 0.2), { point: [7, 3], to: "edge" });
+  const along = snapped([8, 0.1], [2, 0], targets, 0.2);
+  assert.equal(along.to, "direction");
+  near([along.point], [[8, 0]]);
+  assert.deepEqual(snapped([8, 1.5], [2, 0], targets, 0.2), { point: [8, 1.5], to: undefined });
+});
+
+test("a crooked shape is aligned: its sides follow the directions, its size stays", async () => {
+  const { aligned, crossesItself } = await load("corrections/geometry.ts");
+  const crooked = [
+    [0, 0],
+    [4, 0.2],
+    [4.2, 2.2],
+    [0.2, 2],
+  ];
+  near(aligned(crooked, true, [0, Math.PI / 2]), [
+    [0.1, 0.1],
+    [4.1, 0.1],
+    [4.1, 2.1],
+    [0.1, 2.1],
+  ]);
+  near(
+    aligned(
+      [
+        [0, 0],
+        [4, 0.2],
+      ],
+      false,
+      [0],
+    ),
+    [
+      [0, 0.1],
+      [4, 0.1],
+    ],
+  );
+  assert.equal(crossesItself(crooked), false);
+  assert.equal(crossesItself([crooked[0], crooked[2], crooked[1], crooked[3]]), true);
+});
+
+test("a draft of corrections lies over the list, and over a later one nothing of it is lost", async () => {
+  const drafts = await load("corrections/draft.ts");
+  const listed = [
+    { id: "c1", kind: "label", at: [1, 1], label: "pc", isApplied: true, faces: [3] },
+    { id: "c2", kind: "erase", ring: [], isApplied: false, reason: "outside" },
+  ];
+  let draft = drafts.withAdded(drafts.emptyDraft(4), [{ kind: "merge", at: [] }]);
+  draft = drafts.withChanged(draft, "c1", { kind: "label", at: [1, 1], label: "co" });
+  draft = drafts.withRemoved(draft, "c2");
+  assert.equal(drafts.changeCount(draft), 3);
+  assert.deepEqual(drafts.bodyOf(drafts.wantedList(listed, draft)), [
+    { id: "c1", kind: "label", at: [1, 1], label: "co" },
+    { kind: "merge", at: [] },
+  ]);
+  const later = drafts.rebased(draft, [], 5);
+  assert.deepEqual(later, {
+    version: 5,
+    added: [
+      { kind: "label", at: [1, 1], label: "co" },
+      { kind: "merge", at: [] },
+    ],
+    changed: {},
+    removed: [],
+  });
+  const theirs = drafts.theirChanges(listed, [
+    { ...listed[0], label: "ju" },
+    { id: "c3", kind: "split", line: [] },
+  ]);
+  assert.deepEqual(
+    theirs.map(({ what, correction }) => [what, correction.kind]),
+    [
+      ["changed", "label"],
+      ["added", "split"],
+      ["removed", "erase"],
+    ],
+  );
 });

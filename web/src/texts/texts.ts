@@ -1,6 +1,7 @@
 /** Every text of the page by its name. What the service says stays in its own words. */
 
 import { compareTexts } from "./compare";
+import { correctTexts } from "./correct";
 import { decideTexts } from "./decide";
 import { everywhereTexts } from "./everywhere";
 import { handOverTexts } from "./hand_over";
@@ -16,6 +17,8 @@ export const TABLES = [
   mapTexts,
   lookTexts,
   decideTexts,
+  correctTexts,
+  compareTexts,
   routesTexts,
   handOverTexts,
 ] as const;
@@ -26,6 +29,7 @@ export const texts = {
   ...mapTexts,
   ...lookTexts,
   ...decideTexts,
+  ...correctTexts,
   ...compareTexts,
   ...routesTexts,
   ...handOverTexts,
