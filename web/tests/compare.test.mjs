@@ -91,6 +91,31 @@ test("another scan of the site is laid on the map: what moved, went and came is 
   await picture(page, "compare-maps");
 });
 
+test("another analysis is put in force and laid beside the one before, and the way leads back", async () => {
+  const headers = { "content-type": "application/json" };
+  const options = { decomposition: { method: "paper" } };
+  const path = `/v1/maps/${map}/analyses`;
+  const { body: job } = await json(service.base, path, { method: "POST", headers, body: JSON.stringify(options) });
+  await (await fetch(`${service.base}/v1/jobs/${job.jobID}/events`)).text();
+  const inForce = async () => (await json(service.base, path)).body.analyses.find((one) => one.inForce);
+  const first = await inForce();
+  await openMap(page, service.base, map, "look");
+  await openMap(page, service.base, map, "compare");
+  await choose("Analysis, ");
+  await page.getByText('decomposition/method: "adaptive" → "paper"').waitFor();
+  assert.equal((await inForce()).id, first.id, "nothing happens before it is agreed to");
+  await page.getByRole("button", { name: "Put it in force and compare" }).click();
+  await page.getByText("The other analysis is in force now").waitFor();
+  assert.notEqual((await inForce()).id, first.id);
+  await page.waitForTimeout(500);
+  await picture(page, "compare-analyses");
+  await choose("Analysis, ");
+  await page.getByRole("button", { name: "Put it in force and compare" }).click();
+  await page.getByText("Options that differ").waitFor({ state: "detached" });
+  await page.getByText("The other analysis is in force now").waitFor();
+  assert.equal((await inForce()).id, first.id);
+});
+
 test("a map of another building is refused with the reason", async () => {
   const rows = Array.from({ length: 80 }, (_, y) =>
     Array.from({ length: 60 }, (_, x) => (x % 59 === 0 || y % 79 === 0 || (x === 30 && y < 50) ? 100 : 0)),

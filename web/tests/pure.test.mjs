@@ -424,3 +424,26 @@ test("a draft of corrections lies over the list, and over a later one nothing of
     ],
   );
 });
+
+test("two analyses differ in the options that are told, and in places by their codes", async () => {
+  const { differentOptions } = await load("pages/map/compare/different_options.ts");
+  const { changesByCode } = await load("pages/map/compare/changes_by_code.ts");
+  assert.deepEqual(differentOptions({ seed: 1, grid: { mode: "a" } }, { seed: 1, grid: { mode: "b" } }), [
+    { path: "grid/mode", before: '"a"', now: '"b"' },
+  ]);
+  const before = new Map([
+    ["01", [0, 0]],
+    ["02", [1, 0]],
+    ["03", [2, 0]],
+  ]);
+  const now = new Map([
+    ["01", [0, 0.01]],
+    ["02", [1, 0.5]],
+    ["04", [3, 0]],
+  ]);
+  const { added, removed, changed } = changesByCode(before, now);
+  assert.deepEqual(
+    [added, removed, changed].map((list) => list.map(({ code }) => code)),
+    [["04"], ["03"], ["02"]],
+  );
+});

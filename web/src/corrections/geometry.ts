@@ -68,10 +68,17 @@ export function rowPlaces(rectangle: readonly Point[], places: number, layers: n
   });
 }
 
+/** Directions that are nearer to one another than this are one, radians (a tenth of a degree). */
+const SAME_DIRECTION = Math.PI / 1800;
+
 /** Directions and those across them, in half a turn. */
 export function withRightAngles(directions: readonly number[]): number[] {
   const half = (angle: number): number => ((angle % Math.PI) + Math.PI) % Math.PI;
-  return [...new Set(directions.flatMap((angle) => [half(angle), half(angle + Math.PI / 2)]))];
+  const found: number[] = [];
+  for (const angle of directions.flatMap((along) => [half(along), half(along + Math.PI / 2)])) {
+    if ((nearestDirection(angle, found)?.turn ?? Math.PI) > SAME_DIRECTION) found.push(angle);
+  }
+  return found;
 }
 
 /** The direction nearest to an angle, and how far it is. */

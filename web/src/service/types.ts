@@ -27,3 +27,4 @@ export type MapComparison = Schemas["MapComparison"];
 export type LocationChanges = Schemas["LocationChanges"];
 export type LabelPreview = Schemas["LabelPreview"];
 export type Registry = Schemas["Registry"];
+export type Analysis = Schemas["Analysis"];

@@ -5,18 +5,20 @@ import { Point as PointGeometry } from "ol/geom";
 import VectorSource from "ol/source/Vector";
 import type Style from "ol/style/Style";
 
-import { field, h, replace } from "../../../dom";
+import { button, field, h, replace } from "../../../dom";
 import { moment, t } from "../../../language";
 import type { Point } from "../../../map/frame";
 import { dot } from "../../../map/look";
 import { clear, problemBox, show } from "../../../parts/problem";
 import { listMaps } from "../../../service/maps";
 import { get } from "../../../service/request";
-import type { MapView, Semantics } from "../../../service/types";
+import type { Analysis, MapView, Semantics } from "../../../service/types";
 import type { OpenTool, Tool, Workspace } from "../workspace";
+import { compareAnalysis } from "./analysis_comparison";
 import { changeList } from "./change_list";
 import type { Comparison } from "./comparison";
 import { compareMap } from "./map_comparison";
+import { differentOptions } from "./different_options";
 import { swipe } from "./swipe";
 import { compareVersion } from "./version_comparison";
 
@@ -34,12 +36,15 @@ function open(workspace: Workspace): OpenTool {
   const markLayer = canvas.overlay(marks, 90, { style: (feature) => feature.get("look") as Style });
   let end = (): void => undefined;
   let wanted = "";
+  let analyses: readonly Analysis[] = [];
 
   async function readChoices(): Promise<void> {
-    const [decided, maps] = await Promise.all([
+    const [decided, maps, made] = await Promise.all([
       get<{ versions: Semantics[] }>(`v1/maps/${map.id}/semantics/versions`),
       listMaps(),
+      get<{ analyses: Analysis[] }>(`v1/maps/${map.id}/analyses`),
     ]);
+    analyses = made.analyses;
     const versions = decided.versions.filter(({ version }) => version !== labels.inForce.version);
     const others = maps.filter(({ id, analysisId }) => id !== map.id && analysisId);
     const ofSite = (one: MapView): number => (one.site === map.site ? 0 : 1);
@@ -57,6 +62,15 @@ function open(workspace: Workspace): OpenTool {
       ),
       h(
         "optgroup",
+        { label: t("proposals") },
+        ...analyses
+          .filter(({ inForce }) => !inForce)
+          .map(({ id, created }) =>
+            h("option", { value: `analysis ${id}` }, t("analysisOf", { moment: moment(created) })),
+          ),
+      ),
+      h(
+        "optgroup",
         { label: t("otherMaps") },
         ...others.map((one) => h("option", { value: `map ${one.id}` }, `${one.name}, ${moment(one.created)}`)),
       ),
@@ -69,9 +83,32 @@ function open(workspace: Workspace): OpenTool {
     clear(problems);
     const [kind, id = ""] = value.split(" ");
     if (kind === "") return;
+    if (kind === "analysis") return ask(id);
+    await run(value, kind === "map" ? compareMap(workspace, id) : compareVersion(workspace, Number(id)));
+  }
+
+  /** Another analysis is put in force first: that is asked, for everybody sees it. */
+  function ask(id: string): void {
+    const [other, inForce] = [analyses.find((one) => one.id === id), analyses.find((one) => one.inForce)];
+    if (!other || !inForce) return;
+    const options = differentOptions(inForce.options, other.options);
+    const activate = async (): Promise<void> => {
+      await run(`analysis ${id}`, compareAnalysis(workspace, other, inForce));
+      await readChoices();
+    };
+    replace(
+      answer,
+      options.length > 0 && h("p", {}, t("differentOptions")),
+      h("ul", {}, ...options.map(({ path, before, now }) => h("li", {}, `${path}: ${before} → ${now}`))),
+      h("p", {}, t("activateMeaning")),
+      button(t("activate"), () => void activate().catch(failed), { class: "primary" }),
+    );
+  }
+
+  async function run(value: string, comparing: Promise<Comparison>): Promise<void> {
     replace(answer, t("comparing"));
     try {
-      const found = await (kind === "map" ? compareMap(workspace, id) : compareVersion(workspace, Number(id)));
+      const found = await comparing;
       if (wanted === value) draw(found);
     } catch (error) {
       replace(answer);

@@ -39,7 +39,7 @@ export function desk(workspace: Workspace, corrections: Corrections, angles: rea
     pitchM: PITCH_M,
     layers: 1,
     isOpen: true,
-    direction: snap.directions[0] ?? 0,
+    direction: snap.directions.find((angle) => angle < Math.PI / 2) ?? 0,
   };
   let chosen: string | undefined;
   const content = h("div", {});
@@ -154,7 +154,9 @@ export function desk(workspace: Workspace, corrections: Corrections, angles: rea
       checked: snap.isOn,
       onchange: () => void (snap.isOn = snapBox.checked),
     });
-    const directions = snap.directions.map(
+    // A rectangle that lies along a direction lies along the one across it, too.
+    const ofRectangles = snap.directions.filter((angle) => angle < Math.PI / 2);
+    const directions = ofRectangles.map(
       (angle) => [String(angle), t("degrees", { angle: number((angle * 180) / Math.PI, 1) })] as const,
     );
     return h(
@@ -174,6 +176,7 @@ export function desk(workspace: Workspace, corrections: Corrections, angles: rea
       ),
       mode && h("p", { role: "status" }, t(`how-${mode.id}`), " ", h("small", {}, t("penKeys"))),
       mode?.shape === "rectangle" &&
+        directions.length > 1 &&
         field(
           t("rectangleDirection"),
           choice(
