@@ -1,8 +1,10 @@
 /** Comparing: two versions of the labels, two scans of a site. */
 
 import assert from "node:assert/strict";
+import { readFile } from "node:fs/promises";
 import { after, before, test } from "node:test";
 
+import { uploadMessage } from "./halls.mjs";
 import {
   changeLabels,
   EXAMPLE,
@@ -13,7 +15,6 @@ import {
   startService,
   uploadExample,
 } from "./service.mjs";
-import { readFile } from "node:fs/promises";
 
 let service;
 let browser;
@@ -124,10 +125,7 @@ test("a map of another building is refused with the reason", async () => {
     info: { resolution: 0.1, width: 60, height: 80, origin: { position: { x: 0, y: 0, z: 0 } } },
     data: rows.flat(),
   };
-  const headers = { "content-type": "application/json" };
-  const wish = { method: "POST", headers, body: JSON.stringify(message) };
-  const { body: job } = await json(service.base, "/v1/maps?name=Office", wish);
-  await (await fetch(`${service.base}/v1/jobs/${job.jobID}/events`)).text();
+  await uploadMessage(service.base, { name: "Office" }, message);
   await openMap(page, service.base, map, "look");
   await openMap(page, service.base, map, "compare");
   await choose("Office");
