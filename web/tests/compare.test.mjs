@@ -89,7 +89,7 @@ test("another scan of the site is laid on the map: what moved, went and came is 
   await page.getByText(/locations are as they were/).waitFor();
   await page.getByText("Locations added: 2").waitFor();
   await page.waitForTimeout(500);
-  await picture(page, "compare-maps");
+  await picture(page, "compare");
 });
 
 test("another analysis is put in force and laid beside the one before, and the way leads back", async () => {

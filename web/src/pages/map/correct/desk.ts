@@ -1,14 +1,15 @@
 /** The corrections of a map while they are worked on: what is drawn, the list, the chosen one, saving. */
 
 import type Feature from "ol/Feature";
+import type { Geometry } from "ol/geom";
 import VectorSource from "ol/source/Vector";
 import type Style from "ol/style/Style";
 
-import { button, field, choice, h, replace } from "../../../dom";
+import { h, replace } from "../../../dom";
 import type { Corrections } from "../../../corrections/corrections";
 import { pointsOf, type Correction } from "../../../corrections/correction";
+import { distance } from "../../../corrections/geometry";
 import { lastAdded, withAdded, withChanged, withRemoved } from "../../../corrections/draft";
-import { number, t } from "../../../language";
 import { boxAround, type Point } from "../../../map/frame";
 import { COLORS } from "../../../map/look";
 import type { OpenTool, Workspace } from "../workspace";
@@ -19,12 +20,15 @@ import { importFile } from "./import_file";
 import { MODES, type Mode, type Settings } from "./modes";
 import { outcome } from "./outcome";
 import { pen } from "./pen";
-import { drawn } from "./shapes";
+import { palette } from "./palette";
+import { drawn, outline } from "./shapes";
 import { snapping } from "./snapping";
 import { vertexEditor } from "./vertices";
 
 /** Metres around a correction that is flown to. */
 const MARGIN = 3;
+/** How near a click has to be to a correction, pixels. */
+const NEAR = 6;
 /** What a new row begins with: distance from place to place, metres. */
 const PITCH_M = 1;
 
@@ -116,7 +120,13 @@ export function desk(workspace: Workspace, corrections: Corrections, angles: rea
     if (!one) chosen = undefined;
     replace(
       content,
-      palette(),
+      palette({
+        mode: drawing.mode(),
+        snap,
+        direction: settings.direction,
+        begin,
+        turn: (direction) => void (settings = { ...settings, direction }),
+      }),
       one &&
         correctionForm(one.correction, {
           labels: labels.ruleSet.labels,
@@ -141,55 +151,11 @@ export function desk(workspace: Workspace, corrections: Corrections, angles: rea
     if (focused) document.getElementById(focused)?.focus();
   }
 
-  function palette(): HTMLElement {
-    const mode = drawing.mode();
-    const toggle = (wanted: Mode): void => {
-      chosen = undefined;
-      drawing.take(wanted === mode ? undefined : wanted);
-      if (wanted !== mode) canvas.target.focus({ preventScroll: true });
-    };
-    const snapBox = h("input", {
-      type: "checkbox",
-      id: "snap",
-      checked: snap.isOn,
-      onchange: () => void (snap.isOn = snapBox.checked),
-    });
-    // A rectangle that lies along a direction lies along the one across it, too.
-    const ofRectangles = snap.directions.filter((angle) => angle < Math.PI / 2);
-    const directions = ofRectangles.map(
-      (angle) => [String(angle), t("degrees", { angle: number((angle * 180) / Math.PI, 1) })] as const,
-    );
-    return h(
-      "div",
-      {},
-      h(
-        "div",
-        { class: "line palette", role: "toolbar", "aria-label": t("corrections") },
-        ...MODES.map((one) =>
-          button(t(`mode-${one.id}`), () => toggle(one), {
-            "aria-pressed": String(one === mode),
-            "aria-keyshortcuts": one.key.toUpperCase(),
-            title: one.key.toUpperCase(),
-            id: `mode-${one.id}`,
-          }),
-        ),
-      ),
-      mode && h("p", { role: "status" }, t(`how-${mode.id}`), " ", h("small", {}, t("penKeys"))),
-      mode?.shape === "rectangle" &&
-        directions.length > 1 &&
-        field(
-          t("rectangleDirection"),
-          choice(
-            directions,
-            String(settings.direction),
-            (value) => void (settings = { ...settings, direction: Number(value) }),
-            {
-              id: "direction",
-            },
-          ),
-        ),
-      h("label", { class: "line" }, snapBox, t("snap")),
-    );
+  /** Begins to draw; the map has the focus, so that keys set points. */
+  function begin(mode: Mode | undefined): void {
+    chosen = undefined;
+    drawing.take(mode);
+    if (mode) canvas.target.focus({ preventScroll: true });
   }
 
   function key(event: KeyboardEvent): void {
@@ -199,11 +165,8 @@ export function desk(workspace: Workspace, corrections: Corrections, angles: rea
     const mode = MODES.find((one) => one.key === event.key.toLowerCase());
     const one = corrections.wanted.find((wanted) => wanted.key === chosen);
     const label = labels.ruleSet.labels[Number(event.key) - 1];
-    if (mode) {
-      chosen = undefined;
-      drawing.take(mode);
-      canvas.target.focus({ preventScroll: true });
-    } else if (event.key === "Escape") choose(undefined);
+    if (mode) begin(mode);
+    else if (event.key === "Escape") choose(undefined);
     else if (event.key === "Delete" && chosen !== undefined) remove(chosen);
     else if (one && label && "label" in one.correction) change({ ...one.correction, label: label.id });
   }
@@ -223,25 +186,16 @@ export function desk(workspace: Workspace, corrections: Corrections, angles: rea
   addEventListener("keydown", shortcuts);
 
   function click(point: Point, features: readonly Feature[]): void {
-    if (drawing.mode()) drawing.click(point);
-    else {
-      const at = source.getFeaturesAtCoordinate([...point]).length > 0;
-      const near = corrections.wanted.findLast(({ correction, key }) =>
-        drawn(correction, COLORS.door, key === chosen).some((shape) => isNear(shape, point)),
-      );
-      if (at || near) choose(near?.key);
-      else {
-        choose(undefined);
-        workspace.choose(features);
-      }
-    }
+    if (drawing.mode()) return drawing.click(point);
+    const near = corrections.wanted.findLast(({ correction }) => isNear(outline(correction), point));
+    choose(near?.key);
+    if (!near) workspace.choose(features);
   }
 
-  function isNear(shape: Feature, point: Point): boolean {
-    const geometry = shape.getGeometry();
-    const nearest = geometry?.getClosestPoint([...point]) ?? [Number.NaN, Number.NaN];
-    const apart = Math.hypot((nearest[0] ?? 0) - point[0], (nearest[1] ?? 0) - point[1]);
-    return apart <= 6 * (canvas.map.getView().getResolution() ?? 1);
+  function isNear(shape: Geometry, point: Point): boolean {
+    if (shape.intersectsCoordinate([...point])) return true;
+    const [x = 0, y = 0] = shape.getClosestPoint([...point]);
+    return distance([x, y], point) <= NEAR * (canvas.map.getView().getResolution() ?? 1);
   }
 
   const stop = corrections.onChange(show);
