@@ -242,6 +242,21 @@ test("locations are listed, sorted and filtered; files are offered with their op
   assert.equal(download.suggestedFilename(), "lif.json");
 });
 
+test("files and their options are explained in German, every one", async () => {
+  const { body } = await json(service.base, `/v1/maps/${map}/exports`);
+  await page.getByLabel("Language").selectOption("de");
+  await page.getByRole("heading", { name: "Dateien für andere Programme" }).waitFor();
+  const texts = await page.locator("section[aria-labelledby=exports-title] small").allTextContents();
+  const english = body.exports.flatMap(({ purpose, options }) => [purpose, ...options.map((one) => one.description)]);
+  await page.getByText("Routengraph von Nav2").waitFor();
+  assert.deepEqual(
+    texts.filter((text) => english.includes(text)),
+    [],
+  );
+  assert.equal(texts.length, english.length);
+  await page.getByLabel("Sprache").selectOption("en");
+});
+
 test("the map is compared with its truth, which is drawn over it", async () => {
   await page.getByLabel("Truth file").setInputFiles(EXAMPLE.truth.pathname);
   await page.getByText("Places found").waitFor();

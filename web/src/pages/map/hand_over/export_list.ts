@@ -1,10 +1,11 @@
 /** The files that other programs read, each with its options. */
 
 import { button, field, h, replace } from "../../../dom";
-import { t } from "../../../language";
+import { language, t } from "../../../language";
 import { clear, problemBox, show } from "../../../parts/problem";
 import { ask, get } from "../../../service/request";
 import type { Export } from "../../../service/types";
+import { germanExportOptions, germanPurposes } from "../../../texts/exports";
 import type { Workspace } from "../workspace";
 
 /** Characters of a text file that are shown before it is downloaded. */
@@ -18,6 +19,11 @@ export function exportList({ map, failed }: Workspace): HTMLElement {
     failed,
   );
   return h("section", { "aria-labelledby": "exports-title" }, h("h2", { id: "exports-title" }, t("exports")), list);
+}
+
+/** A German text where the page is in German. */
+function german(text: string | undefined): string | undefined {
+  return language() === "de" ? text : undefined;
 }
 
 function exportEntry(map: string, { name, purpose, mediaType, options }: Export): HTMLElement {
@@ -38,7 +44,7 @@ function exportEntry(map: string, { name, purpose, mediaType, options }: Export)
         download.href = path();
       },
     });
-    return field(option.name, input, option.description);
+    return field(option.name, input, german(germanExportOptions[option.name]) ?? option.description);
   });
   // A download says nothing when it is refused: it is asked for first.
   const check = async (): Promise<void> => {
@@ -56,7 +62,7 @@ function exportEntry(map: string, { name, purpose, mediaType, options }: Export)
   return h(
     "details",
     {},
-    h("summary", {}, h("strong", {}, name), " ", h("small", {}, purpose)),
+    h("summary", {}, h("strong", {}, name), " ", h("small", {}, german(germanPurposes[name]) ?? purpose)),
     ...fields,
     problems,
     h(

@@ -5,7 +5,7 @@ import { MultiLineString, Point as PointGeometry } from "ol/geom";
 import VectorSource from "ol/source/Vector";
 import type Style from "ol/style/Style";
 
-import { button, h, replace } from "../../../dom";
+import { button, h, replace, swatch } from "../../../dom";
 import { number, t } from "../../../language";
 import { COLORS, dot, label, line } from "../../../map/look";
 import { get } from "../../../service/request";
@@ -102,10 +102,11 @@ export function graphReport({ map, canvas, failed }: Workspace): { readonly elem
 
   function group(title: string, findings: readonly Finding[]): HTMLElement {
     const fly = ({ position: [x = 0, y = 0] }: Finding): void => canvas.fit([x - 8, y - 8, x + 8, y + 8], 300);
+    const [first] = findings;
     return h(
       "section",
       { class: "list" },
-      h("h2", {}, `${title}: ${findings.length}`),
+      h("h2", {}, first && swatch(first.color), ` ${title}: ${findings.length}`),
       h(
         "ol",
         {},
