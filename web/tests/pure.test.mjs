@@ -118,16 +118,6 @@ test("what somebody else changed is told", async () => {
   ]);
 });
 
-test("undo and redo walk over contents; a new one ends what was undone", async () => {
-  const { trackOf, changed, step } = await load("labels/undo.ts");
-  const track = changed(trackOf(1), 2);
-  const back = step(track, -1);
-  assert.equal(back.version, 1);
-  assert.equal(step(back.track, 1).version, 2);
-  assert.equal(step(changed(back.track, 4), 1), undefined);
-  assert.equal(step(changed(back.track, 4), -1).version, 1);
-});
-
 test("a rule for two labels is stronger than what follows from them", async () => {
   const { cogencyOf, withCogency } = await load("labels/rule_set_draft.ts");
   const derived = {
@@ -193,12 +183,6 @@ test("a point that was moved is moved back", async () => {
   const near = (left, right) => assert.ok(Math.hypot(left[0] - right[0], left[1] - right[1]) < 1e-9, `${left}`);
   near(moved(motion, [1, 0]), [3, 0]);
   near(movedBack(motion, moved(motion, [5, 7])), [5, 7]);
-});
-
-test("a version gives a face its own label, else that of its category", async () => {
-  const { labelIn } = await load("labels/draft.ts");
-  const label = labelIn({ assignment: { 2: "pc" }, overrides: [{ face: 7, label: "ju" }] });
-  assert.deepEqual([label({ id: 7, category: 2 }), label({ id: 8, category: 2 })], ["ju", "pc"]);
 });
 
 test("locations are sorted as people count", async () => {

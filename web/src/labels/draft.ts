@@ -66,12 +66,6 @@ export function labelUnder(
   return category ?? (isOverridden ? (inForce.assignment[face.category] ?? read) : read);
 }
 
-/** What a face's label is in a version. */
-export function labelIn(semantics: Semantics): (face: Readonly<Record<string, unknown>>) => string | undefined {
-  const overrides = new Map(semantics.overrides.map(({ face, label }) => [face, label]));
-  return (face) => overrides.get(Number(face["id"])) ?? semantics.assignment[String(face["category"])];
-}
-
 /** What somebody else changed between two states, in words of the assignment: `category 3: co → ju`. */
 export interface Difference {
   readonly what: "category" | "face" | "ruleSet";

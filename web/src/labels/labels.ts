@@ -10,14 +10,12 @@ import type { CogencyMatrix, Label, RuleSet, Semantics } from "../service/types"
 import { readStored, writeStored } from "../stored";
 import { emptyDraft, isEmpty, labelUnder, patchOf, type Draft } from "./draft";
 import { cogencyOf, editable } from "./rule_set_draft";
-import { changed, step, trackOf, type Track } from "./undo";
 
 /** A colour for what has no label. */
 const NONE = "#bdbdbd";
 
 export class Labels implements Reading {
   private draftNow: Draft;
-  private track: Track;
   /** Labels by face as the service says that the draft would give them. */
   private previewed: ReadonlyMap<number, string> | undefined;
   private readonly listeners = new Set<() => void>();
@@ -31,7 +29,6 @@ export class Labels implements Reading {
     private readonly faceRow: (id: number) => Readonly<Record<string, unknown>> | undefined,
   ) {
     this.draftNow = readStored<Draft>(this.key) ?? emptyDraft(read.body.version);
-    this.track = trackOf(read.body.version);
   }
 
   static async of(
@@ -94,7 +91,6 @@ export class Labels implements Reading {
     const patch = patchOf(this.draftNow);
     if (Object.keys(patch).length === 0) return this.reread();
     const saved = await send<Semantics>("PATCH", `v1/maps/${this.map}/semantics`, patch, this.read.tag);
-    this.track = changed(this.track, saved.body.version);
     await this.accept(saved);
     this.discard();
   }
@@ -123,40 +119,24 @@ export class Labels implements Reading {
   /** Reads what is in force now; the draft stays. */
   async reread(): Promise<void> {
     const read = await getTagged<Semantics>(`v1/maps/${this.map}/semantics`);
-    if (read.body.version !== this.inForce.version) this.track = trackOf(read.body.version);
     await this.accept(read);
     this.tell();
   }
 
   /** Puts an earlier version in force, as a new one. */
-  async restore(version: number): Promise<void> {
-    const saved = await this.sendRestore(version);
-    this.track = changed(this.track, saved.body.version);
+  restore(version: number): Promise<void> {
+    return this.post(`versions/${version}/restore`);
+  }
+
+  /** One step back or forth over the versions; the service refuses where there is none. */
+  step(by: "undo" | "redo"): Promise<void> {
+    return this.post(by);
+  }
+
+  private async post(path: string): Promise<void> {
+    const saved = await send<Semantics>("POST", `v1/maps/${this.map}/semantics/${path}`, undefined, this.read.tag);
     await this.accept(saved);
     this.tell();
-  }
-
-  canStep(by: -1 | 1): boolean {
-    return step(this.track, by) !== undefined;
-  }
-
-  /** One step back or forth over the versions. */
-  async step(by: -1 | 1): Promise<void> {
-    const wanted = step(this.track, by);
-    if (!wanted) return;
-    const saved = await this.sendRestore(wanted.version);
-    this.track = wanted.track;
-    await this.accept(saved);
-    this.tell();
-  }
-
-  private sendRestore(version: number): Promise<Tagged<Semantics>> {
-    return send<Semantics>(
-      "POST",
-      `v1/maps/${this.map}/semantics/versions/${version}/restore`,
-      undefined,
-      this.read.tag,
-    );
   }
 
   private async accept(read: Tagged<Semantics>): Promise<void> {

@@ -6,25 +6,27 @@ import { moment, number, t } from "../../../language";
 import { Collections } from "../../../map/collections";
 import { coordinatesOf } from "../../../map/coordinates";
 import type { Point } from "../../../map/frame";
+import { rowOf } from "../../../map/geojson";
 import { area } from "../../../map/look";
 import { moved, movedBack } from "../../../map/motion";
 import { pictureOf, rasterLayer } from "../../../map/raster";
 import { get } from "../../../service/request";
-import type { Diagnostics, MapComparison, MapView } from "../../../service/types";
+import type { Diagnostics, MapComparison, MapView, Semantics } from "../../../service/types";
 import type { Workspace } from "../workspace";
 import type { Comparison } from "./comparison";
+import { readColors } from "./label_colors";
 import { locationGroups } from "./location_changes";
-import { readLabels } from "./saved_labels";
 
 export async function compareMap({ map, canvas }: Workspace, id: string): Promise<Comparison> {
   const other = await get<MapView>(`v1/maps/${id}`);
   const isEarlier = other.created < map.created;
   const [before, now] = isEarlier ? [other, map] : [map, other];
-  const [{ alignment, locations }, { frame }, labels] = await Promise.all([
+  const [{ alignment, locations }, { frame }, { ruleSet }] = await Promise.all([
     get<MapComparison>(`v1/maps/${before.id}/compare/${now.id}`),
     get<Diagnostics>(`v1/maps/${id}/diagnostics`),
-    readLabels(`v1/maps/${id}/semantics`),
+    get<Semantics>(`v1/maps/${id}/semantics`),
   ]);
+  const colors = await readColors(ruleSet);
   // The alignment leads from the map now to the one before.
   const ofOther = (point: Point): Point => (isEarlier ? movedBack(alignment, point) : moved(alignment, point));
   const coordinates = coordinatesOf(other.georeference);
@@ -33,7 +35,7 @@ export async function compareMap({ map, canvas }: Workspace, id: string): Promis
     source: await collections.read("faces"),
     imageRatio: 2,
     zIndex: 10,
-    style: (face) => area(labels.colorOf(face)),
+    style: (face) => area(colors.of(rowOf(face)["label"])),
   });
   const placed = pictureOf({ frame, width: other.width, height: other.height });
   const picture = rasterLayer(

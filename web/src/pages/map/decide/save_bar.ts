@@ -16,8 +16,8 @@ export function saveBar(
   const count = h("span", { role: "status" });
   const save = button(t("save"), () => run(() => labels.save()), { class: "primary" });
   const discard = button(t("discard"), () => labels.discard());
-  const undo = button(t("undo"), () => run(() => labels.step(-1)));
-  const redo = button(t("redo"), () => run(() => labels.step(1)));
+  const undo = button(t("undo"), () => run(() => labels.step("undo")));
+  const redo = button(t("redo"), () => run(() => labels.step("redo")));
 
   function run(act: () => Promise<void>): void {
     replace(conflict);
@@ -70,7 +70,11 @@ export function saveBar(
       changes === 0 ? t("version", { version: labels.inForce.version }) : t("changes", { count: changes }),
     );
     [save.disabled, discard.disabled] = [changes === 0, changes === 0];
-    [undo.disabled, redo.disabled] = [changes > 0 || !labels.canStep(-1), changes > 0 || !labels.canStep(1)];
+    // Only a version that restores another one has something after it.
+    [undo.disabled, redo.disabled] = [
+      changes > 0 || labels.inForce.version === 0,
+      changes > 0 || !("restores" in labels.inForce),
+    ];
   }
 
   // A draft that was kept in the browser can be older than what is in force.
