@@ -84,6 +84,17 @@ test("a draft lies over the labels in force", async () => {
   assert.deepEqual(patchOf(draft), { assignment: { 3: "pc" } });
 });
 
+test("labels of single faces follow their ground when faces are numbered anew", async () => {
+  const { emptyDraft, renumbered } = await load("labels/draft.ts");
+  const draft = { ...emptyDraft(1), overrides: { 7: "ro", 8: null }, places: { 7: [1, 1], 8: [5, 5] } };
+  assert.equal(
+    renumbered(draft, ([x]) => (x === 1 ? 7 : 8)),
+    draft,
+  );
+  const now = renumbered(draft, ([x]) => (x === 1 ? 9 : undefined));
+  assert.deepEqual([now.overrides, now.places], [{ 9: "ro" }, { 9: [1, 1] }]);
+});
+
 test("a rule set that is not stored is previewed whole and saved by its id", async () => {
   const { emptyDraft, patchOf, previewOf } = await load("labels/draft.ts");
   const document = { id: "hall", labels: [] };

@@ -1,5 +1,6 @@
 /** Changes to the labels of a map that are not saved yet. */
 
+import type { Point } from "../map/frame";
 import type { Semantics } from "../service/types";
 import type { RuleSetDocument } from "./rule_set_draft";
 
@@ -20,10 +21,12 @@ export interface Draft {
   readonly assignment: Readonly<Record<string, string>>;
   /** Label by face; null gives a face that of its category again. */
   readonly overrides: Readonly<Record<string, string | null>>;
+  /** A point inside each of these faces, metres: corrections number faces anew. */
+  readonly places: Readonly<Record<string, Point>>;
 }
 
 export function emptyDraft(version: number): Draft {
-  return { version, assignment: {}, overrides: {} };
+  return { version, assignment: {}, overrides: {}, places: {} };
 }
 
 export function isEmpty(draft: Draft): boolean {
@@ -49,6 +52,20 @@ export function patchOf({ rules, assignment, overrides }: Draft): Record<string,
 export function previewOf(draft: Draft): Record<string, unknown> {
   const isSentWhole = draft.rules !== undefined && !draft.rules.isStored;
   return isSentWhole ? { ...patchOf(draft), ruleSet: draft.rules.document } : patchOf(draft);
+}
+
+/** The draft over faces that were numbered anew; `faceAt` tells the face at a point. What lies on no face any more goes. */
+export function renumbered(draft: Draft, faceAt: (point: Point) => number | undefined): Draft {
+  const [overrides, places]: [Record<string, string | null>, Record<string, Point>] = [{}, {}];
+  for (const [face, label] of Object.entries(draft.overrides)) {
+    const point = draft.places[face];
+    const now = point ? faceAt(point) : Number(face);
+    if (now === undefined) continue;
+    overrides[now] = label;
+    if (point) places[now] = point;
+  }
+  const isSame = Object.keys(overrides).sort().join() === Object.keys(draft.overrides).sort().join();
+  return isSame ? draft : { ...draft, overrides, places };
 }
 
 /** The label of a face under a draft. `read` is the label that the service told. */

@@ -8,7 +8,7 @@ import type { Reading } from "../map/layers";
 import { getTagged, get, Refused, send, type Tagged } from "../service/request";
 import type { CogencyMatrix, Label, RuleSet, Semantics } from "../service/types";
 import { readStored, writeStored } from "../stored";
-import { emptyDraft, isEmpty, labelUnder, patchOf, type Draft } from "./draft";
+import { differences, emptyDraft, isEmpty, labelUnder, patchOf, type Draft } from "./draft";
 import { cogencyOf, editable } from "./rule_set_draft";
 
 /** A colour for what has no label. */
@@ -28,7 +28,7 @@ export class Labels implements Reading {
     /** The row of a face. */
     private readonly faceRow: (id: number) => Readonly<Record<string, unknown>> | undefined,
   ) {
-    this.draftNow = readStored<Draft>(this.key) ?? emptyDraft(read.body.version);
+    this.draftNow = { ...emptyDraft(read.body.version), ...readStored<Draft>(this.key) };
   }
 
   static async of(
@@ -118,8 +118,12 @@ export class Labels implements Reading {
 
   /** Reads what is in force now; the draft stays. */
   async reread(): Promise<void> {
+    const before = this.inForce;
     const read = await getTagged<Semantics>(`v1/maps/${this.map}/semantics`);
     await this.accept(read);
+    // A version that changed no label (its corrections, for example) is no conflict with the draft.
+    const isSame = this.draftNow.version === before.version && differences(before, this.inForce).length === 0;
+    if (isSame) this.draftNow = { ...this.draftNow, version: this.inForce.version };
     this.tell();
   }
 

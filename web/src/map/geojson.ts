@@ -52,3 +52,16 @@ export function featureOf(collection: string, source: GeoJsonFeature, change: Ch
 export function rowOf(feature: { get(name: string): unknown }): Properties {
   return (feature.get("row") as Properties | undefined) ?? {};
 }
+
+/** A point inside an area. */
+export function pointInside(feature: Feature): Position | undefined {
+  const geometry = feature.getGeometry();
+  const inside =
+    geometry instanceof Polygon
+      ? geometry.getInteriorPoint()
+      : geometry instanceof MultiPolygon
+        ? geometry.getInteriorPoints().getPoint(0)
+        : undefined;
+  const [x, y] = inside?.getCoordinates() ?? [];
+  return x === undefined || y === undefined ? undefined : [x, y];
+}

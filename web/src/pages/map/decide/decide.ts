@@ -2,6 +2,9 @@
 
 import { h, replace } from "../../../dom";
 import { t } from "../../../language";
+import { renumbered } from "../../../labels/draft";
+import type { Point } from "../../../map/frame";
+import { rowOf } from "../../../map/geojson";
 import { get } from "../../../service/request";
 import type { Category } from "../../../service/types";
 import type { OpenTool, Tool, Workspace } from "../workspace";
@@ -53,6 +56,12 @@ function open(workspace: Workspace): OpenTool {
       collections.refresh(),
     ]);
     if (isClosed) return;
+    const faceAt = ([x, y]: Point): number | undefined => {
+      const [face] = collections.source("faces").getFeaturesAtCoordinate([x, y]);
+      return face && Number(rowOf(face)["id"]);
+    };
+    const draft = renumbered(labels.draft, faceAt);
+    if (draft !== labels.draft) labels.draft = draft;
     categories = read.categories;
     show();
   }

@@ -6,7 +6,7 @@ import DragBox from "ol/interaction/DragBox";
 
 import { button, h, swatch } from "../../../dom";
 import { t } from "../../../language";
-import { rowOf } from "../../../map/geojson";
+import { pointInside, rowOf } from "../../../map/geojson";
 import type { Workspace } from "../workspace";
 
 export interface FaceSelection {
@@ -53,13 +53,19 @@ export function faceSelection({ labels, canvas, collections }: Workspace): FaceS
 
   /** Gives the chosen faces a label; null that of their category. */
   function label(wanted: string | null): void {
-    const overrides = { ...labels.draft.overrides };
+    const [overrides, places] = [{ ...labels.draft.overrides }, { ...labels.draft.places }];
     const inForce = new Set(labels.inForce.overrides.map(({ face }) => face));
-    for (const id of chosen.keys()) {
-      if (wanted === null && !inForce.has(id)) delete overrides[id];
-      else overrides[id] = wanted;
+    for (const [id, face] of chosen) {
+      const inside = pointInside(face);
+      if ((wanted === null && !inForce.has(id)) || !inside) {
+        delete overrides[id];
+        delete places[id];
+      } else {
+        overrides[id] = wanted;
+        places[id] = inside;
+      }
     }
-    labels.draft = { ...labels.draft, overrides };
+    labels.draft = { ...labels.draft, overrides, places };
     clear();
   }
 
