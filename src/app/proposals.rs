@@ -33,8 +33,8 @@ impl App {
     /// A map as it would answer if an analysis was activated now. Nothing is stored, and nothing is kept in memory: it takes
     /// as long as the first question after an activation.
     pub async fn proposal(&self, caller: &Caller, map: Uuid, analysis: Uuid) -> Result<Proposal, AppError> {
-        let record = self.analysis(caller, map, analysis).await?;
         let in_force = self.context(caller, map).await?;
+        let record = self.analysis(caller, map, analysis).await?;
         if in_force.analysis_id == analysis {
             return Ok(Proposal { context: in_force, carried: None });
         }

@@ -137,8 +137,8 @@ pub async fn get(
     base: Base,
     Path(path): Path<AnalysisPath>,
 ) -> Result<Json<AnalysisView>, Problem> {
+    let proposal = app.proposal(&caller, path.map_id.0, path.analysis_id.0).await?;
     let record = app.analysis(&caller, path.map_id.0, path.analysis_id.0).await?;
-    let proposal = app.proposal(&caller, path.map_id.0, record.id).await?;
     Ok(Json(document(&app, &caller, &base, record).await?.with_prospect(proposal.carried)))
 }
 
