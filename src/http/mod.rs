@@ -108,8 +108,12 @@ fn answered_in_time() -> OpenApiRouter<Arc<App>> {
         .routes(routes!(ogc::collections::get))
         .routes(routes!(ogc::queryables::queryables))
         .routes(routes!(ogc::queryables::schema))
-        .routes(routes!(ogc::items::list))
+        .routes(routes!(ogc::items::list, ogc::item_writes::add))
         .routes(routes!(ogc::items::get, ogc::item_writes::update, ogc::item_writes::replace))
+        .route(
+            "/v1/maps/{mapId}/collections/{collectionId}/items",
+            axum::routing::options(ogc::item_writes::options_of_all),
+        )
         .route(
             "/v1/maps/{mapId}/collections/{collectionId}/items/{featureId}",
             axum::routing::options(ogc::item_writes::options),

@@ -262,6 +262,7 @@ pub async fn valid(site: &Site, operation: &str) -> (Sent, &'static [u16]) {
         "getQueryables" | "getSchema" => get(format!("{map}/collections/faces/{}", operation[3..].to_lowercase())),
         "getFeatures" => get(format!("{map}/collections/faces/items")),
         "getFeature" => get(format!("{map}/collections/vertices/items/0")),
+        "addFeature" => (Sent::new(Method::POST, format!("{map}/collections/faces/items")), &[403]),
         "replaceFeature" => {
             let path = format!("{map}/collections/faces/items/1");
             let feature = Sent::new(Method::GET, path.clone()).to(&site.api).await.json();
@@ -354,6 +355,7 @@ fn wrongs(site: &Site, operation: &str, good: &Sent) -> Vec<Sent> {
         "getExport" => vec![own(&format!("{}/exports/none.json", site.map))],
         "locatePose" => vec![own(&format!("{}/at?point=1000,0&crs=EPSG:3857", site.map))],
         "getNearest" => vec![own(&format!("{}/nearest?point=1000,0&crs=EPSG:3857", site.map))],
+        "addFeature" => vec![own(&format!("{}/collections/edges/items", site.map))],
         "updateFeature" | "replaceFeature" => {
             let path = format!("{}/collections/locations/items", site.map);
             let members = |code: &str| json!({"properties": {"code": code}});

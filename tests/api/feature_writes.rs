@@ -68,13 +68,20 @@ async fn what_cannot_be_written_of_a_face_is_refused() {
     assert_eq!(semantics(&api, &map).await["version"], 0, "nothing was changed");
 }
 
-/// QGIS asks with `OPTIONS` whether it may change attributes (`PUT`) and send single ones (`PATCH`), then sends those in
-/// `properties`, without `If-Match` (`qgsoapifprovider.cpp` and `qgsoapifpatchfeaturerequest.cpp` of QGIS).
+/// QGIS asks with `OPTIONS` of the items whether it may edit at all (`POST`), and of one whether it may change attributes
+/// (`PUT`) and send single ones (`PATCH`), then sends those in `properties`, without `If-Match` (`qgsoapifprovider.cpp` and `qgsoapifpatchfeaturerequest.cpp` of QGIS).
 #[tokio::test]
 async fn an_attribute_is_edited_as_qgis_does() {
     let api = Api::new().await;
     let map = api.hall().await;
-    let path = format!("{map}/collections/faces/items/1");
+    let items = format!("{map}/collections/faces/items");
+    let allowed = api.send(request(Method::OPTIONS, &items, &[], Body::empty())).await;
+    assert_eq!((allowed.status.as_u16(), allowed.header("allow")), (204, "GET,HEAD,POST"));
+    api.send(request(Method::POST, &items, &[], Body::empty())).await.problem(403, "read-only");
+    let others = format!("{map}/collections/edges/items");
+    let allowed = api.send(request(Method::OPTIONS, &others, &[], Body::empty())).await;
+    assert_eq!((allowed.status.as_u16(), allowed.header("allow")), (204, "GET,HEAD"));
+    let path = format!("{items}/1");
     let allowed = api.send(request(Method::OPTIONS, &path, &[], Body::empty())).await;
     assert_eq!((allowed.status.as_u16(), allowed.header("allow")), (204, "GET,HEAD,PUT,PATCH"));
     let headers = [("content-type", "application/merge-patch+json")];

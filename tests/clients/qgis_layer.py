@@ -1,7 +1,8 @@
 """What QGIS makes of a map, without a screen: qgis_layer.py MAP_URL. Run by the Python of the system, which has QGIS.
 
 Reading: a valid layer, its number of features, a selection. Writing: QGIS sends changes of attributes with the transaction
-support of its OGC API provider where the version has it (3.28 and later); older ones open the layer for reading only."""
+support of its OGC API provider where the version has it: 3.32 and later (github.com/qgis/QGIS/pull/52504); older ones, as the
+3.22 of Debian 12, open the layer for reading only."""
 
 import os
 import sys

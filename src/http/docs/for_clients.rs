@@ -54,8 +54,9 @@ fn literal_paths(path: &str, item: Value) -> Vec<(String, Value)> {
         let mut item = item.clone();
         if let Some(operations) = item.as_object_mut() {
             if !is_writable(collection) {
-                operations.remove("patch");
-                operations.remove("put");
+                for method in ["patch", "post", "put"] {
+                    operations.remove(method);
+                }
             }
             operations.values_mut().for_each(|operation| say_collection(operation, collection));
         }

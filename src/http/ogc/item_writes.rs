@@ -8,6 +8,7 @@ use axum::http::{HeaderMap, HeaderValue, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use serde_json::{Map, Value};
 
+use super::collections::CollectionPath;
 use super::feature_body::{self, FeaturePatchBody, FeatureWriteBody, Written, writable};
 use super::item_query::{FeaturePath, ItemQuery};
 use super::items;
@@ -34,9 +35,41 @@ pub const fn is_writable(collection: Collection) -> bool {
     !writable(collection).is_empty()
 }
 
+/// The methods of the features of a collection as a whole. QGIS lets people change a feature only where `POST` is among them
+/// (its `qgsoapifprovider.cpp`, `computeCapabilities`), so that it is, and is refused by itself.
+const fn methods_of_all(collection: Collection) -> &'static str {
+    if is_writable(collection) { "GET,HEAD,POST" } else { "GET,HEAD" }
+}
+
 /// The methods of a feature.
 const fn methods(collection: Collection) -> &'static str {
     if is_writable(collection) { "GET,HEAD,PUT,PATCH" } else { "GET,HEAD" }
+}
+
+/// Add a feature
+///
+/// Features are made by the analysis and not by hand: always refused. The method is there for the sake of GIS, which let people
+/// change features only where they might add some.
+#[utoipa::path(
+    post,
+    path = "/v1/maps/{mapId}/collections/{collectionId}/items",
+    tag = "features",
+    operation_id = "addFeature",
+    params(CollectionPath),
+    responses(NotFound, MethodNotAllowed)
+)]
+pub async fn add(
+    State(app): State<Arc<App>>,
+    caller: Caller,
+    Path(path): Path<CollectionPath>,
+) -> Result<Response, Problem> {
+    app.map(&caller, path.map_id.0).await?;
+    let collection = path.collection_id.0;
+    if !is_writable(collection) {
+        return Ok(not_allowed(methods_of_all(collection)));
+    }
+    let detail = "features are made by the analysis: PATCH changes the label of a face, and names, codes and groups";
+    Err(Problem::new(ProblemType::ReadOnly, detail))
 }
 
 /// Write members of a feature
@@ -107,10 +140,7 @@ async fn write(
     let collection = path.collection_id.0;
     let context = app.context(caller, path.map_id.0).await?;
     if !is_writable(collection) {
-        let detail = "only faces, locations, places, aisles and rows can be written";
-        let mut response = Problem::new(ProblemType::MethodNotAllowed, detail).into_response();
-        response.headers_mut().insert(header::ALLOW, HeaderValue::from_static(methods(collection)));
-        return Ok(response);
+        return Ok(not_allowed(methods(collection)));
     }
     let (properties, crs) = (parameters.properties(collection)?, parameters.crs);
     let transform = parameters.transform(context.record.georeference)?;
@@ -138,6 +168,14 @@ async fn write(
     off_the_runtime(move || Ok(tag.on(items::feature(&answer, &parameters, &id.to_string())?))).await
 }
 
+/// The refusal of a method of a collection that nobody writes to.
+fn not_allowed(methods: &'static str) -> Response {
+    let detail = "only faces, locations, places, aisles and rows can be written";
+    let mut response = Problem::new(ProblemType::MethodNotAllowed, detail).into_response();
+    response.headers_mut().insert(header::ALLOW, HeaderValue::from_static(methods));
+    response
+}
+
 /// The feature that is written, and what is written of it.
 fn read(
     context: &MapContext,
@@ -155,6 +193,12 @@ fn read(
         feature_body::members(collection, body)?
     };
     Ok((id, written))
+}
+
+/// `OPTIONS` of the features of a collection: what may be done with them.
+pub async fn options_of_all(Path(path): Path<CollectionPath>) -> Response {
+    let allow = HeaderValue::from_static(methods_of_all(path.collection_id.0));
+    (StatusCode::NO_CONTENT, [(header::ALLOW, allow)], Body::empty()).into_response()
 }
 
 /// `OPTIONS` of a feature: what may be done with it.
