@@ -84,6 +84,10 @@ fn redrawn(
         face.kind = claim.kind;
         if let Some(category) = place.filter(|_| claim.is_drawn_place) {
             give_category(face, category);
+        } else if let Some(of) = claim.category_of {
+            let FaceAnnotation { category, category_shares, membership, confidence, .. } = &analysis.faces[of.index()];
+            (face.category, face.confidence) = (*category, *confidence);
+            (face.category_shares, face.membership) = (category_shares.clone(), membership.clone());
         }
     }
     let has_rooms = !analysis.rooms.faces.is_empty();
@@ -102,7 +106,7 @@ fn category_of_places(analysis: &Analysis) -> Option<u8> {
     counts.into_iter().reduce(|most, other| if other.1 > most.1 { other } else { most }).map(|(category, _)| category)
 }
 
-/// Gives a face a category that a person implied.
+/// Gives a face the category that a person meant.
 fn give_category(face: &mut FaceAnnotation, category: u8) {
     face.category = category;
     face.confidence = 1.0;

@@ -150,3 +150,61 @@ pub(super) fn check_ring(ring: &[Point], member: &str) -> Result<(), CorrectionP
     }
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::*;
+
+    #[test]
+    fn what_makes_no_sense_is_told_with_its_place() {
+        let problem = |json: &str| {
+            serde_json::from_str::<Correction>(json)
+                .expect("it is a correction")
+                .check(5_000)
+                .map_or_else(|problem| problem.to_string(), |()| "fine".to_owned())
+        };
+        let told: Vec<String> = [
+            r#"{"kind":"draw","ring":[[0,0],[2,2],[2,0],[0,2]],"label":"pc"}"#,
+            r#"{"kind":"draw","ring":[[0,0],[2,2]],"label":"pc"}"#,
+            r#"{"kind":"draw","ring":[[0,0],[1,0],[2,0.00000001]],"label":"pc"}"#,
+            r#"{"kind":"draw","ring":[[0,0],[1,0],[1,1]],"label":"pc","name":""}"#,
+            r#"{"kind":"label","at":[1e9,1],"label":"pc"}"#,
+            r#"{"kind":"split","line":[[0,0]]}"#,
+            r#"{"kind":"merge","at":[[0,0]]}"#,
+            r#"{"kind":"door","line":[[0,0],[0,0]],"isOpen":true}"#,
+            r#"{"kind":"row","rectangle":[[0,0],[9,0],[9,1],[0,1]],"places":1000000}"#,
+            r#"{"kind":"row","rectangle":[[0,0],[9,0],[9,1],[0,1]],"pitchM":0.000001}"#,
+            r#"{"kind":"row","rectangle":[[0,0],[9,0],[9,1],[0,1]],"pitchM":0}"#,
+            r#"{"kind":"row","rectangle":[[0,0],[9,0],[9,1],[0,1]],"places":0}"#,
+            r#"{"kind":"row","rectangle":[[0,0],[9,0],[9,1],[0,1]],"places":3,"layers":0}"#,
+            r#"{"kind":"row","rectangle":[[0,0],[9,0],[9,1],[0,1]],"places":3,"pitchM":3}"#,
+            r#"{"kind":"row","rectangle":[[0,0],[9,0],[1,1],[0,9]],"places":3}"#,
+            r#"{"kind":"row","rectangle":[[0,0],[9,0],[9,1],[0,1]],"places":3}"#,
+        ]
+        .map(problem)
+        .into();
+        expect![[r#"
+            /ring: sides 0 and 2 cross or touch: put the corners in their order around the polygon
+            /ring: a polygon has three corners or more
+            /ring: the polygon has no area: its corners lie on one line
+            /name: a name must have 1 to 200 characters, none of them a control character
+            /at: must be metres of the map frame, [x, y], within 10,000 km
+            /line: a line has two points or more
+            /at: name a point in each of two faces or more
+            /line: the two jambs of a door lie apart
+            /places: 1000000 places are more than the 5000 that one correction may make
+            /pitchM: 9000000 places are more than the 5000 that one correction may make
+            /pitchM: the pitch must be more than 0 m
+            /places: a row has one place or more
+            /layers: a row has one layer or more
+            : say either how many places the row has (places) or how far apart they are (pitchM)
+            /rectangle: the four corners are those of no rectangle
+            fine
+        "#]]
+        .assert_eq(&(told.join("\n") + "\n"));
+        let not_a_number = Correction::Label { at: Point::new(f64::NAN, 0.0), label: "pc".to_owned() };
+        assert!(not_a_number.check(5_000).is_err());
+    }
+}

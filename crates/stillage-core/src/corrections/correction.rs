@@ -144,3 +144,40 @@ impl Correction {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Vector;
+
+    fn read(json: &str) -> Correction {
+        serde_json::from_str(json).expect("it is a correction")
+    }
+
+    #[test]
+    fn a_correction_is_written_as_it_is_read() {
+        for json in [
+            r#"{"kind":"draw","ring":[[0.0,0.0],[1.0,0.0],[1.0,1.0]],"label":"pc","name":"Rack 12"}"#,
+            r#"{"kind":"split","line":[[0.0,0.5],[1.0,0.5]]}"#,
+            r#"{"kind":"merge","at":[[0.0,0.5],[1.0,0.5]]}"#,
+            r#"{"kind":"row","rectangle":[[0.0,0.0],[9.0,0.0],[9.0,1.0],[0.0,1.0]],"pitchM":1.2,"layers":1}"#,
+            r#"{"kind":"erase","ring":[[0.0,0.0],[1.0,0.0],[1.0,1.0]]}"#,
+            r#"{"kind":"label","at":[3.0,4.0],"label":"co"}"#,
+            r#"{"kind":"door","line":[[0.0,0.0],[0.0,1.0]],"isOpen":true}"#,
+            r#"{"kind":"name","at":[3.0,4.0],"name":"Cold store"}"#,
+        ] {
+            assert_eq!(serde_json::to_string(&read(json)).expect("it can be written"), json);
+        }
+        let whole_numbers = read(r#"{"kind":"row","rectangle":[[0,0],[9,0],[9,1],[0,1]],"places":12}"#);
+        assert!(matches!(whole_numbers, Correction::Row { places: Some(12), layers: 1, .. }));
+        assert!(serde_json::from_str::<Correction>(r#"{"kind":"label","at":[3,4],"label":"co","colour":1}"#).is_err());
+    }
+
+    #[test]
+    fn a_correction_is_carried_to_another_frame() {
+        let motion = RigidMotion { shift: Vector::new(1.0, 2.0), turn: std::f64::consts::FRAC_PI_2 };
+        let moved = read(r#"{"kind":"split","line":[[1,0],[3,0]]}"#).moved(&motion);
+        let expected = [Point::new(1.0, 3.0), Point::new(1.0, 5.0)];
+        assert!(moved.points().iter().zip(expected).all(|(point, expected)| (point - expected).norm() < 1e-12));
+    }
+}

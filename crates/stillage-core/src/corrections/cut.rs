@@ -101,6 +101,8 @@ pub(super) fn merge(draft: &mut MapDraft<'_>, at: &[Point], correction: u32) -> 
     corrections.push(correction);
     let claim = &mut draft.claims[heir.index()];
     (claim.label, claim.name, claim.corrections) = (label, name, corrections);
+    // The cells of all of them vote.
+    claim.category_of = None;
     let inner = |edge| draft.subdivision.sides(edge).iter().all(|side| set.contains(side));
     let joined = draft.subdivision.dissolve(inner, &draft.watch)?;
     draft.adopt(joined, |face| if set.contains(&face) { heir } else { face })?;

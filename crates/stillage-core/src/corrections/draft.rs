@@ -31,6 +31,10 @@ pub(super) struct FaceClaim {
     pub room: Option<u32>,
     /// Whether it is a place of a row that a person drew.
     pub is_drawn_place: bool,
+    /// The face of the analysis that its ground was; none where it was drawn.
+    pub origin: Option<FaceId>,
+    /// The face of the analysis whose category it has, whatever ground was added.
+    pub category_of: Option<FaceId>,
     /// The corrections that made or touched it, ascending.
     pub corrections: Vec<u32>,
 }
@@ -93,6 +97,7 @@ impl<'a> MapDraft<'a> {
         let claim = |(face, known): (u32, &FaceAnnotation)| FaceClaim {
             kind: known.kind,
             room: analysis.rooms.room(FaceId(face)),
+            origin: Some(FaceId(face)),
             ..FaceClaim::default()
         };
         let claims = (0..).zip(&analysis.faces).map(claim).collect();

@@ -1,7 +1,8 @@
 //! Faces that people take away: their ground joins that around them.
 //!
 //! A face goes when most of its area lies in the polygon. It joins the neighbour with which it shares most of its border;
-//! a place only where nothing else is beside it, since what was no rack is floor. Where no face goes, the borders that lie
+//! a place only where nothing else is beside it, since what was no rack is floor. The whole has the category of that
+//! neighbour, however large what went was. Where no face goes, the borders that lie
 //! wholly in the polygon do: a line across a floor. The unbounded face is no neighbour. Cost: O(edges), and the area that
 //! the faces near the polygon have in common with it.
 
@@ -21,7 +22,6 @@ const MAJORITY: f64 = 0.5;
 pub(super) fn erase(draft: &mut MapDraft<'_>, ring: &[Point], correction: u32) -> Result<(), Failure> {
     draft.settle()?;
     let mut sets = DisjointSets::new(draft.subdivision.face_count());
-    // By face that goes: the face it becomes a part of.
     let erased = faces_inside(draft, ring);
     let hosts = if erased.is_empty() { Vec::new() } else { join_neighbours(draft, &erased, &mut sets) };
     if !erased.is_empty() && hosts.is_empty() {
@@ -45,7 +45,9 @@ pub(super) fn erase(draft: &mut MapDraft<'_>, ring: &[Point], correction: u32) -
     let roots: Vec<usize> = (0..draft.subdivision.face_count()).map(|face| sets.find(face)).collect();
     let heirs = heirs(draft, &roots, &hosts);
     for heir in heirs.values() {
-        draft.claims[heir.index()].touch(correction);
+        let claim = &mut draft.claims[heir.index()];
+        claim.touch(correction);
+        claim.category_of = claim.category_of.or(claim.origin);
     }
     let inner = |edge| {
         let [left, right] = draft.subdivision.sides(edge).map(FaceId::index);

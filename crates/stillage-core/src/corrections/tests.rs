@@ -4,7 +4,7 @@ use expect_test::{Expect, expect};
 
 use super::*;
 use crate::arrangement::FaceId;
-use crate::geometry::{Point, RigidMotion, Vector};
+use crate::geometry::Point;
 use crate::layout::{LayoutSpec, layout};
 use crate::routing::{Preferences, Router, Waypoint};
 use crate::semantics::pictures::{DrawnMap, VEHICLE_RADIUS};
@@ -77,25 +77,6 @@ fn labelled(corrected: &Corrected) -> SemanticMap {
     let overrides = corrected.labels.iter().map(|(face, label)| (face.0, label.clone())).collect();
     let assignment = Assignment { assignment: names.collect(), overrides };
     semantics::apply(&corrected.analysis, &rules, &assignment).expect("labels that exist")
-}
-
-#[test]
-fn a_correction_is_written_as_it_is_read() {
-    for json in [
-        r#"{"kind":"draw","ring":[[0.0,0.0],[1.0,0.0],[1.0,1.0]],"label":"pc","name":"Rack 12"}"#,
-        r#"{"kind":"split","line":[[0.0,0.5],[1.0,0.5]]}"#,
-        r#"{"kind":"merge","at":[[0.0,0.5],[1.0,0.5]]}"#,
-        r#"{"kind":"row","rectangle":[[0.0,0.0],[9.0,0.0],[9.0,1.0],[0.0,1.0]],"pitchM":1.2,"layers":1}"#,
-        r#"{"kind":"erase","ring":[[0.0,0.0],[1.0,0.0],[1.0,1.0]]}"#,
-        r#"{"kind":"label","at":[3.0,4.0],"label":"co"}"#,
-        r#"{"kind":"door","line":[[0.0,0.0],[0.0,1.0]],"isOpen":true}"#,
-        r#"{"kind":"name","at":[3.0,4.0],"name":"Cold store"}"#,
-    ] {
-        assert_eq!(serde_json::to_string(&read(json)).expect("it can be written"), json);
-    }
-    let whole_numbers = read(r#"{"kind":"row","rectangle":[[0,0],[9,0],[9,1],[0,1]],"places":12}"#);
-    assert!(matches!(whole_numbers, Correction::Row { places: Some(12), layers: 1, .. }));
-    assert!(serde_json::from_str::<Correction>(r#"{"kind":"label","at":[3,4],"label":"co","colour":1}"#).is_err());
 }
 
 #[test]
@@ -365,6 +346,24 @@ fn what_is_no_rack_joins_the_floor_around_it() {
 }
 
 #[test]
+fn what_was_erased_has_the_category_of_the_floor_that_it_joined() {
+    let map = DrawnMap::new(
+        &"............\n".repeat(4),
+        "
+        pppppppppppp
+        pppppppppppp
+        pppppppppppp
+        cccccccccccc
+        ",
+    );
+    let category = |corrected: &Corrected| corrected.analysis.faces[1].category;
+    let erased = corrected(&map, &[r#"{"kind":"erase","ring":[[0,0.5],[6,0.5],[6,2],[0,2]]}"#]);
+    let merged = corrected(&map, &[r#"{"kind":"merge","at":[[1,0.2],[1,1]]}"#]);
+    assert_eq!((erased.analysis.faces.len(), merged.analysis.faces.len()), (2, 2));
+    assert_eq!((category(&erased), category(&merged)), (0, 2));
+}
+
+#[test]
 fn vehicles_pass_doors_that_people_drew_unless_they_are_shut() {
     let map = two_rooms();
     let length = |list: &[&str]| {
@@ -431,61 +430,6 @@ fn what_does_not_fit_is_told_and_changes_nothing() {
     "#]],
     );
     assert_eq!(corrected(&map, &list).analysis, map.analysis);
-}
-
-#[test]
-fn what_makes_no_sense_is_told_with_its_place() {
-    let problem =
-        |json: &str| read(json).check(5_000).map_or_else(|problem| problem.to_string(), |()| "fine".to_owned());
-    let told: Vec<String> = [
-        r#"{"kind":"draw","ring":[[0,0],[2,2],[2,0],[0,2]],"label":"pc"}"#,
-        r#"{"kind":"draw","ring":[[0,0],[2,2]],"label":"pc"}"#,
-        r#"{"kind":"draw","ring":[[0,0],[1,0],[2,0.00000001]],"label":"pc"}"#,
-        r#"{"kind":"draw","ring":[[0,0],[1,0],[1,1]],"label":"pc","name":""}"#,
-        r#"{"kind":"label","at":[1e9,1],"label":"pc"}"#,
-        r#"{"kind":"split","line":[[0,0]]}"#,
-        r#"{"kind":"merge","at":[[0,0]]}"#,
-        r#"{"kind":"door","line":[[0,0],[0,0]],"isOpen":true}"#,
-        r#"{"kind":"row","rectangle":[[0,0],[9,0],[9,1],[0,1]],"places":1000000}"#,
-        r#"{"kind":"row","rectangle":[[0,0],[9,0],[9,1],[0,1]],"pitchM":0.000001}"#,
-        r#"{"kind":"row","rectangle":[[0,0],[9,0],[9,1],[0,1]],"pitchM":0}"#,
-        r#"{"kind":"row","rectangle":[[0,0],[9,0],[9,1],[0,1]],"places":0}"#,
-        r#"{"kind":"row","rectangle":[[0,0],[9,0],[9,1],[0,1]],"places":3,"layers":0}"#,
-        r#"{"kind":"row","rectangle":[[0,0],[9,0],[9,1],[0,1]],"places":3,"pitchM":3}"#,
-        r#"{"kind":"row","rectangle":[[0,0],[9,0],[1,1],[0,9]],"places":3}"#,
-        r#"{"kind":"row","rectangle":[[0,0],[9,0],[9,1],[0,1]],"places":3}"#,
-    ]
-    .map(problem)
-    .into();
-    expect![[r#"
-        /ring: sides 0 and 2 cross or touch: put the corners in their order around the polygon
-        /ring: a polygon has three corners or more
-        /ring: the polygon has no area: its corners lie on one line
-        /name: a name must have 1 to 200 characters, none of them a control character
-        /at: must be metres of the map frame, [x, y], within 10,000 km
-        /line: a line has two points or more
-        /at: name a point in each of two faces or more
-        /line: the two jambs of a door lie apart
-        /places: 1000000 places are more than the 5000 that one correction may make
-        /pitchM: 9000000 places are more than the 5000 that one correction may make
-        /pitchM: the pitch must be more than 0 m
-        /places: a row has one place or more
-        /layers: a row has one layer or more
-        : say either how many places the row has (places) or how far apart they are (pitchM)
-        /rectangle: the four corners are those of no rectangle
-        fine
-    "#]]
-    .assert_eq(&(told.join("\n") + "\n"));
-    let not_a_number = Correction::Label { at: Point::new(f64::NAN, 0.0), label: "pc".to_owned() };
-    assert!(not_a_number.check(5_000).is_err());
-}
-
-#[test]
-fn a_correction_is_carried_to_another_frame() {
-    let motion = RigidMotion { shift: Vector::new(1.0, 2.0), turn: std::f64::consts::FRAC_PI_2 };
-    let moved = read(r#"{"kind":"split","line":[[1,0],[3,0]]}"#).moved(&motion);
-    let expected = [Point::new(1.0, 3.0), Point::new(1.0, 5.0)];
-    assert!(moved.points().iter().zip(expected).all(|(point, expected)| (point - expected).norm() < 1e-12));
 }
 
 #[test]
