@@ -10,7 +10,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use stillage_core::arrangement::{CellFaces, FaceId};
 use stillage_core::clearance::Clearance;
-use stillage_core::corrections::{self, Corrected, Correction, Outcome};
+use stillage_core::corrections::{self, Corrected, CorrectedBefore, Correction, Outcome, Said};
 use stillage_core::semantics::{AnalysisGround, Assignment};
 use stillage_core::{Analysis, OccupancyGrid, SiteCells};
 use uuid::Uuid;
@@ -33,7 +33,7 @@ pub(super) struct GeometricLevel {
 }
 
 /// Corrections, and what they say of the corrected faces.
-#[derive(Debug, Default, PartialEq)]
+#[derive(Debug, Default)]
 pub struct AppliedCorrections {
     /// The corrections, in metres of the map frame.
     pub list: Vec<Correction>,
@@ -43,6 +43,8 @@ pub struct AppliedCorrections {
     pub labels: BTreeMap<FaceId, String>,
     /// Names that they give to faces.
     pub names: BTreeMap<FaceId, String>,
+    /// For more of them.
+    said: Said,
 }
 
 impl AppliedCorrections {
@@ -104,7 +106,7 @@ impl GeometricLevel {
         if self.corrections.list == list {
             return self;
         }
-        let Self { grid, analysed, cells, corrections, .. } = self;
+        let Self { grid, analysed, analysis: before, cells, corrections } = self;
         let clearance = Arc::clone(&cells.clearance);
         let cells_analysed = if corrections.list.is_empty() {
             cells
@@ -121,14 +123,27 @@ impl GeometricLevel {
                 corrections: Arc::default(),
             };
         }
-        let Corrected { analysis, faces, labels, names, outcomes, .. } =
-            corrections::apply(&grid, &analysed, &cells_analysed.faces, &list);
+        let faces_analysed = &cells_analysed.faces;
+        let corrected = match list.strip_prefix(corrections.list.as_slice()) {
+            Some(more) if !corrections.list.is_empty() => {
+                let AppliedCorrections { outcomes, said, .. } = &*corrections;
+                let before = CorrectedBefore { analysis: &before, outcomes, said };
+                corrections::apply_after(before, &grid, &analysed, faces_analysed, more)
+            }
+            _ => corrections::apply(&grid, &analysed, faces_analysed, &list),
+        };
+        let Corrected { analysis, faces, labels, names, outcomes, said } = corrected;
+        let cells = if analysis.subdivision == analysed.subdivision {
+            cells_analysed
+        } else {
+            Arc::new(SiteCells { faces, clearance })
+        };
         Self {
             grid,
             analysed,
             analysis: Arc::new(analysis),
-            cells: Arc::new(SiteCells { faces, clearance }),
-            corrections: Arc::new(AppliedCorrections { list, outcomes, labels, names }),
+            cells,
+            corrections: Arc::new(AppliedCorrections { list, outcomes, labels, names, said }),
         }
     }
 

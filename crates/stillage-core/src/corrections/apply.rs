@@ -3,7 +3,7 @@
 use super::assemble::assemble;
 use super::check::{CorrectionProblem, MOST_FACES, open_ring};
 use super::correction::Correction;
-use super::draft::{FaceClaim, MapDraft};
+use super::draft::{FaceClaim, MapDraft, Said};
 use super::failure::Failure;
 use super::outcome::{Corrected, Outcome};
 use super::{cut, erase, paint, passage};
@@ -26,9 +26,42 @@ pub fn apply(grid: &OccupancyGrid, analysis: &Analysis, cells: &CellFaces, corre
     finished(go_on(grid, analysis, cells, draft, Vec::new(), corrections))
 }
 
+/// A corrected analysis without the faces of its cells, which are not needed to go on with it.
+#[derive(Debug, Clone, Copy)]
+pub struct CorrectedBefore<'a> {
+    /// [`Corrected::analysis`].
+    pub analysis: &'a Analysis,
+    /// [`Corrected::outcomes`].
+    pub outcomes: &'a [Outcome],
+    /// [`Corrected::said`].
+    pub said: &'a Said,
+}
+
+/// Applies more corrections at the end of a list: what [`apply`] gives for the whole list, at the cost of the new ones.
+/// `analysis` and `cells` are those that were corrected before.
+#[must_use]
+pub fn apply_after(
+    before: CorrectedBefore<'_>,
+    grid: &OccupancyGrid,
+    analysis: &Analysis,
+    cells: &CellFaces,
+    corrections: &[Correction],
+) -> Corrected {
+    let draft = MapDraft::after(grid, &before.analysis.subdivision, before.said.clone(), Watch::unwatched());
+    let problem = |outcome: &Outcome| match outcome {
+        Outcome::Applied { .. } => None,
+        Outcome::Unfit(problem) => Some(problem.clone()),
+    };
+    let problems = before.outcomes.iter().map(problem).collect();
+    finished(go_on(grid, analysis, cells, draft, problems, corrections))
+}
+
+fn finished(result: Result<Corrected, Stopped>) -> Corrected {
+    result.expect("nobody stops what is unwatched")
+}
+
 impl Corrected {
-    /// The same with more corrections at the end of the list: what [`apply`] gives for the whole list, at the cost of the
-    /// new ones. `analysis` and `cells` are those that were corrected.
+    /// The same with more corrections at the end of the list, as [`apply_after`] makes it.
     #[must_use]
     pub fn and(
         &self,
@@ -37,18 +70,9 @@ impl Corrected {
         cells: &CellFaces,
         corrections: &[Correction],
     ) -> Self {
-        let draft = MapDraft::after(grid, &self.analysis.subdivision, self.said.clone(), Watch::unwatched());
-        let problem = |outcome: &Outcome| match outcome {
-            Outcome::Applied { .. } => None,
-            Outcome::Unfit(problem) => Some(problem.clone()),
-        };
-        let problems = self.outcomes.iter().map(problem).collect();
-        finished(go_on(grid, analysis, cells, draft, problems, corrections))
+        let before = CorrectedBefore { analysis: &self.analysis, outcomes: &self.outcomes, said: &self.said };
+        apply_after(before, grid, analysis, cells, corrections)
     }
-}
-
-fn finished(result: Result<Corrected, Stopped>) -> Corrected {
-    result.expect("nobody stops what is unwatched")
 }
 
 /// Draws corrections after those that have `problems`, or none, already.

@@ -68,11 +68,11 @@ pub(super) struct DoorMark {
 
 /// What is left of a draft beside its arrangement: enough to go on with it.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub(super) struct Said {
+pub struct Said {
     /// By face.
-    pub claims: Vec<FaceClaim>,
+    pub(super) claims: Vec<FaceClaim>,
     /// Doors in the order in which they were drawn.
-    pub doors: Vec<DoorMark>,
+    pub(super) doors: Vec<DoorMark>,
 }
 
 /// A map while it is corrected; points in the grid frame.

@@ -29,7 +29,8 @@ mod snap;
 #[cfg(test)]
 mod tests;
 
-pub use apply::apply;
+pub use apply::{CorrectedBefore, apply, apply_after};
 pub use check::CorrectionProblem;
 pub use correction::Correction;
+pub use draft::Said;
 pub use outcome::{Corrected, Outcome};

@@ -34,5 +34,5 @@ pub struct Corrected {
     /// What became of each correction, in the order of the list.
     pub outcomes: Vec<Outcome>,
     /// For more corrections.
-    pub(super) said: Said,
+    pub said: Said,
 }
