@@ -30,6 +30,13 @@ async fn every_resource_has_a_page_without_scripts() {
         assert_eq!(html.contains("<svg"), path.contains("/faces"), "a small map: {path}");
         assert!(api.get(&path).await.header("content-type").contains("json"), "{path}");
     }
+    for path in ["/v1/maps", "/v1/deleted-maps", "/v1/jobs", "/v1/rule-sets", "/v1/rule-sets/site"] {
+        assert!(api.get(&format!("{path}?f=html")).await.text().starts_with("<!doctype html>"), "{path}");
+    }
+    let job = api.get("/v1/jobs").await.json()["jobs"][0]["jobID"].as_str().expect("an id").to_owned();
+    for path in [format!("/v1/jobs/{job}"), format!("{map}/analyses"), format!("{map}/exports")] {
+        assert!(api.get_with(&path, &[("accept", "text/html")]).await.text().contains("<h1>"), "{path}");
+    }
     assert!(api.get(&format!("{map}?f=html")).await.text().contains("&lt;script&gt;alert(&#39;1&#39;)"));
 }
 

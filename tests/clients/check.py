@@ -106,6 +106,18 @@ def files_are_read():
         assert abs(info["total_bounds"][0] - west) < 1e-3, (name, info)
 
 
+def the_whole_map_is_one_file():
+    """GDAL of today: the enclosure of the map is a GeoPackage with every collection, in metres of the map."""
+    [link] = [link for link in get(MAP)["links"] if link["rel"] == "enclosure"]
+    path = WORK / "map.gpkg"
+    urllib.request.urlretrieve(link["href"], path)
+    assert sorted(name for name, _ in pyogrio.list_layers(path)) == sorted(COLLECTIONS)
+    for collection in COLLECTIONS:
+        info = pyogrio.read_info(path, layer=collection, force_feature_count=True)
+        count = get(f"{MAP}/collections/{collection}/items?limit=1")["numberMatched"]
+        assert info["crs"] == "EPSG:3857" and info["features"] == count, (collection, info)
+
+
 def todays_gdal_reads_metres():
     """GDAL of today: system, number and place of the faces, and a selection."""
     info = pyogrio.read_info(SOURCE, layer="faces", force_total_bounds=True)
@@ -170,6 +182,7 @@ for check in (
     todays_gdal_reads_metres,
     todays_gdal_leaves_selections_to_the_service,
     files_are_read,
+    the_whole_map_is_one_file,
     owslib_reads,
     owslib_executes,
     a_surveyed_map_is_in_its_zone,
