@@ -9,8 +9,7 @@ use crate::registry::checked_name;
 pub(super) const MOST_FACES: usize = 100_000;
 /// Least area of a polygon or rectangle, square metres: 1 cm by 1 cm, far below the smallest place.
 const LEAST_AREA_M2: f64 = 1e-4;
-/// Longest side of the world, metres: beyond it coordinates are taken for degrees or pixels of something else, and no
-/// longer tell centimetres apart.
+/// Greatest coordinate, metres: a quarter of the way around the Earth, as far as projected coordinates reach.
 const FARTHEST_M: f64 = 1e7;
 
 /// Why a correction cannot be applied, in plain words.

@@ -27,7 +27,8 @@ pub enum Correction {
     },
     /// Faces become one.
     Merge {
-        /// A point inside each of them. The first one gives the label and the name.
+        /// A point inside each of them. The whole has the first label and the first name that people gave one of them, in
+        /// this order.
         at: Vec<Point>,
     },
     /// A rectangle is cut into places.

@@ -11,6 +11,15 @@
 //! | [`Outcome`] | what became of a correction: the faces that it made or touched, or why it did not fit |
 //! | [`apply()`] | an analysis with a list of corrections |
 //!
+//! | module | what it does |
+//! | --- | --- |
+//! | [`correction`], [`check`] | the data; what can be checked without a map |
+//! | [`mod@apply`] | the list, one after the other, also after a list that was applied |
+//! | [`draft`] | the map while it is corrected: its arrangement, and what is said of its faces and doors |
+//! | [`snap`] | what is drawn joins what is there |
+//! | [`paint`], [`cut`], [`erase`], [`passage`] | faces that are drawn; split and merged; taken away; doors |
+//! | [`assemble`] | the corrected analysis: only what was redrawn is measured again |
+//!
 //! A list is applied in order, each correction to what those before it left. The result follows from the analysis and
 //! the list alone, on any number of threads.
 
