@@ -50,6 +50,7 @@ impl PropertySelection {
     }
 
     /// The properties.
+    #[must_use]
     pub fn properties(&self) -> impl ExactSizeIterator<Item = &'static Property> {
         self.indices.iter().map(|&index| &CollectionSchema::of(self.collection).properties[index])
     }

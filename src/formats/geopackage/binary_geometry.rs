@@ -79,7 +79,9 @@ impl Writer<'_> {
     fn path(&mut self, path: &[Point]) {
         self.begin(GeometryType::LineString);
         self.count(path.len());
-        path.iter().for_each(|&point| self.position(point));
+        for &point in path {
+            self.position(point);
+        }
     }
 
     /// A ring ends with the position with which it begins.
@@ -88,19 +90,25 @@ impl Writer<'_> {
         self.count(rings.len());
         for ring in rings {
             self.count(ring.len() + ring.first().iter().len());
-            ring.iter().chain(ring.first()).for_each(|&point| self.position(point));
+            for &point in ring.iter().chain(ring.first()) {
+                self.position(point);
+            }
         }
     }
 
     fn paths(&mut self, paths: &[&[Point]]) {
         self.begin(GeometryType::MultiLineString);
         self.count(paths.len());
-        paths.iter().for_each(|path| self.path(path));
+        for path in paths {
+            self.path(path);
+        }
     }
 
     fn areas(&mut self, polygons: &[&[Ring]]) {
         self.begin(GeometryType::MultiPolygon);
         self.count(polygons.len());
-        polygons.iter().for_each(|rings| self.area(rings));
+        for rings in polygons {
+            self.area(rings);
+        }
     }
 }
