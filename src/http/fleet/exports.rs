@@ -2,7 +2,6 @@
 
 use std::sync::Arc;
 
-use axum::Json;
 use axum::extract::State;
 use axum::http::header;
 use axum::response::{IntoResponse, Response};
@@ -17,8 +16,10 @@ use crate::exports::{self, Export, ExportError, ExportKind, ExportOptions};
 use crate::http::docs::binary::Binary;
 use crate::http::docs::refusals::{Conflict, NotFound};
 use crate::http::extract::conditional::{EntityTag, IfNoneMatch};
+use crate::http::extract::negotiation::Accept;
 use crate::http::extract::{MapPath, Path, Query};
 use crate::http::links::{Base, JSON, encode};
+use crate::http::page;
 use crate::http::problem::{Problem, ProblemType};
 use crate::views::export::{ExportList, ExportView};
 use crate::views::id::Id;
@@ -31,24 +32,28 @@ const BUNDLE: &str = "bundle.zip";
 /// Files that other programs read: fleet managers, planners, inventory systems, tools for graphs and maps. Each with its
 /// media type, what it is for, and the query parameters that it takes.
 #[utoipa::path(get, path = "/v1/maps/{mapId}/exports", tag = "fleet", operation_id = "listExports", params(MapPath),
-    responses((status = 200, description = "The exports", body = ExportList), NotFound))]
+    responses((status = 200, description = "The exports",
+        content((ExportList = "application/json"), (String = "text/html"))),
+        NotFound))]
 pub async fn list(
     State(app): State<Arc<App>>,
     caller: Caller,
     base: Base,
     Path(path): Path<MapPath>,
-) -> Result<Json<ExportList>, Problem> {
+    accept: Accept,
+) -> Result<Response, Problem> {
     let map = app.map(&caller, path.map_id.0).await?.id;
     let view = |export: &'static Export| {
         ExportView::new(export, base.link("enclosure", &file_path(map, export.name), export.media_type))
     };
-    Ok(Json(ExportList {
+    let list = ExportList {
         exports: exports::list().iter().map(view).collect(),
         links: vec![
             base.link("self", &format!("/v1/maps/{map}/exports"), JSON),
             base.link("up", &format!("/v1/maps/{map}"), JSON),
         ],
-    }))
+    };
+    Ok(page::answer(&accept, "Exports", &list))
 }
 
 fn file_path(map: uuid::Uuid, file: &str) -> String {

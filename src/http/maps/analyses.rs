@@ -17,10 +17,12 @@ use crate::formats::geojson;
 use crate::http::docs::refusals::{NoSpace, NotAnalysed, NotFound};
 use crate::http::extract::conditional::{EntityTag, IfNoneMatch};
 use crate::http::extract::crs::{CONTENT_CRS, CrsName};
+use crate::http::extract::negotiation::Accept;
 use crate::http::extract::{JsonBody, MapPath, Path, Query};
 use crate::http::links::{Base, GEO_JSON, JSON};
 use crate::http::ogc::item_query::properties;
 use crate::http::ogc::jobs;
+use crate::http::page;
 use crate::http::problem::Problem;
 use crate::options::RequestedOptions;
 use crate::views::analysis::{AnalysisList, AnalysisView};
@@ -35,14 +37,16 @@ use crate::views::options::AnalysisOptionsView;
 ///
 /// Every analysis of the map, one per set of options. One is in force, the others are proposals.
 #[utoipa::path(get, path = "/v1/maps/{mapId}/analyses", tag = "maps", operation_id = "listAnalyses", params(MapPath),
-    responses((status = 200, description = "The analyses", body = AnalysisList),
+    responses((status = 200, description = "The analyses",
+        content((AnalysisList = "application/json"), (String = "text/html"))),
         NotFound))]
 pub async fn list(
     State(app): State<Arc<App>>,
     caller: Caller,
     base: Base,
     Path(path): Path<MapPath>,
-) -> Result<Json<AnalysisList>, Problem> {
+    accept: Accept,
+) -> Result<Response, Problem> {
     let in_force = app.map(&caller, path.map_id.0).await?.analysis;
     let versions = app.semantics_versions(&caller, path.map_id.0).await?;
     let analyses = app.analyses(&caller, path.map_id.0).await?.into_iter();
@@ -52,7 +56,7 @@ pub async fn list(
     };
     let analyses = analyses.map(view).collect();
     let links = vec![base.link("self", &format!("/v1/maps/{}/analyses", path.map_id), JSON)];
-    Ok(Json(AnalysisList { analyses, links }))
+    Ok(page::answer(&accept, "Analyses", &AnalysisList { analyses, links }))
 }
 
 /// When a new analysis comes into force.
@@ -129,17 +133,20 @@ pub async fn activate(
 /// Of a proposal, `wouldCarry` says which labels that people gave would be kept and lost if it was activated now.
 #[utoipa::path(get, path = "/v1/maps/{mapId}/analyses/{analysisId}", tag = "maps", operation_id = "getAnalysis",
     params(AnalysisPath),
-    responses((status = 200, description = "The analysis", body = AnalysisView),
+    responses((status = 200, description = "The analysis",
+        content((AnalysisView = "application/json"), (String = "text/html"))),
         NotFound, NotAnalysed))]
 pub async fn get(
     State(app): State<Arc<App>>,
     caller: Caller,
     base: Base,
     Path(path): Path<AnalysisPath>,
-) -> Result<Json<AnalysisView>, Problem> {
+    accept: Accept,
+) -> Result<Response, Problem> {
     let proposal = app.proposal(&caller, path.map_id.0, path.analysis_id.0).await?;
     let record = app.analysis(&caller, path.map_id.0, path.analysis_id.0).await?;
-    Ok(Json(document(&app, &caller, &base, record).await?.with_prospect(proposal.carried)))
+    let view = document(&app, &caller, &base, record).await?.with_prospect(proposal.carried);
+    Ok(page::answer(&accept, "Analysis", &view))
 }
 
 /// How to write faces.

@@ -14,8 +14,10 @@ use super::map::view;
 use crate::app::{App, Caller, DeletedMap};
 use crate::http::docs::refusals::NotFound;
 use crate::http::extract::conditional::{EntityTag, IfMatch};
+use crate::http::extract::negotiation::Accept;
 use crate::http::extract::{MapPath, Paging, Path, Query};
 use crate::http::links::{Base, JSON, header as link_header};
+use crate::http::page;
 use crate::http::paging::cut;
 use crate::http::problem::Problem;
 use crate::views::deleted_map::{DeletedMapList, DeletedMapView};
@@ -45,13 +47,15 @@ pub async fn delete(
 ///
 /// Those that can still be restored, the newest map first.
 #[utoipa::path(get, path = "/v1/deleted-maps", tag = "maps", operation_id = "listDeletedMaps", params(Paging),
-    responses((status = 200, description = "A page of deleted maps", body = DeletedMapList,
+    responses((status = 200, description = "A page of deleted maps",
+        content((DeletedMapList = "application/json"), (String = "text/html")),
         headers(("Link" = Option<String>, description = "The next page")))))]
 pub async fn list(
     State(app): State<Arc<App>>,
     caller: Caller,
     base: Base,
     Query(paging): Query<Paging>,
+    accept: Accept,
 ) -> Result<Response, Problem> {
     let limit = paging.limit.0;
     let (maps, more) = cut(app.deleted_maps(&caller, limit + 1, paging.after.map(|id| id.0)).await?, limit);
@@ -64,7 +68,8 @@ pub async fn list(
         let restore = base.link("related", &format!("/v1/maps/{}/restore", deleted.map.id), JSON);
         DeletedMapView::new(deleted, vec![restore.titled("POST restores it")])
     };
-    Ok((headers, Json(DeletedMapList { maps: maps.into_iter().map(view).collect(), links })).into_response())
+    let list = DeletedMapList { maps: maps.into_iter().map(view).collect(), links };
+    Ok((headers, page::answer(&accept, "Deleted maps", &list)).into_response())
 }
 
 /// Restore a map

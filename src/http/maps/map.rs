@@ -123,13 +123,15 @@ pub async fn create(
 ///
 /// Newest first.
 #[utoipa::path(get, path = "/v1/maps", tag = "maps", operation_id = "listMaps", params(Paging),
-    responses((status = 200, description = "A page of maps", body = MapList,
+    responses((status = 200, description = "A page of maps",
+        content((MapList = "application/json"), (String = "text/html")),
         headers(("Link" = Option<String>, description = "The next page")))))]
 pub async fn list(
     State(app): State<Arc<App>>,
     caller: Caller,
     base: Base,
     Query(paging): Query<Paging>,
+    accept: Accept,
 ) -> Result<Response, Problem> {
     let limit = paging.limit.0;
     let (maps, more) = cut(app.maps(&caller, limit + 1, paging.after.map(|id| id.0)).await?, limit);
@@ -142,7 +144,7 @@ pub async fn list(
     ];
     let links = own.into_iter().chain(next).collect();
     let maps = maps.into_iter().map(|map| view(&base, map)).collect();
-    Ok((headers, Json(MapList { maps, links })).into_response())
+    Ok((headers, page::answer(&accept, "Maps", &MapList { maps, links })).into_response())
 }
 
 /// A map

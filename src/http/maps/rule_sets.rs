@@ -12,8 +12,10 @@ use utoipa::IntoParams;
 use crate::app::{App, Caller, RuleSetRecord};
 use crate::http::docs::refusals::{Conflict, NotFound, PreconditionRequired};
 use crate::http::extract::conditional::{EntityTag, IfMatch, IfNoneMatch};
+use crate::http::extract::negotiation::Accept;
 use crate::http::extract::{JsonBody, Path};
 use crate::http::links::{Base, JSON};
+use crate::http::page;
 use crate::http::problem::{Problem, ProblemType};
 use crate::views::rule_set::{RuleSetBody, RuleSetList, RuleSetView};
 
@@ -58,10 +60,17 @@ pub struct RuleSetPath {
 /// Built in: `site`, the default, and of the two tables that it joins `warehouse` (Table II of the paper) and `office`
 /// (Table IV).
 #[utoipa::path(get, path = "/v1/rule-sets", tag = "semantics", operation_id = "listRuleSets",
-    responses((status = 200, description = "The rule sets", body = RuleSetList)))]
-pub async fn list(State(app): State<Arc<App>>, caller: Caller, base: Base) -> Result<Json<RuleSetList>, Problem> {
+    responses((status = 200, description = "The rule sets",
+        content((RuleSetList = "application/json"), (String = "text/html")))))]
+pub async fn list(
+    State(app): State<Arc<App>>,
+    caller: Caller,
+    base: Base,
+    accept: Accept,
+) -> Result<Response, Problem> {
     let rule_sets = app.rule_sets(&caller).await?.into_iter().map(|record| view(&base, record)).collect();
-    Ok(Json(RuleSetList { rule_sets, links: vec![base.link("self", "/v1/rule-sets", JSON)] }))
+    let links = vec![base.link("self", "/v1/rule-sets", JSON)];
+    Ok(page::answer(&accept, "Rule sets", &RuleSetList { rule_sets, links }))
 }
 
 /// Create a rule set
@@ -93,7 +102,8 @@ fn is_rule_set_id(id: &str) -> bool {
 /// A rule set
 #[utoipa::path(get, path = "/v1/rule-sets/{ruleSetId}", tag = "semantics", operation_id = "getRuleSet",
     params(RuleSetPath),
-    responses((status = 200, description = "The rule set", body = RuleSetView,
+    responses((status = 200, description = "The rule set",
+        content((RuleSetView = "application/json"), (String = "text/html")),
         headers(("ETag" = String, description = "Changes with the rule set"))),
         NotFound))]
 pub async fn get(
@@ -101,10 +111,12 @@ pub async fn get(
     caller: Caller,
     base: Base,
     Path(path): Path<RuleSetPath>,
+    accept: Accept,
     if_none_match: IfNoneMatch,
 ) -> Result<Response, Problem> {
     let record = app.rule_set(&caller, &path.rule_set_id).await?;
-    Ok(tag(&record).answer(&if_none_match, || Json(view(&base, record)).into_response()))
+    let tag = tag_of(&page::kind("rule-set", &accept), &record);
+    Ok(tag.answer(&if_none_match, || page::answer(&accept, "Rule set", &view(&base, record))))
 }
 
 /// The rule set that a write is meant for, once it may be written.

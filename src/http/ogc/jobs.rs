@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use axum::Json;
 use axum::extract::{RawQuery, State};
-use axum::http::{HeaderMap, StatusCode, header};
+use axum::http::{HeaderMap, HeaderValue, StatusCode, header};
 use axum::response::sse::{Event, KeepAlive, Sse};
 use axum::response::{IntoResponse, Response};
 use futures::Stream;
@@ -17,8 +17,10 @@ use utoipa::{IntoParams, ToSchema};
 use crate::app::{App, AppError, Caller, JobFilter, JobRecord, JobState};
 use crate::http::docs::refusals::{Conflict, NotFound};
 use crate::http::extract::datetime::Datetime;
+use crate::http::extract::negotiation::Accept;
 use crate::http::extract::{ListLimit, Path, Query};
 use crate::http::links::{Base, JSON, header as link_header};
+use crate::http::page;
 use crate::http::paging::cut;
 use crate::http::problem::Problem;
 use crate::views::id::Id;
@@ -152,7 +154,8 @@ pub struct JobList {
 ///
 /// Newest first.
 #[utoipa::path(get, path = "/v1/jobs", tag = "jobs", operation_id = "listJobs", params(JobQuery),
-    responses((status = 200, description = "A page of jobs", body = JobList,
+    responses((status = 200, description = "A page of jobs",
+        content((JobList = "application/json"), (String = "text/html")),
         headers(("Link" = Option<String>, description = "The next page")))))]
 pub async fn list(
     State(app): State<Arc<App>>,
@@ -160,6 +163,7 @@ pub async fn list(
     base: Base,
     RawQuery(asked): RawQuery,
     Query(query): Query<JobQuery>,
+    accept: Accept,
 ) -> Result<Response, Problem> {
     let limit = query.limit.0;
     let (jobs, more) = cut(app.jobs(&caller, query.filter()).await?, limit);
@@ -173,21 +177,24 @@ pub async fn list(
     let headers: HeaderMap = next.iter().map(|link| (header::LINK, link_header(link))).collect();
     let links = std::iter::once(base.link("self", "/v1/jobs", JSON)).chain(next).collect();
     let jobs = jobs.into_iter().map(|job| view(&base, job)).collect();
-    Ok((headers, Json(JobList { jobs, links })).into_response())
+    Ok((headers, page::answer(&accept, "Jobs", &JobList { jobs, links })).into_response())
 }
 
 /// A job
 #[utoipa::path(get, path = "/v1/jobs/{jobId}", tag = "jobs", operation_id = "getJob", params(JobPath),
-    responses((status = 200, description = "The job", body = JobView),
+    responses((status = 200, description = "The job", content((JobView = "application/json"), (String = "text/html"))),
         NotFound))]
 pub async fn get(
     State(app): State<Arc<App>>,
     caller: Caller,
     base: Base,
     Path(path): Path<JobPath>,
+    accept: Accept,
 ) -> Result<Response, Problem> {
     let job = app.job(&caller, path.job_id.0).await?;
-    Ok(([(header::CACHE_CONTROL, "no-store")], Json(view(&base, job))).into_response())
+    let mut response = page::answer(&accept, "Job", &view(&base, job));
+    response.headers_mut().insert(header::CACHE_CONTROL, HeaderValue::from_static("no-store"));
+    Ok(response)
 }
 
 /// Dismiss a job
