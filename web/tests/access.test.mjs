@@ -35,6 +35,14 @@ const PAGES = {
     await page.getByRole("button", { name: /Edit labels|Labels und Regeln/ }).click();
     await page.getByRole("dialog").waitFor();
   },
+  correct: async (page) => {
+    await openMap(page, service.base, map, "correct");
+    await page.getByRole("toolbar").getByRole("button", { name: "Label" }).click();
+    const { x, y, width, height } = await page.locator(".canvas").boundingBox();
+    await page.mouse.click(x + width / 3, y + height / 2);
+    await page.locator(".correction-form").waitFor();
+    await page.locator(".bar p").first().waitFor();
+  },
   compare: async (page) => {
     await openMap(page, service.base, map, "compare");
     await page.locator("option", { hasText: "Version 0" }).waitFor({ state: "attached" });

@@ -42,6 +42,7 @@ export const decideTexts = {
   changedRuleSet: ["Rule set: {before} → {after}", "Regelsatz: {before} → {after}"],
   changedRules: ["The labels or rules of the rule set", "Die Labels oder Regeln des Regelsatzes"],
   history: ["History", "Verlauf"],
+  correctionCount: ["Corrections: {count}", "Berichtigungen: {count}"],
   bySuggestion: ["suggestion", "Vorschlag"],
   byPerson: ["decided", "entschieden"],
   restore: ["Restore", "Wiederherstellen"],

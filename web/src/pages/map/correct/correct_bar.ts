@@ -13,8 +13,6 @@ export interface CorrectBar {
   update(): void;
   save(): void;
   step(by: "undo" | "redo"): void;
-  /** Does something that a later version forbids; shows that version then. */
-  run(act: () => Promise<void>): void;
 }
 
 export function correctBar(workspace: Workspace, corrections: Corrections, saved: () => Promise<void>): CorrectBar {
@@ -83,7 +81,6 @@ export function correctBar(workspace: Workspace, corrections: Corrections, saved
     update,
     save: () => run(() => corrections.save()),
     step,
-    run,
   };
 }
 

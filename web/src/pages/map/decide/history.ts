@@ -26,11 +26,13 @@ export function historyList(workspace: Workspace, isOpen: boolean, restored: () 
   function line(version: Semantics, before: Semantics | undefined): HTMLElement {
     const origin = version.origin === "suggested" ? t("bySuggestion") : t("byPerson");
     const changes = before ? t("changes", { count: differences(before, version).length }) : "";
+    const { correctionCount = 0 } = version as Semantics & { readonly correctionCount?: number };
+    const corrected = correctionCount > 0 ? t("correctionCount", { count: correctionCount }) : "";
     const restore = (): void => void labels.restore(version.version).then(restored).catch(failed);
     return h(
       "li",
       {},
-      `${version.version} · ${moment(version.created)} · ${origin} ${changes} `,
+      `${version.version} · ${moment(version.created)} · ${origin} ${changes} ${corrected} `,
       version.version !== labels.inForce.version &&
         button(t("restore"), restore, { "aria-label": t("restoreOne", { version: version.version }) }),
     );
