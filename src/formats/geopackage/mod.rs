@@ -23,7 +23,7 @@ const HEAD: &str = include_str!("head.sql");
 
 /// A collection with its features.
 #[derive(Debug)]
-pub struct Layer {
+pub struct PackageLayer {
     /// The collection.
     pub collection: Collection,
     /// Its features.
@@ -34,11 +34,11 @@ pub struct Layer {
 /// milliseconds.
 #[must_use]
 #[allow(clippy::missing_panics_doc, reason = "rows fit the tables that are made for them")]
-pub fn file(layers: &[Layer], transform: &Transform, changed: &str) -> Vec<u8> {
+pub fn file(layers: &[PackageLayer], transform: &Transform, changed: &str) -> Vec<u8> {
     write(layers, transform, changed).expect("a database in memory takes rows that fit its tables")
 }
 
-fn write(layers: &[Layer], transform: &Transform, changed: &str) -> Result<Vec<u8>> {
+fn write(layers: &[PackageLayer], transform: &Transform, changed: &str) -> Result<Vec<u8>> {
     let mut database = Connection::open_in_memory()?;
     database.execute_batch(HEAD)?;
     let transaction = database.transaction()?;
@@ -51,7 +51,7 @@ fn write(layers: &[Layer], transform: &Transform, changed: &str) -> Result<Vec<u
 }
 
 /// The table of a collection, and what the file says of it.
-fn table(database: &Transaction<'_>, layer: &Layer, transform: &Transform, changed: &str) -> Result<()> {
+fn table(database: &Transaction<'_>, layer: &PackageLayer, transform: &Transform, changed: &str) -> Result<()> {
     let (name, schema) = (layer.collection.id(), CollectionSchema::of(layer.collection));
     // The last type takes all others.
     let shape = schema.geometry.last().copied().unwrap_or(GeometryType::Point);
@@ -85,7 +85,12 @@ fn table(database: &Transaction<'_>, layer: &Layer, transform: &Transform, chang
 }
 
 /// Writes the features of a collection; answers the box around them.
-fn rows(database: &Transaction<'_>, layer: &Layer, shape: GeometryType, transform: &Transform) -> Result<Bounds> {
+fn rows(
+    database: &Transaction<'_>,
+    layer: &PackageLayer,
+    shape: GeometryType,
+    transform: &Transform,
+) -> Result<Bounds> {
     let properties = CollectionSchema::of(layer.collection).properties.len();
     let places = vec!["?"; properties + 2].join(", ");
     let mut insert = database.prepare(&format!("INSERT INTO \"{}\" VALUES ({places})", layer.collection.id()))?;

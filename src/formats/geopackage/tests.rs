@@ -10,7 +10,7 @@ use crate::features::tests::all;
 
 /// The hall in a file, opened again.
 fn opened(transform: &Transform) -> Connection {
-    let layers: Vec<Layer> = all().map(|(collection, features)| Layer { collection, features }).collect();
+    let layers: Vec<PackageLayer> = all().map(|(collection, features)| PackageLayer { collection, features }).collect();
     let bytes = file(&layers, transform, "2026-01-15T08:00:00.000Z");
     assert_eq!(&bytes[68..72], b"GPKG", "the application id of the file");
     let mut database = Connection::open_in_memory().unwrap();

@@ -5,7 +5,7 @@ use utoipa::IntoParams;
 
 use super::collections::CollectionId;
 use super::items_format::Format;
-use super::profile::Profile;
+use super::profile::GeoJsonProfile;
 use crate::coordinates::{Georeference, Transform};
 use crate::features::Collection;
 use crate::features::query::PropertySelection;
@@ -57,8 +57,8 @@ impl ItemQuery {
     }
 
     /// The profile in which the answer is written.
-    pub fn profile(&self, format: Format) -> Option<Profile> {
-        Profile::chosen(self.profile.as_deref(), format)
+    pub fn profile(&self, format: Format) -> Option<GeoJsonProfile> {
+        GeoJsonProfile::chosen(self.profile.as_deref(), format)
     }
 
     /// From the map frame to the coordinates of the answer.

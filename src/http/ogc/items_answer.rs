@@ -10,7 +10,7 @@ use serde_json::{Map, Value, json};
 use super::item_query::ItemQuery;
 use super::items_format::Format;
 use super::items_query::ItemsQuery;
-use super::profile::Profile;
+use super::profile::GeoJsonProfile;
 use crate::app::MapContext;
 use crate::coordinates::{Crs, Transform};
 use crate::features::query::{Page, PropertySelection};
@@ -28,7 +28,7 @@ pub struct Answer {
     pub context: Arc<MapContext>,
     pub properties: PropertySelection,
     pub format: Format,
-    pub profile: Option<Profile>,
+    pub profile: Option<GeoJsonProfile>,
     pub crs: CrsName,
     pub transform: Transform,
 }
@@ -39,7 +39,7 @@ impl Answer {
     }
 
     fn is_json_fg(&self) -> bool {
-        self.profile.is_some_and(Profile::is_json_fg)
+        self.profile.is_some_and(GeoJsonProfile::is_json_fg)
     }
 
     /// The path of the collection.
@@ -68,7 +68,7 @@ impl Answer {
         let mut links = vec![self.base.link("self", &address(self.format, query.after()), self.format.media_type())];
         links.extend(others.map(alternate));
         links.push(self.base.link("collection", &self.path(), JSON));
-        let profile = self.profile.map(Profile::link);
+        let profile = self.profile.map(GeoJsonProfile::link);
         links.extend(profile.iter().chain(&next).cloned());
         let time_stamp = self.time_stamp();
         let returned = page.features.len();
@@ -118,7 +118,7 @@ impl Answer {
         let mut links = vec![self.base.link("self", &address(self.format), self.format.media_type())];
         links.extend(Format::OF_ONE.into_iter().filter(|format| *format != self.format).map(alternate));
         links.push(self.base.link("collection", &self.path(), JSON));
-        let profile = self.profile.map(Profile::link);
+        let profile = self.profile.map(GeoJsonProfile::link);
         links.extend(profile.clone());
         let mut headers = self.headers();
         headers.extend(profile.iter().map(|link| (header::LINK, link_header(link))));

@@ -11,7 +11,7 @@ use utoipa::IntoParams;
 use super::filter::{self, FilterLanguage};
 use super::item_query;
 use super::items_format::Format;
-use super::profile::Profile;
+use super::profile::GeoJsonProfile;
 use crate::coordinates::{Georeference, Transform};
 use crate::cql2::Filter;
 use crate::features::query::{BoxSelection, FeatureQuery, PropertySelection, SortKey};
@@ -169,8 +169,8 @@ impl ItemsQuery {
     }
 
     /// The profile in which the answer is written.
-    pub fn profile(&self, format: Format) -> Option<Profile> {
-        Profile::chosen(self.profile.as_deref(), format)
+    pub fn profile(&self, format: Format) -> Option<GeoJsonProfile> {
+        GeoJsonProfile::chosen(self.profile.as_deref(), format)
     }
 
     /// The system of the coordinates of the answer.

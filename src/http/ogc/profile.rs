@@ -10,7 +10,7 @@ const REGISTER: &str = "http://www.opengis.net/def/profile/OGC/0/";
 
 /// A profile of GeoJSON.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Profile {
+pub enum GeoJsonProfile {
     /// Plain GeoJSON.
     Rfc7946,
     /// JSON-FG.
@@ -20,7 +20,7 @@ pub enum Profile {
     JsonFgPlus,
 }
 
-impl Profile {
+impl GeoJsonProfile {
     const ALL: [Self; 3] = [Self::Rfc7946, Self::JsonFg, Self::JsonFgPlus];
 
     /// The first of the requested profiles in which a format can be written, else the default of the format; none where a
@@ -71,20 +71,20 @@ mod tests {
 
     #[test]
     fn the_first_profile_that_a_format_has_is_chosen() {
-        let chosen = |requested, format| Profile::chosen(Some(requested), format);
+        let chosen = |requested, format| GeoJsonProfile::chosen(Some(requested), format);
         let plus = "http://www.opengis.net/def/profile/OGC/0/jsonfg-plus";
         let cases = [
-            ("jsonfg", Format::GeoJson, Some(Profile::JsonFg)),
-            ("rel-as-link, [ogc-profile:jsonfg],rfc7946", Format::GeoJson, Some(Profile::JsonFg)),
-            (plus, Format::GeoJson, Some(Profile::JsonFgPlus)),
-            ("of-somebody-else", Format::GeoJson, Some(Profile::Rfc7946)),
-            ("rfc7946", Format::JsonFg, Some(Profile::JsonFgPlus)),
-            ("rfc7946,jsonfg", Format::JsonFg, Some(Profile::JsonFg)),
+            ("jsonfg", Format::GeoJson, Some(GeoJsonProfile::JsonFg)),
+            ("rel-as-link, [ogc-profile:jsonfg],rfc7946", Format::GeoJson, Some(GeoJsonProfile::JsonFg)),
+            (plus, Format::GeoJson, Some(GeoJsonProfile::JsonFgPlus)),
+            ("of-somebody-else", Format::GeoJson, Some(GeoJsonProfile::Rfc7946)),
+            ("rfc7946", Format::JsonFg, Some(GeoJsonProfile::JsonFgPlus)),
+            ("rfc7946,jsonfg", Format::JsonFg, Some(GeoJsonProfile::JsonFg)),
             ("jsonfg", Format::Csv, None),
         ];
         for (requested, format, profile) in cases {
             assert_eq!(chosen(requested, format), profile, "{requested} as {format:?}");
         }
-        assert_eq!(Profile::chosen(None, Format::GeoJson), Some(Profile::Rfc7946));
+        assert_eq!(GeoJsonProfile::chosen(None, Format::GeoJson), Some(GeoJsonProfile::Rfc7946));
     }
 }
