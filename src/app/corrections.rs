@@ -130,6 +130,7 @@ pub(super) fn correct(
         })
         .flatten()
         .copied()
+        .filter(|face| level.corrections.labels.contains_key(face))
         .collect();
     carried.retain(|&face, _| !labelled_anew.contains(&FaceId(face)));
     Ok(Correcting { level, overrides: carried, lost })
