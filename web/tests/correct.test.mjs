@@ -235,6 +235,35 @@ test("a correction is taken away from the list", async () => {
   assert.equal((await save()).length, length - 1);
 });
 
+test("an earlier version is laid beside the corrected map: faces that came, went and changed are listed", async () => {
+  await page.getByRole("tab", { name: "Compare" }).click();
+  const select = page.getByLabel("Compare with");
+  await select.locator("option", { hasText: "Version 0" }).waitFor({ state: "attached" });
+  await select.selectOption("version 0");
+  await page.getByText(/^ ?Faces added: \d+/).waitFor();
+  await page.getByText(/^ ?Faces with another shape: \d+/).waitFor();
+  await page.waitForTimeout(500);
+  await picture(page, "compare-corrections");
+  await page.getByRole("tab", { name: "Correct" }).click();
+  await page.getByText(/^Corrections: \d+/).waitFor();
+});
+
+test("a correction outlives another analysis", async () => {
+  const before = (await listed()).corrections.map(({ id }) => id);
+  const headers = { "content-type": "application/json" };
+  const path = `/v1/maps/${map}/analyses`;
+  const wish = { method: "POST", headers, body: JSON.stringify({ decomposition: { method: "paper" } }) };
+  const { body: job } = await json(service.base, `${path}?activate=true`, wish);
+  await (await fetch(`${service.base}/v1/jobs/${job.jobID}/events`)).text();
+  await page.reload();
+  await page.getByText(`Corrections: ${before.length}`).waitFor();
+  assert.deepEqual(
+    (await listed()).corrections.map(({ id }) => id),
+    before,
+  );
+  await picture(page, "correct-another-analysis");
+});
+
 const plan = (features) => JSON.stringify({ type: "FeatureCollection", features });
 const square = (x, y, properties) => ({
   type: "Feature",
