@@ -5,13 +5,13 @@ import type { Texts } from "./text";
 export const compareTexts = {
   compare: ["Compare", "Vergleichen"],
   compareMeaning: [
-    "Compare the map with an earlier version of its labels, or with another scan of the site. Move the divider over the map; a click on a change shows its place.",
-    "Vergleichen Sie die Karte mit einer früheren Version ihrer Labels oder mit einer anderen Aufnahme der Anlage. Verschieben Sie den Teiler über der Karte; ein Klick auf eine Änderung zeigt ihren Ort.",
+    "Compare the map with an earlier version of its labels and corrections, with another analysis, or with another scan of the site. Move the divider over the map; a click on a change shows its place.",
+    "Vergleichen Sie die Karte mit einer früheren Version ihrer Labels und Berichtigungen, mit einer anderen Analyse oder mit einer anderen Aufnahme der Anlage. Verschieben Sie den Teiler über der Karte; ein Klick auf eine Änderung zeigt ihren Ort.",
   ],
   compareWith: ["Compare with", "Vergleichen mit"],
   chooseComparison: ["Choose", "Wählen"],
   comparing: ["Comparing …", "Wird verglichen …"],
-  versions: ["Versions of the labels", "Versionen der Labels"],
+  versions: ["Versions of labels and corrections", "Versionen von Labels und Berichtigungen"],
   versionOf: ["Version {version}, {moment}", "Version {version}, {moment}"],
   suggestionVersion: ["Version 0, the suggestion", "Version 0, der Vorschlag"],
   otherMaps: ["Other maps", "Andere Karten"],

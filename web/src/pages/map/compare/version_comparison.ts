@@ -63,8 +63,12 @@ export async function compareVersion(
 /** The faces of the version before: those of now without what is new, and what was there instead. */
 function facesBefore(now: readonly Feature[], different: readonly Feature[]): Feature[] {
   const isNew = new Set(different.filter((face) => !isOfBefore(face)).map((face) => rowOf(face)["face"]));
-  const kept = now.filter((face) => !isNew.has(rowOf(face)["id"])).map((face) => face.clone());
-  return [...kept, ...different.filter((face) => isOfBefore(face) || rowOf(face)["change"] === "relabelled")];
+  const before = [
+    ...now.filter((face) => !isNew.has(rowOf(face)["id"])),
+    ...different.filter((face) => isOfBefore(face) || rowOf(face)["change"] === "relabelled"),
+  ];
+  // Copies have no id: what was there before has none, and ids in a source are different.
+  return before.map((face) => face.clone());
 }
 
 function isOfBefore(face: Feature): boolean {
