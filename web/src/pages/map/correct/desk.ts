@@ -2,6 +2,7 @@
 
 import type Feature from "ol/Feature";
 import type { Geometry } from "ol/geom";
+import VectorImageLayer from "ol/layer/VectorImage";
 import VectorSource from "ol/source/Vector";
 import type Style from "ol/style/Style";
 
@@ -35,7 +36,14 @@ const PITCH_M = 1;
 export function desk(workspace: Workspace, corrections: Corrections, angles: readonly number[]): OpenTool {
   const { canvas, labels, collections } = workspace;
   const source = new VectorSource();
-  const layer = canvas.overlay(source, 85, { style: (feature) => feature.get("look") as Style[] });
+  // Thousands of corrections are drawn once for a view, not again with every move of the pen.
+  const layer = new VectorImageLayer({
+    source,
+    imageRatio: 1.5,
+    zIndex: 85,
+    style: (feature) => feature.get("look") as Style[],
+  });
+  canvas.map.addLayer(layer);
   const snap = snapping(workspace, angles, () => corrections.wanted);
   const storage = labels.ruleSet.labels.find(({ functionality }) => functionality?.includes("storage"));
   let settings: Settings = {
@@ -210,7 +218,7 @@ export function desk(workspace: Workspace, corrections: Corrections, angles: rea
       drawing.close();
       vertices.close();
       effect.close();
-      canvas.remove(layer);
+      canvas.map.removeLayer(layer);
     },
   };
 }
