@@ -16,6 +16,7 @@ export const germanPurposes: Readonly<Record<string, string>> = {
   "locations.xlsx": "Lagerplätze als Tabelle",
   "graph.graphml": "Der Graph für Programme, die Graphen untersuchen",
   "faces.fgb": "Flächen mit ihren Eigenschaften als FlatGeobuf, für GIS",
+  "map.gpkg": "Alle Sammlungen als GeoPackage, für GIS",
   "bundle.zip": "All dies mit Prüfsummen",
   "vda5050-download-map.json": "Sofortaktion nach VDA 5050 3.0, mit der ein Fahrzeug das Paket abholt",
 };
