@@ -182,7 +182,7 @@ impl App {
         geometry: &GeometricLevel,
     ) -> Result<GeometricLevel, StoreError> {
         if let Some(known) = known {
-            return Ok(GeometricLevel::of(&known));
+            return Ok(known.geometric_level());
         }
         let (blob, same_cells) = (self.store.blobs().get(blob).await?, geometry.clone());
         off_the_runtime(move || Ok(same_cells.with_analysis(blob.decode()?))).await

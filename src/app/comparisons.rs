@@ -110,7 +110,7 @@ impl App {
         let on = Arc::clone(context);
         off_the_runtime(move || {
             let (analysis, layout) = ((on.analysis_id, on.analysed_at), on.semantics.layout.clone());
-            let level = GeometricLevel::of(&on).corrected(list);
+            let level = on.geometric_level().corrected(list);
             let decided = Decided { semantics, correction_ids };
             let earlier = level.read_under(on.record.clone(), analysis, decided, layout)?;
             let codes = codes_of(&site.registry, &earlier);

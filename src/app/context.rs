@@ -56,7 +56,7 @@ impl App {
         let (analysis, blob) = analysis.ok_or(AppError::NotAnalysed { map, job })?;
         let _permit = self.decoders.acquire().await.map_err(|_| AppError::Unavailable)?;
         let geometry = if let Some(previous) = previous.as_ref().filter(|known| known.analysis_id == analysis.id) {
-            GeometricLevel::of(previous)
+            previous.geometric_level()
         } else {
             let (source, blob) = (self.store.blobs().get(&source).await?, self.store.blobs().get(&blob).await?);
             let (limits, record) = (self.config.limits, analysis.clone());

@@ -15,14 +15,11 @@ use uuid::Uuid;
 use super::carrying::carried_overrides;
 use super::error::FieldProblem;
 use super::geometric_level::{AppliedCorrections, GeometricLevel};
-use super::{App, AppError, Caller, CorrectionId, MapContext, SemanticsChange, SemanticsRecord};
+use super::{App, AppError, Caller, CorrectionId, MapContext, SemanticsChange, SemanticsRecord, WantedCorrection};
 use crate::records::LostDecision;
 
 /// Problems that are told at most.
 const MOST_TOLD: usize = 100;
-
-/// A correction of a list that a person wants; without an id it is new.
-pub type WantedCorrection = (Option<CorrectionId>, Correction);
 
 /// What may be in a list of corrections.
 #[derive(Debug, Clone, Copy)]
@@ -112,7 +109,7 @@ pub(super) fn correct(
     };
     let new = || wanted.iter().enumerate().filter(|&(index, _)| is_new[index]);
     refuse(new().filter_map(|(index, (_, correction))| Some((index, check(correction).err()?))))?;
-    let before = GeometricLevel::of(on);
+    let before = on.geometric_level();
     let level = before.clone().corrected(wanted.iter().map(|(_, correction)| correction.clone()).collect());
     let outcomes = &level.corrections.outcomes;
     if !is_tried {

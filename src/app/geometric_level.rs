@@ -15,7 +15,7 @@ use stillage_core::semantics::{AnalysisGround, Assignment};
 use stillage_core::{Analysis, OccupancyGrid, SiteCells};
 use uuid::Uuid;
 
-use super::{AnalysisRecord, AppError, MapContext};
+use super::{AnalysisRecord, AppError};
 use crate::ingest::{self, Limits, MapSource};
 use crate::store::Blob;
 
@@ -74,17 +74,6 @@ impl GeometricLevel {
         let analysis = Arc::new(analysis);
         let corrections = Arc::default();
         Self { grid, analysed: Arc::clone(&analysis), analysis, cells: Arc::new(cells), corrections }
-    }
-
-    /// What a context was made from.
-    pub(super) fn of(context: &MapContext) -> Self {
-        Self {
-            grid: Arc::clone(&context.grid),
-            analysed: Arc::clone(&context.analysed),
-            analysis: Arc::clone(&context.analysis),
-            cells: Arc::clone(&context.cells),
-            corrections: Arc::clone(&context.corrections),
-        }
     }
 
     /// Reads a map and its analysis.

@@ -11,7 +11,7 @@ use stillage_core::semantics::{SemanticMap, Suggestion};
 use stillage_core::{Analysis, OccupancyGrid, SiteCells, SiteMap};
 use uuid::Uuid;
 
-use super::geometric_level::AppliedCorrections;
+use super::geometric_level::{AppliedCorrections, GeometricLevel};
 use super::routers::RouterCache;
 use crate::coordinates::{Crs, Transform};
 use crate::features::query::PropertySelection;
@@ -73,6 +73,17 @@ impl MapContext {
     #[must_use]
     pub const fn state(&self) -> MapState {
         MapState { version: self.record.version, analysis: Some(self.analysis_id), semantics: self.semantics.version }
+    }
+
+    /// What it was made from.
+    pub(super) fn geometric_level(&self) -> GeometricLevel {
+        GeometricLevel {
+            grid: Arc::clone(&self.grid),
+            analysed: Arc::clone(&self.analysed),
+            analysis: Arc::clone(&self.analysis),
+            cells: Arc::clone(&self.cells),
+            corrections: Arc::clone(&self.corrections),
+        }
     }
 
     /// The map as [`crate::features`] reads it.

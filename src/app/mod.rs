@@ -67,7 +67,6 @@ pub use crate::records::{
 };
 pub use caller::Caller;
 pub use comparisons::{LocationComparison, MapComparison, PairAlignment, VersionComparison};
-pub use corrections::WantedCorrection;
 pub use deletion::DeletedMap;
 pub use error::{AppError, FieldProblem};
 pub use file_context::FileMap;
@@ -78,5 +77,5 @@ pub use map_context::MapContext;
 pub use name_import::{NameChange, NameReport};
 pub use names::{Nameable, area_kind};
 pub use proposals::Proposal;
-pub use semantics_change::{RuleSetChoice, SemanticsChange, Unnamed};
+pub use semantics_change::{RuleSetChoice, SemanticsChange, Unnamed, WantedCorrection};
 pub use service::App;

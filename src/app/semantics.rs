@@ -134,7 +134,7 @@ impl App {
         off_the_runtime(move || {
             let suggested = Assignment::suggested(&semantics::suggest(&on.analysed, &checked), &checked);
             let mut assignment = change.labels(&on.semantics, &checked, &suggested)?;
-            let (mut level, mut lost) = (GeometricLevel::of(&on), Vec::new());
+            let (mut level, mut lost) = (on.geometric_level(), Vec::new());
             if let Some(wanted) = &change.corrections {
                 // A request names faces as it sees them, before its corrections.
                 semantics::apply(&on.analysis, &checked, &assignment)?;

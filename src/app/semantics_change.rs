@@ -5,8 +5,11 @@ use std::collections::BTreeMap;
 use stillage_core::layout::LayoutOptions;
 use stillage_core::semantics::{Assignment, RuleSet, RuleSetDraft};
 
-use super::corrections::WantedCorrection;
-use super::{AppError, SemanticsOrigin, SemanticsRecord};
+use super::{AppError, CorrectionId, SemanticsOrigin, SemanticsRecord};
+use stillage_core::corrections::Correction;
+
+/// A correction of a list that a person wants; without an id it is new.
+pub type WantedCorrection = (Option<CorrectionId>, Correction);
 
 /// Changes that make a new version of the human level.
 #[derive(Debug, Clone, Default)]

@@ -21,19 +21,19 @@ pub struct NewCorrectionsBody {
     /// The corrections.
     pub corrections: Vec<Correction>,
     /// Where each stands in the request.
-    places: Vec<Place>,
+    places: Vec<CorrectionPlace>,
 }
 
 /// Where a correction stands in a request.
 #[derive(Debug, Clone)]
-enum Place {
+enum CorrectionPlace {
     /// JSON pointer to the correction.
     Correction(String),
     /// JSON pointer to the feature that it was read from.
     Feature(String),
 }
 
-impl Place {
+impl CorrectionPlace {
     /// A pointer into the correction, as one into the request.
     fn pointer(&self, within: &str) -> String {
         match self {
@@ -59,7 +59,7 @@ impl NewCorrectionsBody {
         }
         let Some(list) = body.remove("corrections") else {
             let corrections = vec![read_correction("", body)?];
-            return Ok(Self { corrections, places: vec![Place::Correction(String::new())] });
+            return Ok(Self { corrections, places: vec![CorrectionPlace::Correction(String::new())] });
         };
         if let Some(other) = body.keys().next() {
             return Err(Problem::invalid(format!("/{other}"), "is not known beside corrections"));
@@ -68,7 +68,8 @@ impl NewCorrectionsBody {
         if list.is_empty() {
             return Err(Problem::invalid("/corrections", "name one correction or more"));
         }
-        let places = (0..list.len()).map(|index| Place::Correction(format!("/corrections/{index}"))).collect();
+        let places =
+            (0..list.len()).map(|index| CorrectionPlace::Correction(format!("/corrections/{index}"))).collect();
         let corrections = all(list
             .into_iter()
             .enumerate()
@@ -85,7 +86,7 @@ impl NewCorrectionsBody {
         let features = ingest::correction_features(document, drawn_label, &|position| transform.inverse(position));
         let features = features.map_err(|errors| Problem::from(unreadable(errors)))?;
         let read = |CorrectionFeature { pointer, correction }: CorrectionFeature| {
-            let place = Place::Feature(pointer);
+            let place = CorrectionPlace::Feature(pointer);
             let correction = read_correction("", correction);
             let correction = correction.map_err(|problem| problem.map_pointers(|within| place.pointer(within)))?;
             Ok((correction, place))

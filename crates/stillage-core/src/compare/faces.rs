@@ -48,9 +48,9 @@ pub fn compare_faces(before: LabelledFaces<'_>, now: LabelledFaces<'_>) -> Vec<F
     let here = matches.now.iter().enumerate().skip(1).filter_map(|(index, found)| {
         let face = FaceId(index as u32);
         let (was, is_reshaped) = match *found {
-            Match::Unseen => return None,
-            Match::None => (None, false),
-            Match::Face { face, is_whole } => (Some(face), !is_whole),
+            FaceMatch::Unseen => return None,
+            FaceMatch::None => (None, false),
+            FaceMatch::Face { face, is_whole } => (Some(face), !is_whole),
         };
         let is_relabelled = was.is_none_or(|was| before.labels[was.index()] != now.labels[index]);
         let difference = FaceDifference {
@@ -68,7 +68,7 @@ pub fn compare_faces(before: LabelledFaces<'_>, now: LabelledFaces<'_>) -> Vec<F
 
 /// The face before that a face is.
 #[derive(Debug, Clone, Copy)]
-enum Match {
+enum FaceMatch {
     /// It has no cells.
     Unseen,
     /// It is new.
@@ -83,14 +83,14 @@ enum Match {
 /// Which faces are the same.
 struct Matches {
     /// By the number of the face now.
-    now: Vec<Match>,
+    now: Vec<FaceMatch>,
     /// By the number of the face before.
     is_gone: Vec<bool>,
 }
 
 impl Matches {
     fn by_number(faces: usize) -> Self {
-        let same = |face: usize| Match::Face { face: FaceId(face as u32), is_whole: true };
+        let same = |face: usize| FaceMatch::Face { face: FaceId(face as u32), is_whole: true };
         Self { now: (0..faces).map(same).collect(), is_gone: Vec::new() }
     }
 
@@ -100,7 +100,7 @@ impl Matches {
             cells_now[new.index()] += cells;
             cells_before[old.index()] += cells;
         }
-        let seen = |&cells: &u64| if cells == 0 { Match::Unseen } else { Match::None };
+        let seen = |&cells: &u64| if cells == 0 { FaceMatch::Unseen } else { FaceMatch::None };
         let mut matches = Self {
             now: cells_now.iter().map(seen).collect(),
             is_gone: cells_before.iter().map(|&cells| cells > 0).collect(),
@@ -108,7 +108,7 @@ impl Matches {
         for &CellOverlap { new, old, cells } in overlaps {
             let (of_new, of_old) = (cells_now[new.index()], cells_before[old.index()]);
             if new != FaceId::OUTER && old != FaceId::OUTER && 2 * cells > of_new && 2 * cells > of_old {
-                matches.now[new.index()] = Match::Face { face: old, is_whole: cells == of_new && cells == of_old };
+                matches.now[new.index()] = FaceMatch::Face { face: old, is_whole: cells == of_new && cells == of_old };
                 matches.is_gone[old.index()] = false;
             }
         }
