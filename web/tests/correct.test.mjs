@@ -1,7 +1,7 @@
 /** Correcting: everything that a person draws, by mouse and by keys, on a real analysis. */
 
 import assert from "node:assert/strict";
-import { writeFile } from "node:fs/promises";
+import { rm, writeFile } from "node:fs/promises";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
@@ -305,6 +305,7 @@ test("a plan that is wrong or too large is refused with the reason", async () =>
   await writeFile(large, plan(Array.from({ length: 400_000 }, () => square(1, 1, { label: "pc" }))));
   await page.getByLabel("GeoJSON file").setInputFiles(large);
   await page.locator("details .problem", { hasText: "limit" }).waitFor();
+  await rm(large);
   assert.equal(
     (await listed()).corrections.some(({ label }) => label === "<script>"),
     false,
