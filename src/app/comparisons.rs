@@ -11,7 +11,6 @@ use stillage_core::layout::{Location, OccupancyState};
 use uuid::Uuid;
 
 use super::context::Decided;
-use super::geometric_level::GeometricLevel;
 use super::registries::codes_of;
 use super::{App, AppError, Caller, MapContext};
 use crate::blocking::off_the_runtime;
