@@ -61,7 +61,7 @@ async fn a_rack_is_drawn_and_cut_and_named() {
     assert_eq!(rack.as_array().expect("faces").len(), 1);
     let feature = api.get(&format!("{map}/collections/faces/items/{}", rack[0])).await.json();
     assert_eq!((&feature["properties"]["label"], &feature["properties"]["name"]), (&json!("pc"), &json!("Rack 12")));
-    assert_eq!(feature["properties"]["areaM2"], 2.0);
+    assert_eq!(feature["properties"]["areaM2"], 4.0, "its long sides join the wall and the goods, a cell away");
     assert_eq!(face_at(&api, &map, [4.0, -0.2]).await, ("pc".into(), Some("Rack 12".into())));
     assert!(faces(&api, &map).await.len() > before);
     let tags = (drawn.header("etag"), api.get(&format!("{map}/semantics")).await);
@@ -371,7 +371,7 @@ async fn corrections_outlive_another_analysis() {
     assert_eq!(correct(&api, &map, &both).await.status, 201);
     let first = api.get(&format!("{map}/analyses")).await.json()["analyses"][0]["id"].clone();
     let other = json!({"seed": 7, "categorization": {"k": 3}});
-    let job = api.send_json(Method::POST, &format!("{map}/analyses"), &[], &other).await;
+    let job = api.send_json(Method::POST, &format!("{map}/analyses?activate=true"), &[], &other).await;
     assert_eq!(job.status, 202, "{}", job.text());
     api.app.run_until_empty().await.expect("the queue can be worked on");
     let list = corrections(&api, &map).await;

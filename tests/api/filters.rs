@@ -113,7 +113,7 @@ async fn a_wrong_filter_is_told_where_it_is_wrong() {
         (
             "filter=lable%20%3D%20'co'",
             "filter",
-            "there is no property lable, and a text stands in single quotes; did you mean label, place or labelName?",
+            "there is no property lable, and a text stands in single quotes; did you mean label, name or place?",
         ),
         ("filter=label%20%3D%205", "filter", "label (a text) cannot be compared with the number 5"),
         ("filter=", "filter", "is empty"),

@@ -286,7 +286,10 @@ async fn a_preview_tells_what_would_change_and_changes_nothing() {
     for (told, face) in made["features"].as_array().expect("features").iter().zip(&changed) {
         assert_eq!((&told["id"], &told["geometry"]), (&face["id"], &face["geometry"]));
         let now = if face["id"] == 1 { "ju" } else { "co" };
-        assert_eq!(told["properties"], json!({"label": now, "previousLabel": label(face)}));
+        let same = &face["id"];
+        let relabelled = json!({"change": "relabelled", "isBefore": false, "face": same, "previousFace": same,
+            "label": now, "previousLabel": label(face)});
+        assert_eq!(told["properties"], relabelled);
     }
     let counts = &made["counts"];
     let corridor = counts["labels"].as_array().expect("labels").iter().find(|counts| counts["label"] == "co");
