@@ -62,7 +62,7 @@ fn a_map_becomes_files_and_the_same_bytes_on_any_number_of_threads() {
         files
     };
     let files = all("one", "1");
-    assert_eq!(files.len(), 15);
+    assert_eq!(files.len(), 16);
     assert!(files == all("two", "2"));
     let csv = &files.iter().find(|(name, _)| name == "locations.csv").unwrap().1;
     let alone = export(folder.path(), &["hall.yaml", "--format", "csv", "--out", "-"]);
