@@ -1,6 +1,7 @@
 //! The corrections of a map.
 
 use serde::Serialize;
+use serde_json::Value;
 use stillage_core::corrections::{Correction, Outcome};
 use utoipa::ToSchema;
 
@@ -87,6 +88,46 @@ pub enum CorrectionView {
     },
 }
 
+/// What a correction has of its kind.
+#[derive(Debug, ToSchema)]
+#[serde(rename_all = "camelCase")]
+#[allow(dead_code, reason = "it describes what the core writes")]
+struct CorrectionMembers {
+    /// Its kind: `draw`, `split`, `merge`, `row`, `erase`, `label`, `door` or `name`.
+    #[schema(example = "draw")]
+    kind: String,
+    #[serde(flatten)]
+    members: CorrectionPatch,
+}
+
+/// Members of a correction that are to be others; null takes an optional one away. Which there are depends on its kind.
+#[derive(Debug, ToSchema)]
+#[schema(example = json!({"label": "pc"}))]
+#[serde(rename_all = "camelCase")]
+#[allow(dead_code, reason = "it describes what the core reads and writes")]
+pub struct CorrectionPatch {
+    /// The corners of a polygon.
+    ring: Option<Vec<[f64; 2]>>,
+    /// The points of a cut, or the jambs of a door.
+    line: Option<Vec<[f64; 2]>>,
+    /// The corners of a row.
+    rectangle: Option<Vec<[f64; 2]>>,
+    /// A point in the face, or one in each of the faces that become one.
+    at: Option<Vec<Value>>,
+    /// How many places a row has side by side.
+    places: Option<u32>,
+    /// Distance from place to place, metres.
+    pitch_m: Option<f64>,
+    /// How many places a row has one behind the other.
+    layers: Option<u32>,
+    /// Whether vehicles may pass a door.
+    is_open: Option<bool>,
+    /// Id of the label.
+    label: Option<String>,
+    /// The name.
+    name: Option<String>,
+}
+
 /// A correction, and what became of it on the analysis in force.
 #[derive(Debug, Serialize, ToSchema)]
 #[serde(rename_all = "camelCase")]
@@ -96,7 +137,7 @@ pub struct ListedCorrection {
     #[schema(example = "c1", required = false, nullable = false)]
     id: Option<String>,
     #[serde(flatten)]
-    #[schema(value_type = CorrectionView)]
+    #[schema(value_type = CorrectionMembers)]
     correction: Correction,
     /// Whether it fits onto the map. One that does not changes nothing.
     is_applied: bool,
@@ -207,8 +248,8 @@ pub struct CorrectionFeatureBody {
     /// Members of the correction, such as `label`, `name` and `kind`. Without a kind, an area is drawn (with the label for
     /// storage, where the rule set has one only), a line splits, a point has a label or a name. Others are left out.
     #[schema(value_type = Object, example = json!({"name": "Rack 12", "label": "pc"}))]
-    properties: serde_json::Value,
+    properties: Value,
     /// An area without holes, a line or a point in the coordinates of `crs`.
     #[schema(value_type = Object, example = json!({"type": "Polygon", "coordinates": [[[1, 1], [3, 1], [3, 2], [1, 2], [1, 1]]]}))]
-    geometry: serde_json::Value,
+    geometry: Value,
 }

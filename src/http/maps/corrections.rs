@@ -21,7 +21,9 @@ use crate::http::extract::{self, JsonBody, MapPath, Path, Query};
 use crate::http::links::{Base, JSON};
 use crate::http::problem::Problem;
 use crate::records::LostDecision;
-use crate::views::correction::{CorrectionFeaturesBody, CorrectionListView, CorrectionsBody, ListedCorrection};
+use crate::views::correction::{
+    CorrectionFeaturesBody, CorrectionListView, CorrectionPatch, CorrectionsBody, ListedCorrection,
+};
 use crate::views::id::Id;
 
 /// How shapes are read.
@@ -144,8 +146,7 @@ pub async fn create(
     operation_id = "changeCorrection",
     params(CorrectionPath, ("If-Match" = Option<String>, Header,
         description = "The ETag of the corrections or of the semantics, as it was read; 428 without it")),
-    request_body(content((Object = "application/merge-patch+json", example = json!({"label": "pc"})),
-        (Object = "application/json", example = json!({"label": "pc"})))),
+    request_body(content((CorrectionPatch = "application/merge-patch+json"), (CorrectionPatch = "application/json"))),
     responses((status = 200, description = "The corrections as they are now", body = CorrectionListView,
             headers(("ETag" = String, description = "That of the semantics, which they are part of"))),
         NotFound, NotAnalysed, PreconditionRequired))]
