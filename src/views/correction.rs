@@ -207,22 +207,11 @@ impl CorrectionListView {
     }
 }
 
-/// One correction or several.
+/// Several corrections. One by itself is read, too: that is not a choice here, because generators of clients cannot write it.
 #[derive(Debug, ToSchema)]
 #[schema(as = NewCorrections)]
-#[serde(untagged)]
 #[allow(dead_code, reason = "it describes what is read")]
-pub enum CorrectionsBody {
-    /// One.
-    One(CorrectionView),
-    /// Several.
-    Several(SeveralCorrections),
-}
-
-/// Several corrections.
-#[derive(Debug, ToSchema)]
-#[allow(dead_code, reason = "it describes what is read")]
-pub struct SeveralCorrections {
+pub struct CorrectionsBody {
     /// In the order in which they are applied, after those that there are.
     #[schema(min_items = 1)]
     corrections: Vec<CorrectionView>,

@@ -111,8 +111,8 @@ async fn waiting_map(api: &Api) -> String {
 
 /// Gives the hall a name.
 fn name_hall(map: &str) -> Sent {
-    let correction = json!({"kind": "name", "at": [4.0, -0.2], "name": "Hall"});
-    Sent::new(Method::POST, format!("{map}/corrections")).json(&correction).with("if-match", "*")
+    let corrections = json!({"corrections": [{"kind": "name", "at": [4.0, -0.2], "name": "Hall"}]});
+    Sent::new(Method::POST, format!("{map}/corrections")).json(&corrections).with("if-match", "*")
 }
 
 /// The path of an analysis of the first map.
