@@ -8,13 +8,11 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::surfaces::Surfaces;
+use super::surfaces::{LEAST_COSINE, Surfaces};
 use crate::geometry::{Point, RigidMotion, Vector};
 
 /// Scales of the weights, metres, and steps with each.
 const SCHEDULE: [(f64, usize); 4] = [(0.5, 6), (0.2, 6), (0.1, 5), (0.05, 5)];
-/// Surfaces whose normals differ by more than 45 degrees are two.
-const LEAST_COSINE: f64 = 0.7;
 /// Steps smaller than this, metres (and, times the size of the map, radians), end the search.
 const STILL: f64 = 1e-5;
 /// Weight that holds a motion in place where no surface does, points.
