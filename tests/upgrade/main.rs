@@ -108,7 +108,7 @@ async fn jobs_are_there_and_those_not_done_are_done() {
     let hall = app.context(&me, before[5].map).await.expect("it answers again");
     let mut options = AnalysisOptions::default();
     options.decomposition.vehicle_width_m = VehicleWidth::Fixed(1.7);
-    assert_eq!((&hall.analysis.options, hall.cells.faces.as_slice().len()), (&options, 240));
+    assert_eq!((&hall.analysis.options, hall.cells.faces.len()), (&options, 240));
     let labels = &hall.semantics;
     let from = labels.carried.as_ref().map(|carried| carried.from);
     assert_eq!((labels.version, labels.rule_set.as_str(), from), (3, "clinic", Some(2)), "the labels of the old one");

@@ -24,8 +24,7 @@ impl CellPaths {
             .map(|face| map.is_drivable(stillage_core::arrangement::FaceId(face)))
             .collect();
         let least = map.clearance.threshold(radius);
-        let is_open =
-            |cell: usize| map.clearance.steps()[cell] >= least && drivable[map.cells.as_slice()[cell].index()];
+        let is_open = |cell: usize| map.clearance.steps()[cell] >= least && drivable[map.cells.of_cell(cell).index()];
         let mut lengths = vec![u32::MAX; map.grid.cells().len()];
         let mut open = BinaryHeap::from([Reverse((0, start))]);
         lengths[start] = 0;

@@ -85,22 +85,19 @@ struct Origins(BTreeMap<FaceId, Vec<(FaceId, u32)>>);
 
 impl Origins {
     fn count(redrawn: &Redrawn<'_>, is_new: impl Fn(FaceId) -> bool + Sync) -> Self {
-        let blocks = redrawn.cells.as_slice().par_chunks(CELLS_PER_BLOCK);
-        let before = redrawn.cells_before.as_slice().par_chunks(CELLS_PER_BLOCK);
-        let count = |(faces, before): (&[FaceId], &[FaceId])| {
+        let size = redrawn.cells.len();
+        let count = |block: usize| {
             let mut counts: BTreeMap<(FaceId, FaceId), u32> = BTreeMap::new();
-            let mut start = 0;
-            for run in faces.chunk_by(PartialEq::eq) {
-                if is_new(run[0]) {
-                    for was in before[start..start + run.len()].chunk_by(PartialEq::eq) {
-                        *counts.entry((run[0], was[0])).or_default() += was.len() as u32;
-                    }
+            let cells = block * CELLS_PER_BLOCK..((block + 1) * CELLS_PER_BLOCK).min(size);
+            for (face, run) in redrawn.cells.runs(cells).filter(|(face, _)| is_new(*face)) {
+                for (was, run) in redrawn.cells_before.runs(run) {
+                    *counts.entry((face, was)).or_default() += run.len() as u32;
                 }
-                start += run.len();
             }
             counts
         };
-        let counts: Vec<BTreeMap<(FaceId, FaceId), u32>> = blocks.zip(before).map(count).collect();
+        let blocks = (0..size.div_ceil(CELLS_PER_BLOCK)).into_par_iter();
+        let counts: Vec<BTreeMap<(FaceId, FaceId), u32>> = blocks.map(count).collect();
         let mut sums: BTreeMap<(FaceId, FaceId), u32> = BTreeMap::new();
         for (pair, count) in counts.into_iter().flatten() {
             *sums.entry(pair).or_default() += count;

@@ -160,20 +160,17 @@ impl FaceCountTable {
         let rim = (RIM_M / grid.resolution()).round() as usize;
         (0..grid.height()).into_par_iter().try_for_each(|row| {
             watch.check()?;
-            let faces = &cells.as_slice()[row * width..(row + 1) * width];
             let votes = categories.cells.get(row * width..(row + 1) * width).unwrap_or_default();
             let mut votes_by_category = [0; 256];
-            let mut column = 0;
-            for run in faces.chunk_by(PartialEq::eq) {
-                let columns = column..column + run.len();
-                column = columns.end;
-                if run[0] != FaceId::OUTER && is_selected(run[0]) {
+            for (face, run) in cells.runs(row * width..(row + 1) * width) {
+                let columns = run.start - row * width..run.end - row * width;
+                if face != FaceId::OUTER && is_selected(face) {
                     let votes = votes.get(columns.clone()).unwrap_or_default();
-                    table.add_run(run[0], votes, &grid.row(row)[columns.clone()], &mut votes_by_category);
-                    let is_inside = |&column: &usize| cells.holds_around(run[0], column, row, rim);
+                    table.add_run(face, votes, &grid.row(row)[columns.clone()], &mut votes_by_category);
+                    let is_inside = |&column: &usize| cells.holds_around(face, column, row, rim);
                     let occupied = columns.clone().filter(|&column| grid.row(row)[column] == Occupancy::Occupied);
-                    table.add(run[0], table.categories + 3, occupied.filter(is_inside).count() as u32);
-                    table.add_regions(run[0], regions, row, columns);
+                    table.add(face, table.categories + 3, occupied.filter(is_inside).count() as u32);
+                    table.add_regions(face, regions, row, columns);
                 }
             }
             Ok(())

@@ -32,7 +32,7 @@ pub(super) fn average(
     let blocks = memberships.cells.par_chunks(CELLS_PER_BLOCK);
     blocks.zip(memberships.shares.values().par_chunks(CELLS_PER_BLOCK * count)).try_for_each(|(numbers, values)| {
         watch.check()?;
-        let face = |number: &u32| cells.as_slice()[*number as usize];
+        let face = |number: &u32| cells.of_cell(*number as usize);
         let mut values = values.chunks_exact(count);
         for run in numbers.chunk_by(|one, other| face(one) == face(other)) {
             let mut of_run = vec![0_u64; count];

@@ -6,7 +6,9 @@
 //! crossings between two centres does not matter, so nothing is sorted, and each centre lies in exactly one face. A
 //! centre on an edge belongs to the face on its right, one on a level edge to the face above.
 //!
-//! Cost: O(cells + crossings), in parallel by bands of rows.
+//! Cost: O(cells + crossings), in parallel by bands of rows; 2 bytes for each cell, 4 where a map has more than 65,536 faces.
+
+use std::ops::{BitXorAssign, Range};
 
 use rayon::prelude::*;
 
@@ -15,14 +17,21 @@ use super::subdivision::Subdivision;
 use crate::geometry::Point;
 use crate::grid::OccupancyGrid;
 
-/// Rows that one task fills: 64 rows of 4,000 cells of 4 bytes are 1 MB and fit a second-level cache.
+/// Rows that one task fills: 64 rows of 4,000 cells of 4 bytes at most are 1 MB and fit a second-level cache.
 const BAND_ROWS: usize = 64;
 
 /// The face of every cell of a grid, by its centre.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CellFaces {
     width: usize,
-    faces: Vec<FaceId>,
+    numbers: Numbers,
+}
+
+/// The numbers of the faces, row-major, lowest row first.
+#[derive(Debug, Clone, PartialEq)]
+enum Numbers {
+    Narrow(Vec<u16>),
+    Wide(Vec<u32>),
 }
 
 impl CellFaces {
@@ -36,34 +45,17 @@ impl CellFaces {
     #[must_use]
     pub fn rasterize(subdivision: &Subdivision, width: usize, height: usize, resolution: f64) -> Self {
         let centers = Centers { width, height, resolution };
-        let crossers: Vec<Crosser> =
-            subdivision.edges().filter_map(|edge| Crosser::new(subdivision, edge, centers)).collect();
-        let mut bands = vec![Vec::new(); height.div_ceil(BAND_ROWS)];
-        for (crosser, number) in crossers.iter().zip(0_u32..) {
-            for band in &mut bands[crosser.first_row / BAND_ROWS..=(crosser.end_row - 1) / BAND_ROWS] {
-                band.push(number);
-            }
-        }
-        let mut ids = vec![0_u32; width * height];
-        ids.par_chunks_mut((BAND_ROWS * width).max(1)).zip(&bands).enumerate().for_each(|(band, (ids, numbers))| {
-            let rows = band * BAND_ROWS..((band + 1) * BAND_ROWS).min(height);
-            for &number in numbers {
-                crossers[number as usize].mark(ids, rows.clone(), centers);
-            }
-            for row in ids.chunks_exact_mut(width.max(1)) {
-                let mut face = 0;
-                for id in row {
-                    face ^= *id;
-                    *id = face;
-                }
-            }
-        });
-        Self { width, faces: ids.into_iter().map(FaceId).collect() }
+        let numbers = if subdivision.face_count() <= usize::from(u16::MAX) + 1 {
+            Numbers::Narrow(filled(subdivision, centers, |sides| sides as u16))
+        } else {
+            Numbers::Wide(filled(subdivision, centers, |sides| sides))
+        };
+        Self { width, numbers }
     }
 
     /// Whether the four cells that are `reach` cells away along the axes lie in a face, too.
     pub(crate) fn holds_around(&self, face: FaceId, column: usize, row: usize, reach: usize) -> bool {
-        let height = self.faces.len() / self.width.max(1);
+        let height = self.len() / self.width.max(1);
         column >= reach
             && row >= reach
             && column + reach < self.width
@@ -77,14 +69,91 @@ impl CellFaces {
     /// The face of a cell; [`FaceId::OUTER`] outside the decomposed part of the map.
     #[must_use]
     pub fn at(&self, column: usize, row: usize) -> FaceId {
-        self.faces[row * self.width + column]
+        self.of_cell(row * self.width + column)
+    }
+
+    /// The face of a cell by its index: row-major, lowest row first.
+    #[must_use]
+    #[inline]
+    pub fn of_cell(&self, cell: usize) -> FaceId {
+        match &self.numbers {
+            Numbers::Narrow(numbers) => FaceId(u32::from(numbers[cell])),
+            Numbers::Wide(numbers) => FaceId(numbers[cell]),
+        }
     }
 
     /// The faces of all cells, row-major, lowest row first.
-    #[must_use]
-    pub fn as_slice(&self) -> &[FaceId] {
-        &self.faces
+    #[must_use = "iterators are lazy"]
+    pub fn iter(&self) -> impl ExactSizeIterator<Item = FaceId> {
+        (0..self.len()).map(|cell| self.of_cell(cell))
     }
+
+    /// The stretches of cells of one face among some cells, by index, as long as they can be.
+    pub fn runs(&self, cells: Range<usize>) -> impl Iterator<Item = (FaceId, Range<usize>)> {
+        let mut start = cells.start;
+        std::iter::from_fn(move || {
+            let first = start;
+            (first < cells.end).then(|| {
+                start += match &self.numbers {
+                    Numbers::Narrow(numbers) => run_length(&numbers[first..cells.end]),
+                    Numbers::Wide(numbers) => run_length(&numbers[first..cells.end]),
+                };
+                (self.of_cell(first), first..start)
+            })
+        })
+    }
+
+    /// How many cells there are.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        match &self.numbers {
+            Numbers::Narrow(numbers) => numbers.len(),
+            Numbers::Wide(numbers) => numbers.len(),
+        }
+    }
+
+    /// Whether there is no cell.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+}
+
+/// How many of the values are as the first one before another comes.
+fn run_length<T: PartialEq>(values: &[T]) -> usize {
+    values.iter().position(|value| *value != values[0]).unwrap_or(values.len())
+}
+
+/// The number of the face of every cell centre. `narrowed` keeps the bits that numbers have.
+fn filled<T: Copy + Default + Send + BitXorAssign>(
+    subdivision: &Subdivision,
+    centers: Centers,
+    narrowed: impl Fn(u32) -> T + Sync,
+) -> Vec<T> {
+    let Centers { width, height, .. } = centers;
+    let crossers: Vec<Crosser> =
+        subdivision.edges().filter_map(|edge| Crosser::new(subdivision, edge, centers)).collect();
+    let mut bands = vec![Vec::new(); height.div_ceil(BAND_ROWS)];
+    for (crosser, number) in crossers.iter().zip(0_u32..) {
+        for band in &mut bands[crosser.first_row / BAND_ROWS..=(crosser.end_row - 1) / BAND_ROWS] {
+            band.push(number);
+        }
+    }
+    let mut ids = vec![T::default(); width * height];
+    ids.par_chunks_mut((BAND_ROWS * width).max(1)).zip(&bands).enumerate().for_each(|(band, (ids, numbers))| {
+        let rows = band * BAND_ROWS..((band + 1) * BAND_ROWS).min(height);
+        for &number in numbers {
+            crossers[number as usize].mark(ids, rows.clone(), centers, &narrowed);
+        }
+        for row in ids.chunks_exact_mut(width.max(1)) {
+            let mut face = T::default();
+            for id in row {
+                face ^= *id;
+                *id = face;
+            }
+        }
+    });
+    ids
 }
 
 /// The centres of the cells of a grid.
@@ -135,12 +204,12 @@ impl Crosser {
     }
 
     /// Writes the change of face into the rows of a band.
-    fn mark(&self, ids: &mut [u32], rows: std::ops::Range<usize>, centers: Centers) {
+    fn mark<T: BitXorAssign>(&self, ids: &mut [T], rows: Range<usize>, centers: Centers, narrowed: impl Fn(u32) -> T) {
         for row in self.first_row.max(rows.start)..self.end_row.min(rows.end) {
             let x = self.x_at((row as f64 + 0.5) * centers.resolution);
             let column = centers.first_from(x, centers.width);
             if column < centers.width {
-                ids[(row - rows.start) * centers.width + column] ^= self.sides;
+                ids[(row - rows.start) * centers.width + column] ^= narrowed(self.sides);
             }
         }
     }

@@ -8,8 +8,8 @@ use crate::geometry::{Point, polygon};
 use crate::test_maps::segments::{boxed, subdivide};
 
 fn picture_of(cells: &CellFaces, width: usize) -> String {
-    let rows = cells.as_slice().chunks(width).rev();
-    rows.map(|row| row.iter().map(ToString::to_string).collect::<String>() + "\n").collect()
+    let row = |row: usize| (0..width).map(|column| cells.at(column, row).to_string()).collect::<String>() + "\n";
+    (0..cells.len() / width).rev().map(row).collect()
 }
 
 #[test]
@@ -44,12 +44,32 @@ fn a_center_on_an_edge_belongs_to_the_right_or_upper_face() {
 #[test]
 fn grids_without_cells_or_faces_have_nothing_to_fill() {
     for (width, height) in [(0, 0), (0, 3), (3, 0)] {
-        assert!(CellFaces::rasterize(&subdivide(&[]), width, height, 0.05).as_slice().is_empty());
+        assert!(CellFaces::rasterize(&subdivide(&[]), width, height, 0.05).is_empty());
     }
     let cells = CellFaces::rasterize(&subdivide(&[]), 2, 1, 0.05);
     assert_eq!((cells.at(0, 0), cells.at(1, 0)), (FaceId::OUTER, FaceId::OUTER));
     let reaching_out = boxed([-5.0, -5.0, 50.0, 50.0], &[]);
-    assert!(CellFaces::rasterize(&reaching_out, 3, 3, 1.0).as_slice().iter().all(|&face| face == FaceId(1)));
+    assert!(CellFaces::rasterize(&reaching_out, 3, 3, 1.0).iter().all(|face| face == FaceId(1)));
+}
+
+#[test]
+fn maps_of_many_faces_have_wider_numbers() {
+    let size = 300;
+    let lines = (1..size).map(f64::from).flat_map(|at| [[at, 0.0, at, 300.0], [0.0, at, 300.0, at]]);
+    let subdivision = boxed([0.0, 0.0, 300.0, 300.0], &lines.collect::<Vec<_>>());
+    let cells = CellFaces::rasterize(&subdivision, 300, 300, 1.0);
+    assert!(subdivision.face_count() > 1 << 16, "{}", subdivision.face_count());
+    let faces: std::collections::BTreeSet<FaceId> = cells.iter().collect();
+    assert_eq!(faces.len(), 300 * 300);
+    assert_eq!(cells.runs(0..300 * 300).count(), 300 * 300);
+    assert_eq!(cells.at(299, 150), subdivision.face_at(Point::new(299.5, 150.5)));
+}
+
+#[test]
+fn runs_are_as_long_as_they_can_be() {
+    let cells = CellFaces::rasterize(&boxed([1.0, 0.0, 3.0, 2.0], &[]), 4, 2, 1.0);
+    let runs: Vec<(u32, std::ops::Range<usize>)> = cells.runs(1..7).map(|(face, run)| (face.0, run)).collect();
+    assert_eq!(runs, [(1, 1..3), (0, 3..5), (1, 5..7)]);
 }
 
 fn crossing_lines() -> impl Strategy<Value = Vec<[f64; 4]>> {
@@ -68,7 +88,7 @@ proptest! {
     fn cells_agree_with_point_location(ends in crossing_lines()) {
         let subdivision = subdivide(&ends);
         let cells = CellFaces::rasterize(&subdivision, 12, 12, 1.0);
-        for (number, &face) in cells.as_slice().iter().enumerate() {
+        for (number, face) in cells.iter().enumerate() {
             let center = Point::new((number % 12) as f64 + 0.5, (number / 12) as f64 + 0.5);
             prop_assert!(face.index() < subdivision.face_count());
             let is_clear = subdivision.edges().all(|edge| {

@@ -22,18 +22,13 @@ impl CellFaces {
     pub fn overlaps(&self, old: &Self) -> Vec<CellOverlap> {
         let mut counts: HashMap<(FaceId, FaceId), u64> = HashMap::new();
         // Neighbours mostly lie in the same faces: a run of them is counted at once.
-        let (mut run, mut length) = ((FaceId::OUTER, FaceId::OUTER), 0);
-        for cell in self.as_slice().iter().copied().zip(old.as_slice().iter().copied()) {
-            if cell != run {
-                *counts.entry(run).or_default() += length;
-                (run, length) = (cell, 0);
+        for (new, run) in self.runs(0..self.len().min(old.len())) {
+            for (old, run) in old.runs(run) {
+                *counts.entry((new, old)).or_default() += run.len() as u64;
             }
-            length += 1;
         }
-        *counts.entry(run).or_default() += length;
         let overlap = |((new, old), cells)| CellOverlap { new, old, cells };
-        let mut overlaps: Vec<CellOverlap> =
-            counts.into_iter().map(overlap).filter(|overlap| overlap.cells > 0).collect();
+        let mut overlaps: Vec<CellOverlap> = counts.into_iter().map(overlap).collect();
         overlaps.sort_unstable_by_key(|overlap| (overlap.new, overlap.old));
         overlaps
     }

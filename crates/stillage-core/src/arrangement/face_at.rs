@@ -41,7 +41,7 @@ mod tests {
         fn it_is_the_face_of_the_cell_with_its_centre_there(lines in prop::collection::vec([0.0..8.0, 0.0..8.0, 0.0..8.0, 0.0..8.0], 0..12)) {
             let subdivision = boxed([0.0, 0.0, 8.0, 8.0], &lines);
             let cells = CellFaces::rasterize(&subdivision, 16, 16, 0.5);
-            for (index, &face) in cells.as_slice().iter().enumerate() {
+            for (index, face) in cells.iter().enumerate() {
                 let center = Point::new((index % 16) as f64 + 0.5, (index / 16) as f64 + 0.5) * 0.5;
                 prop_assert_eq!(subdivision.face_at(center), face);
             }

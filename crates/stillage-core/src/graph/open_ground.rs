@@ -130,7 +130,7 @@ impl Window {
             for column in low[0]..high[0] {
                 let cell = row * columns + column;
                 let steps = map.clearance.steps()[cell];
-                let is_ground = map.grid.cells()[cell] == Occupancy::Free && map.cells.as_slice()[cell] == face;
+                let is_ground = map.grid.cells()[cell] == Occupancy::Free && map.cells.of_cell(cell) == face;
                 if is_ground && steps >= least {
                     room[(row - low[1] + 1) * width + column - low[0] + 1] = steps;
                 }

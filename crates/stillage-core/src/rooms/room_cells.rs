@@ -86,11 +86,13 @@ impl RoomCells {
             return Ok(Vec::new());
         }
         let mut counts: BTreeMap<(FaceId, u32), usize> = BTreeMap::new();
-        for (faces, rooms) in cells.as_slice().chunks(CHECK_EVERY).zip(self.cells.chunks(CHECK_EVERY)) {
+        for start in (0..cells.len()).step_by(CHECK_EVERY) {
             watch.check()?;
-            let pairs: Vec<(FaceId, u32)> = faces.iter().copied().zip(rooms.iter().copied()).collect();
-            for run in runs_of_equal(&pairs) {
-                *counts.entry(pairs[run.start]).or_default() += run.len();
+            for (face, run) in cells.runs(start..(start + CHECK_EVERY).min(cells.len())) {
+                let rooms = &self.cells[run];
+                for run in runs_of_equal(rooms) {
+                    *counts.entry((face, rooms[run.start])).or_default() += run.len();
+                }
             }
         }
         let (mut room_of, mut most) = (vec![0; face_count], vec![0; face_count]);

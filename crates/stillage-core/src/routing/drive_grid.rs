@@ -42,10 +42,13 @@ impl DriveGrid {
         let mut flags = vec![0_u8; width * height];
         flags.par_chunks_mut(width.max(1)).enumerate().for_each(|(row, flags)| {
             let cells = row * width..(row + 1) * width;
-            let faces = &map.cells.as_slice()[cells.clone()];
-            for ((flag, &clearance), &face) in flags.iter_mut().zip(&map.clearance.steps()[cells]).zip(faces) {
-                if clearance >= fits && steps.is_drivable(face) {
-                    *flag = if clearance >= whole { FITS | WHOLE } else { FITS };
+            let clearances = &map.clearance.steps()[cells.clone()];
+            for (_, run) in map.cells.runs(cells.clone()).filter(|(face, _)| steps.is_drivable(*face)) {
+                let run = run.start - cells.start..run.end - cells.start;
+                for (flag, &clearance) in flags[run.clone()].iter_mut().zip(&clearances[run]) {
+                    if clearance >= fits {
+                        *flag = if clearance >= whole { FITS | WHOLE } else { FITS };
+                    }
                 }
             }
         });
@@ -77,7 +80,7 @@ impl DriveGrid {
     pub fn without(&self, map: &SiteMap<'_>, steps: &FaceSteps, rows: std::ops::Range<usize>) -> Self {
         let mut grid = self.clone();
         for cell in rows.start * self.width..rows.end * self.width {
-            if !steps.is_drivable(map.cells.as_slice()[cell]) {
+            if !steps.is_drivable(map.cells.of_cell(cell)) {
                 grid.flags[cell] = 0;
             }
         }

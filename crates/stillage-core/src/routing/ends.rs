@@ -77,7 +77,7 @@ impl EndFinder<'_> {
         if !self.stands(cell) {
             return Err(cannot_stand(EndGround::Narrow(self.map.clearance.of_cell(cell))));
         }
-        let face = self.map.cells.as_slice()[cell];
+        let face = self.map.cells.of_cell(cell);
         if self.blocked.faces.contains(&face) {
             return Err(NoRoute::EndBlocked { end, face });
         }
@@ -104,7 +104,7 @@ impl EndFinder<'_> {
     /// The nearest fitting cell around a point at which the vehicle fits although it does not on the middle of the point's
     /// cell.
     fn fitting_beside(&self, point: Point, cell: usize) -> Option<usize> {
-        let face = self.map.cells.as_slice()[cell];
+        let face = self.map.cells.of_cell(cell);
         let is_ground = self.map.grid.cells()[cell] == Occupancy::Free && self.map.is_drivable(face);
         if !is_ground || self.blocked.faces.contains(&face) || !self.is_clear(point) {
             return None;
@@ -115,7 +115,7 @@ impl EndFinder<'_> {
         let around = range(row, self.grid.height)
             .flat_map(|row| columns.clone().map(move |column| row * self.grid.width + column));
         let distance = |cell: &usize| (self.grid.center(*cell) - point).norm_squared();
-        let fitting = around.filter(|&cell| self.grid.fits(cell) && self.map.cells.as_slice()[cell] == face);
+        let fitting = around.filter(|&cell| self.grid.fits(cell) && self.map.cells.of_cell(cell) == face);
         fitting.min_by(|one, other| distance(one).total_cmp(&distance(other)).then(one.cmp(other)))
     }
 
@@ -149,7 +149,7 @@ impl EndFinder<'_> {
             let label = self.map.semantic.label(face).name.clone();
             return Err(NoRoute::NotDrivable { end, face, label, nearest: self.nearest(point) });
         }
-        let is_there = |cell: usize| self.grid.fits(cell) && self.map.cells.as_slice()[cell] == face;
+        let is_there = |cell: usize| self.grid.fits(cell) && self.map.cells.of_cell(cell) == face;
         let cell =
             self.grid.cell_at(point).filter(|&cell| is_there(cell)).or_else(|| self.ring_search(point, is_there));
         let narrow = || EndGround::Narrow(self.map.clearance.at(point));
@@ -164,7 +164,7 @@ impl EndFinder<'_> {
         let no_approach = || NoRoute::NoApproach { end, code: location.code.clone() };
         let pose = pose.ok_or_else(no_approach)?;
         let cell = self.grid.cell_at(pose.position).ok_or_else(no_approach)?;
-        let face = self.map.cells.as_slice()[cell];
+        let face = self.map.cells.of_cell(cell);
         if self.blocked.faces.contains(&face) {
             return Err(NoRoute::EndBlocked { end, face });
         }

@@ -95,7 +95,7 @@ impl FaceSteps {
 
     /// Whether a path may pass from a cell to one beside it, both on drivable faces.
     pub fn allows(&self, map: &SiteMap<'_>, from: usize, to: usize) -> bool {
-        let [before, behind] = [from, to].map(|cell| map.cells.as_slice()[cell]);
+        let [before, behind] = [from, to].map(|cell| map.cells.of_cell(cell));
         before == behind
             || self.crosses_all
             || self.blocked.is_empty() && self.joins(before, behind)
@@ -109,7 +109,7 @@ impl FaceSteps {
     /// The edges crossed between the centres of two neighbouring cells, each with the face behind it; `None` where
     /// one of them may not be crossed.
     pub fn crossings(&self, map: &SiteMap<'_>, from: usize, to: usize) -> Option<Vec<(EdgeId, FaceId)>> {
-        let [before, behind] = [from, to].map(|cell| map.cells.as_slice()[cell]);
+        let [before, behind] = [from, to].map(|cell| map.cells.of_cell(cell));
         if before == behind {
             return Some(Vec::new());
         }
@@ -128,7 +128,7 @@ impl FaceSteps {
     /// The edges crossed between the centres of two neighbouring cells, whether they may be crossed or not.
     pub fn crossings_of_any(&self, map: &SiteMap<'_>, from: usize, to: usize) -> Vec<(EdgeId, FaceId)> {
         self.crossings(map, from, to).unwrap_or_else(|| {
-            let [before, behind] = [from, to].map(|cell| map.cells.as_slice()[cell]);
+            let [before, behind] = [from, to].map(|cell| map.cells.of_cell(cell));
             walk(map, before, behind, centers(map, [from, to])).unwrap_or_default()
         })
     }

@@ -48,7 +48,7 @@ impl<'a> GroundCost<'a> {
     }
 
     fn of_cell(&self, cell: usize) -> f32 {
-        let label = self.map.semantic.labels[self.map.cells.as_slice()[cell].index()];
+        let label = self.map.semantic.labels[self.map.cells.of_cell(cell).index()];
         let by_label = self.label_costs.get(usize::from(label.0)).copied().unwrap_or(1.0);
         if self.preferred == 0 {
             return by_label;

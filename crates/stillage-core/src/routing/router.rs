@@ -72,7 +72,7 @@ impl Router {
         let members: BTreeSet<FaceId> = faces.into_iter().collect();
         let cells = rows.start * grid.width..rows.end * grid.width;
         let changed: BTreeSet<usize> = cells
-            .filter(|&cell| members.contains(&map.cells.as_slice()[cell]))
+            .filter(|&cell| members.contains(&map.cells.of_cell(cell)))
             .map(|cell| self.roads.tiles.of_cell(cell))
             .collect();
         let roads = self.roads.renewed(&grid, &changed);
@@ -288,7 +288,7 @@ impl Router {
             return NoRoute::CutOff;
         }
         let open = self.open.as_deref().unwrap_or(self);
-        let [from, to] = [start, goal].map(|end| map.cells.as_slice()[end.cell]);
+        let [from, to] = [start, goal].map(|end| map.cells.of_cell(end.cell));
         // Most faces are told apart without looking at cells.
         let is_hub = |cell: usize| open.roads.is_hub(cell);
         let narrowest = || bottleneck(map, &open.steps, is_hub, [start.cell, goal.cell]);

@@ -226,7 +226,7 @@ pub(super) fn faces_along(
     path: &[Point],
 ) -> (Vec<FaceId>, Vec<EdgeId>) {
     let Some(first) = path.windows(2).next() else { return Default::default() };
-    let (mut faces, mut edges) = (vec![map.cells.as_slice()[Walk::new(grid, first[0], first[1]).at()]], Vec::new());
+    let (mut faces, mut edges) = (vec![map.cells.of_cell(Walk::new(grid, first[0], first[1]).at())], Vec::new());
     let mut cross = |from: usize, to: usize| {
         for (edge, face) in steps.crossings_of_any(map, from, to) {
             edges.push(edge);

@@ -81,7 +81,7 @@ impl WaysOut {
         start: usize,
         stands: impl Fn(usize) -> bool,
     ) -> Option<Vec<usize>> {
-        let face = map.cells.as_slice()[start];
+        let face = map.cells.of_cell(start);
         let is_out = |cell: usize| ground.fits(cell) || self.steps[cell] != NONE;
         let mut way = self.over_face(map, face, start, is_out, stands)?;
         let last = *way.last().expect("a way has its start");
@@ -126,7 +126,7 @@ impl WaysOut {
                     return Some(way);
                 }
                 let Some(spot) = spot(next).filter(|&spot| came_by[spot] == NONE) else { continue };
-                if map.cells.as_slice()[next] == face && stands(next) {
+                if map.cells.of_cell(next) == face && stands(next) {
                     came_by[spot] = step as u8;
                     open.push_back(next);
                 }

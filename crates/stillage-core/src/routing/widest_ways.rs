@@ -56,7 +56,7 @@ pub(super) fn spread(
     is_end: impl Fn(usize) -> bool,
 ) -> (Vec<u32>, Option<usize>) {
     let (width, cells, clearance) = (map.grid.width(), map.grid.cells(), map.clearance.steps());
-    let is_drivable = |cell: usize| cells[cell] == Occupancy::Free && steps.is_drivable(map.cells.as_slice()[cell]);
+    let is_drivable = |cell: usize| cells[cell] == Occupancy::Free && steps.is_drivable(map.cells.of_cell(cell));
     let mut narrowest = vec![0_u32; cells.len()];
     let mut buckets: Vec<Vec<u32>> = vec![Vec::new(); usize::from(u16::MAX) + 1];
     let mut level = 0;

@@ -138,7 +138,7 @@ impl DrawnMap {
 
     /// The letter a face was drawn with.
     pub fn letter(&self, face: FaceId) -> char {
-        let cell = self.cells.faces.as_slice().iter().position(|&other| other == face);
+        let cell = self.cells.faces.iter().position(|other| other == face);
         cell.map_or('?', |cell| self.letters[cell].into())
     }
 

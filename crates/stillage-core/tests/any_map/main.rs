@@ -83,7 +83,7 @@ fn check_faces(grid: &OccupancyGrid, analysis: &Analysis) -> Result<(), TestCase
     subdivision.check_invariants().map_err(TestCaseError::fail)?;
     let cells = CellFaces::rasterize(subdivision, grid.width(), grid.height(), grid.resolution());
     let mut counts = vec![0; subdivision.face_count()];
-    cells.as_slice().iter().for_each(|face| counts[face.index()] += 1);
+    cells.iter().for_each(|face| counts[face.index()] += 1);
     for face in subdivision.faces() {
         let known = &analysis.faces[face.index()];
         prop_assert_eq!(known.cells, counts[face.index()], "cells of face {}", face);
