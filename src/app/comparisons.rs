@@ -37,9 +37,9 @@ pub struct MapComparison {
     pub comparison: Comparison,
 }
 
-/// Two versions of the semantics of one analysis side by side.
+/// Two readings of one map side by side: two versions of the semantics, or two analyses.
 #[derive(Debug)]
-pub struct VersionComparison {
+pub struct ReadingComparison {
     /// The map as it was.
     pub before: Arc<MapContext>,
     /// The map as it is, or was later.
@@ -48,7 +48,7 @@ pub struct VersionComparison {
     pub faces: Vec<FaceDifference>,
 }
 
-/// The locations of two versions side by side.
+/// The locations of two readings of a map side by side.
 #[derive(Debug)]
 pub struct LocationComparison {
     /// The locations then.
@@ -74,14 +74,14 @@ impl App {
         map: Uuid,
         since: u64,
         version: Option<u64>,
-    ) -> Result<VersionComparison, AppError> {
+    ) -> Result<ReadingComparison, AppError> {
         let context = self.context(caller, map).await?;
         let before = self.context_of_version(caller, &context, since).await?;
         let now = match version {
             None => context,
             Some(version) => self.context_of_version(caller, &context, version).await?,
         };
-        off_the_runtime(move || Ok(VersionComparison { faces: face_differences(&before, &now), before, now })).await
+        off_the_runtime(move || Ok(ReadingComparison::of(before, now))).await
     }
 
     /// A map as it was under a version of its semantics. Its locations have the codes that the registry gives them now.
@@ -119,7 +119,13 @@ impl App {
     }
 }
 
-impl VersionComparison {
+impl ReadingComparison {
+    /// What changed from one reading of a map to another. O(cells): keep it off the runtime.
+    #[must_use]
+    pub fn of(before: Arc<MapContext>, now: Arc<MapContext>) -> Self {
+        Self { faces: face_differences(&before, &now), before, now }
+    }
+
     /// What changed about the locations. Takes milliseconds: keep it off the runtime.
     #[must_use]
     pub fn locations(&self) -> LocationComparison {

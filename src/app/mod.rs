@@ -66,7 +66,7 @@ pub use crate::records::{
     RuleSetRecord, SemanticsOrigin, SemanticsRecord, StageReport,
 };
 pub use caller::Caller;
-pub use comparisons::{LocationComparison, MapComparison, PairAlignment, VersionComparison};
+pub use comparisons::{LocationComparison, MapComparison, PairAlignment, ReadingComparison};
 pub use deletion::DeletedMap;
 pub use error::{AppError, FieldProblem};
 pub use file_context::FileMap;

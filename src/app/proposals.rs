@@ -7,7 +7,8 @@ use uuid::Uuid;
 use super::carrying::is_to_be_carried;
 use super::context::Decided;
 use super::geometric_level::GeometricLevel;
-use super::{AnalysisRecord, App, AppError, Caller, MapContext, SemanticsRecord};
+use super::registries::codes_of;
+use super::{AnalysisRecord, App, AppError, Caller, MapContext, SemanticsRecord, ReadingComparison};
 use crate::blocking::off_the_runtime;
 use crate::records::CarryRecord;
 use crate::store::{BlobId, now};
@@ -15,8 +16,8 @@ use crate::store::{BlobId, now};
 /// An analysis as it would answer.
 #[derive(Debug)]
 pub struct Proposal {
-    /// The map under this analysis; what answers now, where it is in force. Otherwise its locations have the codes of a fresh
-    /// numbering, and nothing has a name.
+    /// The map under this analysis, with the codes and names that the registry gives now; what answers now, where it is in
+    /// force.
     pub context: Arc<MapContext>,
     /// What would become of the labels that people gave on another analysis; none where there are none, or where this
     /// analysis has labels of its own.
@@ -55,12 +56,27 @@ impl App {
         };
         let carried = semantics.as_ref().and_then(|version| version.carried.clone());
         let (correction_ids, list) = self.corrections_of(caller, map, semantics.as_ref()).await?;
+        let (site, _) = self.carried_registry(caller, &in_force).await?;
         let (seen, layout) = (in_force.record.clone(), in_force.semantics.layout.clone());
         let read = move || {
             let decided = Decided { semantics, correction_ids };
-            geometry.corrected(list).read_under(seen, (record.id, record.created), decided, layout)
+            let read = geometry.corrected(list).read_under(seen, (record.id, record.created), decided, layout)?;
+            let codes = codes_of(&site.registry, &read);
+            Ok::<_, AppError>(read.with_codes(&site.registry, codes))
         };
         Ok(Proposal { context: Arc::new(off_the_runtime(read).await?), carried })
+    }
+
+    /// What would change if an analysis was activated now. Nothing changes where it is in force.
+    pub async fn analysis_changes(
+        &self,
+        caller: &Caller,
+        map: Uuid,
+        analysis: Uuid,
+    ) -> Result<ReadingComparison, AppError> {
+        let (before, now) =
+            (self.context(caller, map).await?, self.proposal(caller, map, analysis).await?.context);
+        off_the_runtime(move || Ok(ReadingComparison::of(before, now))).await
     }
 
     /// The part of an analysis that no decision changes, from the store.
@@ -82,6 +98,6 @@ impl App {
 
 /// The decision that a person made: the one in force, or where that was carried over, the one that it comes from.
 fn decided<'a>(in_force: &'a SemanticsRecord, versions: &'a [SemanticsRecord]) -> &'a SemanticsRecord {
-    let from = in_force.carried.as_ref().map(|carried| carried.from);
+    let from = in_force.carried.as_ref().filter(|carried| carried.map.is_none()).map(|carried| carried.from);
     versions.iter().find(|version| Some(version.version) == from).unwrap_or(in_force)
 }

@@ -78,6 +78,7 @@ fn answered_in_time() -> OpenApiRouter<Arc<App>> {
         .routes(routes!(maps::analyses::list, maps::analyses::create))
         .routes(routes!(maps::analyses::get))
         .routes(routes!(maps::analyses::faces))
+        .routes(routes!(maps::comparisons::of_analysis))
         .routes(routes!(maps::analyses::activate))
         .routes(routes!(maps::analyses::diagnostics))
         .routes(routes!(maps::evaluations::create))

@@ -38,7 +38,7 @@ pub struct AnalysisView {
     stages: Vec<StageView>,
     /// Remarks on the result.
     diagnostics: Vec<DiagnosticView>,
-    /// Itself, its faces, and where a `POST` activates it.
+    /// Itself, its faces, what would change, and where a `POST` activates it.
     links: Vec<Link>,
 }
 

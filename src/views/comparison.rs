@@ -5,8 +5,9 @@ use stillage_core::compare::{ComparedPlace, Comparison, FaceDifference, Labelled
 use utoipa::ToSchema;
 
 use super::alignment::PairAlignmentView;
+use super::face_difference::DifferenceCounts;
 use super::id::Id;
-use crate::app::{LocationComparison, MapComparison, VersionComparison};
+use crate::app::{LocationComparison, MapComparison, ReadingComparison};
 use crate::features::rounded;
 
 /// What changed from one map to another.
@@ -33,6 +34,20 @@ pub struct LabelComparisonView {
     version: u64,
     /// Faces with another label, by id. Those that corrections made or took away have one label only.
     faces: Vec<FaceChange>,
+    locations: LocationChanges,
+}
+
+/// What would change if an analysis was put in force.
+#[derive(Debug, Serialize, ToSchema)]
+#[schema(as = AnalysisComparison)]
+#[serde(rename_all = "camelCase")]
+pub struct AnalysisComparisonView {
+    /// The analysis in force.
+    from: Id,
+    /// The other one.
+    to: Id,
+    /// How many faces would be others.
+    faces: DifferenceCounts,
     locations: LocationChanges,
 }
 
@@ -134,6 +149,11 @@ impl From<FaceDifference> for FaceChange {
 }
 
 impl LocationChanges {
+    fn of(made: &ReadingComparison) -> Self {
+        let LocationComparison { before, now, comparison } = made.locations();
+        Self::new(&before, &now, &comparison)
+    }
+
     fn new(before: &[ComparedPlace], now: &[ComparedPlace], comparison: &Comparison) -> Self {
         let marks = |places: &[ComparedPlace], indices: &[usize]| {
             let mut marks: Vec<LocationMark> = indices.iter().map(|&index| LocationMark::of(&places[index])).collect();
@@ -184,12 +204,24 @@ impl MapComparisonView {
     }
 }
 
+impl AnalysisComparisonView {
+    /// What would change. Takes milliseconds: keep it off the runtime.
+    #[must_use]
+    pub fn new(made: &ReadingComparison) -> Self {
+        Self {
+            from: Id(made.before.analysis_id),
+            to: Id(made.now.analysis_id),
+            faces: DifferenceCounts::of(&made.faces),
+            locations: LocationChanges::of(made),
+        }
+    }
+}
+
 impl LabelComparisonView {
     /// What changed since a version.
     #[must_use]
-    pub fn new(since: u64, made: VersionComparison) -> Self {
-        let LocationComparison { before, now, comparison } = made.locations();
-        let locations = LocationChanges::new(&before, &now, &comparison);
+    pub fn new(since: u64, made: ReadingComparison) -> Self {
+        let locations = LocationChanges::of(&made);
         let is_relabelled = |face: &FaceDifference| {
             let label = |face: &Option<LabelledFace>| face.as_ref().map(|face| face.label.clone());
             label(&face.before) != label(&face.now)

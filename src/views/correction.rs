@@ -49,7 +49,7 @@ pub enum CorrectionView {
         #[schema(required = false, nullable = false, minimum = 1)]
         places: Option<u32>,
         /// Distance from place to place, metres; the number of places is the nearest whole one.
-        #[schema(required = false, nullable = false)]
+        #[schema(rename = "pitchM", required = false, nullable = false)]
         pitch_m: Option<f64>,
         /// How many places there are one behind the other.
         #[schema(required = false, minimum = 1, default = 1)]
@@ -77,6 +77,7 @@ pub enum CorrectionView {
         #[schema(value_type = Vec<[f64; 2]>, min_items = 2, max_items = 2)]
         line: [[f64; 2]; 2],
         /// Whether vehicles may pass.
+        #[schema(rename = "isOpen")]
         is_open: bool,
     },
     /// A face has a name.

@@ -174,6 +174,7 @@ pub async fn valid(site: &Site, operation: &str) -> (Sent, &'static [u16]) {
         "createAnalysis" => (Sent::new(Method::POST, format!("{map}/analyses")).json(&json!({"seed": 7})), &[202, 200]),
         "getAnalysis" => get(proposal(site).await),
         "getAnalysisFaces" => get(format!("{}/faces", proposal(site).await)),
+        "listAnalysisChanges" => get(format!("{}/changes", proposal(site).await)),
         "activateAnalysis" => {
             let list = site.api.get(&format!("{map}/analyses")).await.json();
             let id = list["analyses"].as_array().expect("a list").last().expect("the first one")["id"].clone();

@@ -1,5 +1,7 @@
 //! The other formats of features: pages, JSON-FG, tables, `FlatGeobuf`.
 
+use std::collections::BTreeSet;
+
 use axum::http::Method;
 use serde_json::json;
 
@@ -38,6 +40,67 @@ async fn every_resource_has_a_page_without_scripts() {
         assert!(api.get_with(&path, &[("accept", "text/html")]).await.text().contains("<h1>"), "{path}");
     }
     assert!(api.get(&format!("{map}?f=html")).await.text().contains("&lt;script&gt;alert(&#39;1&#39;)"));
+}
+
+/// What a browser accepts.
+const BROWSER: (&str, &str) = ("accept", "text/html,application/xhtml+xml,application/xml;q=0.9,*/*;q=0.8");
+
+/// The addresses that a page leads to within the service, without its host.
+fn leads_to(html: &str) -> Vec<String> {
+    let parts = html.split("href=\"http://stillage.test").skip(1);
+    parts.filter_map(|part| Some(part.split('"').next()?.replace("&amp;", "&"))).collect()
+}
+
+#[tokio::test]
+async fn a_person_walks_from_page_to_page() {
+    let api = Api::new().await;
+    let map = api.hall().await;
+    let corrections = json!({"kind": "name", "at": [4.0, -0.2], "name": "Strip"});
+    api.send_json(Method::POST, &format!("{map}/corrections"), &[("if-match", "*")], &corrections).await;
+    let (mut seen, mut open) = (BTreeSet::new(), vec!["/v1".to_owned(), map.clone()]);
+    while let Some(path) = open.pop() {
+        // One feature of each collection stands for the others.
+        let place = path.split_once("/items/").map_or(path.as_str(), |(items, _)| items).to_owned();
+        if !seen.insert(place) {
+            continue;
+        }
+        let page = api.get_with(&path, &[BROWSER]).await;
+        let is_asked_for_ends = path.ends_with("/routes");
+        assert_eq!(page.status, if is_asked_for_ends { 422 } else { 200 }, "{path}");
+        let media_type = page.header("content-type").to_owned();
+        let is_file = ["/exports/", ".png", ".svg", "/api", "openapi", "/docs"].iter().any(|part| path.contains(part));
+        if media_type.starts_with("text/html") {
+            open.extend(leads_to(&page.text()));
+        } else {
+            assert!(is_file || is_asked_for_ends || path.contains("f="), "{path} is no page: {media_type}");
+        }
+    }
+    let pages = [
+        "analyses", "categories", "changes", "corrections", "diagnostics", "exports", "graph-report", "registry", "semantics",
+        "semantics/versions",
+    ];
+    for page in pages {
+        assert!(seen.contains(&format!("{map}/{page}")), "{page} is reached: {seen:?}");
+    }
+    let by_hand = ["at?point=1,1&crs=EPSG:3857", "nearest?point=1,1&crs=EPSG:3857&collection=faces", "corrections/c1"];
+    for path in by_hand {
+        let page = api.get(&format!("{map}/{path}{}f=html", if path.contains('?') { "&" } else { "?" })).await;
+        assert!(page.text().starts_with("<!doctype html>"), "{path}: {}", page.text());
+    }
+    assert!(api.get("/problems/not-found?f=html").await.text().starts_with("<!doctype html>"));
+}
+
+#[tokio::test]
+async fn a_page_is_another_answer_than_json() {
+    let api = Api::new().await;
+    let map = api.hall().await;
+    for path in ["categories", "semantics", "semantics/versions/0", "corrections", "diagnostics", "graph-report"] {
+        let path = format!("{map}/{path}");
+        let (json, page) = (api.get(&path).await, api.get_with(&path, &[BROWSER]).await);
+        assert_ne!(json.header("etag"), page.header("etag"), "{path}");
+        let again = api.get_with(&path, &[BROWSER, ("if-none-match", page.header("etag"))]).await;
+        assert_eq!(again.status, 304, "{path}");
+    }
 }
 
 #[tokio::test]

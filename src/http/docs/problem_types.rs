@@ -1,11 +1,13 @@
 //! What the `type` of a problem detail leads to.
 
-use axum::Json;
 use axum::extract::Path;
+use axum::response::Response;
 use serde::Serialize;
 use utoipa::ToSchema;
 
 use super::refusals::NotFound;
+use crate::http::extract::negotiation::Accept;
+use crate::http::page;
 use crate::http::problem::{Problem, ProblemType};
 
 /// A kind of problem, described.
@@ -26,10 +28,12 @@ pub struct ProblemTypeView {
 /// What the `type` of a problem detail leads to.
 #[utoipa::path(get, path = "/problems/{problem}", tag = "service", operation_id = "getProblemType",
     params(("problem" = String, Path, description = "Last part of the type's URI", example = "not-found")),
-    responses((status = 200, description = "The kind of problem", body = ProblemTypeView),
+    responses((status = 200, description = "The kind of problem",
+        content((ProblemTypeView = "application/json"), (String = "text/html"))),
         NotFound))]
-pub async fn describe(Path(slug): Path<String>) -> Result<Json<ProblemTypeView>, Problem> {
+pub async fn describe(Path(slug): Path<String>, accept: Accept) -> Result<Response, Problem> {
     let missing = || Problem::not_found(format!("there is no kind of problem {slug}"));
     let kind = ProblemType::find(&slug).ok_or_else(missing)?;
-    Ok(Json(ProblemTypeView { r#type: kind.uri(), title: kind.title(), status: kind.status().as_u16() }))
+    let view = ProblemTypeView { r#type: kind.uri(), title: kind.title(), status: kind.status().as_u16() };
+    Ok(page::answer(&accept, kind.title(), &view))
 }

@@ -2,9 +2,8 @@
 
 use std::sync::Arc;
 
-use axum::Json;
 use axum::extract::State;
-use axum::response::{IntoResponse, Response};
+use axum::response::Response;
 use serde::{Deserialize, Serialize};
 use stillage_core::whereabouts::{AislePosition, NearestLocation, Whereabouts, whereabouts};
 use stillage_core::{Occupancy, Point};
@@ -18,7 +17,9 @@ use crate::features::{Naming, rounded, words};
 use crate::http::docs::refusals::{NotAnalysed, NotFound};
 use crate::http::extract::conditional::{EntityTag, IfNoneMatch};
 use crate::http::extract::crs::CrsName;
+use crate::http::extract::negotiation::Accept;
 use crate::http::extract::{MapPath, Path, Query};
+use crate::http::page;
 use crate::http::problem::Problem;
 
 /// A pose.
@@ -136,7 +137,8 @@ pub struct AtLocation {
 /// The ground under it, its face, place and aisle, with the bays to its left and right if it has a heading, and the nearest
 /// location. Whatever the ground, what there is to say is said; a point outside the map is a 404 that names the nearest one.
 #[utoipa::path(get, path = "/v1/maps/{mapId}/at", tag = "fleet", operation_id = "locatePose", params(MapPath, PoseQuery),
-    responses((status = 200, description = "Where it is", body = AtView,
+    responses((status = 200, description = "Where it is",
+        content((AtView = "application/json"), (String = "text/html")),
         headers(("ETag" = String, description = "Changes with the map, its analysis, its labels and its names"))),
         NotFound, NotAnalysed))]
 pub async fn get(
@@ -144,6 +146,7 @@ pub async fn get(
     caller: Caller,
     Path(path): Path<MapPath>,
     Query(query): Query<PoseQuery>,
+    accept: Accept,
     if_none_match: IfNoneMatch,
 ) -> Result<Response, Problem> {
     let &[x, y] = query.point.0.as_slice() else {
@@ -157,7 +160,8 @@ pub async fn get(
         query.crs.transform(context.record.georeference).map_err(|detail| Problem::parameter("crs", detail))?;
     // Microseconds to a millisecond: no thread of its own.
     let view = locate(&context, &transform, [x, y], query.heading)?;
-    Ok(EntityTag::of_map("at", &context).answer(&if_none_match, || Json(view).into_response()))
+    let tag = EntityTag::of_map(&page::kind("at", &accept), &context);
+    Ok(tag.answer(&if_none_match, || page::answer(&accept, "Where a pose is", &view)))
 }
 
 fn locate(context: &MapContext, transform: &Transform, at: [f64; 2], heading: Option<f64>) -> Result<AtView, Problem> {

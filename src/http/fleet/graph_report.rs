@@ -2,7 +2,6 @@
 
 use std::sync::Arc;
 
-use axum::Json;
 use axum::extract::State;
 use axum::http::header;
 use axum::response::{IntoResponse, Response};
@@ -18,8 +17,10 @@ use crate::app::{App, AppError, Caller, MapContext};
 use crate::http::docs::binary::Binary;
 use crate::http::docs::refusals::{NotAnalysed, NotFound};
 use crate::http::extract::conditional::{EntityTag, IfNoneMatch};
+use crate::http::extract::negotiation::Accept;
 use crate::http::extract::{MapPath, Path, Query};
 use crate::http::links::PNG;
+use crate::http::page;
 use crate::http::problem::Problem;
 use crate::render;
 use crate::views::graph_report::GraphReportView;
@@ -77,7 +78,8 @@ impl ReportQuery {
 /// NVIDIA's SWAGGER defines. A map without drivable ground has an empty report.
 #[utoipa::path(get, path = "/v1/maps/{mapId}/graph-report", tag = "fleet", operation_id = "getGraphReport",
     params(MapPath, ReportQuery),
-    responses((status = 200, description = "The report", body = GraphReportView,
+    responses((status = 200, description = "The report",
+        content((GraphReportView = "application/json"), (String = "text/html")),
         headers(("ETag" = String, description = "Changes with the report"))),
         NotFound, NotAnalysed))]
 pub async fn get(
@@ -85,12 +87,14 @@ pub async fn get(
     caller: Caller,
     Path(path): Path<MapPath>,
     Query(query): Query<ReportQuery>,
+    accept: Accept,
     if_none_match: IfNoneMatch,
 ) -> Result<Response, Problem> {
-    let answer = |context: &MapContext, graph: &NavigationGraph, report: &GraphReport| {
-        Json(GraphReportView::new(context, graph, report)).into_response()
+    let name = page::kind("graph-report", &accept);
+    let answer = move |context: &MapContext, graph: &NavigationGraph, report: &GraphReport| {
+        page::answer(&accept, "Report on the navigation graph", &GraphReportView::new(context, graph, report))
     };
-    reported(&app, &caller, &path, &query, &if_none_match, "graph-report", answer).await
+    reported(&app, &caller, &path, &query, &if_none_match, &name, answer).await
 }
 
 /// Report on the navigation graph, as a picture
@@ -123,8 +127,8 @@ async fn reported(
     path: &MapPath,
     query: &ReportQuery,
     if_none_match: &IfNoneMatch,
-    name: &'static str,
-    answer: fn(&MapContext, &NavigationGraph, &GraphReport) -> Response,
+    name: &str,
+    answer: impl FnOnce(&MapContext, &NavigationGraph, &GraphReport) -> Response + Send + 'static,
 ) -> Result<Response, Problem> {
     let context = app.context(caller, path.map_id.0).await?;
     let (radius, options) = query.checked(&context)?;

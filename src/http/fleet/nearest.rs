@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use axum::extract::State;
 use axum::http::{HeaderValue, header};
-use axum::response::{IntoResponse, Response};
+use axum::response::Response;
 use serde::{Deserialize, Serialize, Serializer};
 use utoipa::IntoParams;
 
@@ -18,11 +18,13 @@ use crate::formats::geojson::{self, GeoJsonFeature};
 use crate::http::docs::refusals::{NotAnalysed, NotFound};
 use crate::http::extract::conditional::{EntityTag, IfNoneMatch};
 use crate::http::extract::crs::{CONTENT_CRS, CrsName};
+use crate::http::extract::negotiation::Accept;
 use crate::http::extract::{Limit, MapPath, Path, Query};
 use crate::http::links::GEO_JSON;
 use crate::http::ogc::collections::CollectionId;
 use crate::http::ogc::filter::{self, FilterLanguage};
 use crate::http::ogc::item_query::properties;
+use crate::http::page;
 use crate::http::problem::Problem;
 use crate::views::feature::FeatureListView;
 
@@ -67,7 +69,8 @@ pub struct NearestQuery {
 /// the nearest one inside.
 #[utoipa::path(get, path = "/v1/maps/{mapId}/nearest", tag = "fleet", operation_id = "getNearest",
     params(MapPath, NearestQuery),
-    responses((status = 200, description = "The features", body = FeatureListView, content_type = "application/geo+json",
+    responses((status = 200, description = "The features",
+        content((FeatureListView = "application/geo+json"), (String = "text/html")),
         headers(("ETag" = String, description = "Changes with the map, its analysis, its labels and its names"),
             ("Content-Crs" = String, description = "System of the coordinates"))),
         NotFound, NotAnalysed))]
@@ -76,6 +79,7 @@ pub async fn get(
     caller: Caller,
     Path(path): Path<MapPath>,
     Query(query): Query<NearestQuery>,
+    accept: Accept,
     if_none_match: IfNoneMatch,
 ) -> Result<Response, Problem> {
     let &[x, y] = query.point.0.as_slice() else {
@@ -92,12 +96,13 @@ pub async fn get(
         return Err(outside::refusal(&context, &transform, [x, y]));
     }
     let headers = [(header::CONTENT_TYPE, HeaderValue::from_static(GEO_JSON)), (CONTENT_CRS, query.crs.header())];
-    EntityTag::of_map("nearest", &context)
+    EntityTag::of_map(&page::kind("nearest", &accept), &context)
         .answer_computed(&if_none_match, move || {
             let is_wanted = |feature: &&Feature| filter.as_ref().is_none_or(|filter| filter.selects(*feature));
             let features = context.features(collection).iter().filter(is_wanted);
             let near = nearest(features, transform.inverse([x, y]), query.k.0 as usize);
-            Ok((headers, written(&near, &properties, &transform)).into_response())
+            let written = written(&near, &properties, &transform);
+            Ok(page::answer_geojson(&accept, "Nearest features", headers, written))
         })
         .await
 }

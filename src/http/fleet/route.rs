@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use axum::extract::State;
-use axum::http::header;
-use axum::response::{IntoResponse, Response};
+use axum::http::{HeaderValue, header};
+use axum::response::Response;
 use serde::{Deserialize, Serialize};
 use stillage_core::Point;
 use stillage_core::routing::{self, OutlineRouters, Route, SpeedProfile, instructions};
@@ -20,8 +20,10 @@ use crate::features::{Geometry, Pose};
 use crate::formats::geojson;
 use crate::http::docs::refusals::{NotAnalysed, NotFound};
 use crate::http::extract::crs::{CONTENT_CRS, CrsName};
+use crate::http::extract::negotiation::Accept;
 use crate::http::extract::{MapPath, Path, Query};
 use crate::http::links::GEO_JSON;
+use crate::http::page;
 use crate::http::problem::{Problem, ProblemType};
 
 /// Routes that are found at most for one request.
@@ -179,7 +181,8 @@ pub struct AlternativeView {
 /// `route-no-access`, `route-cut-off` or `route-disconnected`.
 #[utoipa::path(get, path = "/v1/maps/{mapId}/routes", tag = "fleet", operation_id = "getRoute",
     params(MapPath, RouteQuery),
-    responses((status = 200, description = "The route", body = RouteView, content_type = "application/geo+json",
+    responses((status = 200, description = "The route",
+        content((RouteView = "application/geo+json"), (String = "text/html")),
         headers(("Content-Crs" = String, description = "System of the coordinates"))),
         NotFound, NotAnalysed))]
 pub async fn get(
@@ -187,12 +190,13 @@ pub async fn get(
     caller: Caller,
     Path(path): Path<MapPath>,
     Query(query): Query<RouteQuery>,
+    accept: Accept,
 ) -> Result<Response, Problem> {
     let context = app.context(&caller, path.map_id.0).await?;
     off_the_runtime(move || {
         let headers =
-            [(header::CONTENT_TYPE, GEO_JSON.parse().expect("is a header")), (CONTENT_CRS, query.crs.header())];
-        Ok((headers, answer(&context, &query)?).into_response())
+            [(header::CONTENT_TYPE, HeaderValue::from_static(GEO_JSON)), (CONTENT_CRS, query.crs.header())];
+        Ok(page::answer_geojson(&accept, "Route", headers, answer(&context, &query)?))
     })
     .await
 }

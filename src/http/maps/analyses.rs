@@ -75,9 +75,9 @@ pub struct ActivateQuery {
 #[serde(rename_all = "camelCase")]
 pub struct AnalysisPath {
     /// The map.
-    map_id: Id,
+    pub map_id: Id,
     /// The analysis.
-    analysis_id: Id,
+    pub analysis_id: Id,
 }
 
 /// Analyse again
@@ -169,7 +169,8 @@ pub struct FacesQuery {
 /// else with the suggested ones.
 #[utoipa::path(get, path = "/v1/maps/{mapId}/analyses/{analysisId}/faces", tag = "maps",
     operation_id = "getAnalysisFaces", params(AnalysisPath, FacesQuery),
-    responses((status = 200, description = "All faces", body = FeatureListView, content_type = "application/geo+json",
+    responses((status = 200, description = "All faces",
+        content((FeatureListView = "application/geo+json"), (String = "text/html")),
         headers(("Content-Crs" = String, description = "System of the coordinates"))),
         NotFound, NotAnalysed))]
 pub async fn faces(
@@ -177,6 +178,7 @@ pub async fn faces(
     caller: Caller,
     Path(path): Path<AnalysisPath>,
     Query(query): Query<FacesQuery>,
+    accept: Accept,
 ) -> Result<Response, Problem> {
     let properties = properties(query.properties.as_deref(), Collection::Faces)?;
     let context = app.proposal(&caller, path.map_id.0, path.analysis_id.0).await?.context;
@@ -185,17 +187,20 @@ pub async fn faces(
     let headers = [(header::CONTENT_TYPE, HeaderValue::from_static(GEO_JSON)), (CONTENT_CRS, query.crs.header())];
     let written = move || {
         let faces = context.features(Collection::Faces);
-        geojson::feature_collection(faces, &properties, &transform, &[("numberReturned", &faces.len())])
+        let written =
+            geojson::feature_collection(faces, &properties, &transform, &[("numberReturned", &faces.len())]);
+        page::answer_geojson(&accept, "Faces of an analysis", headers, written)
     };
-    Ok((headers, off_the_runtime(written).await).into_response())
+    Ok(off_the_runtime(written).await)
 }
 
-/// An analysis, its faces, and the way to put it in force.
+/// An analysis, its faces, what would change, and the way to put it in force.
 fn links(base: &Base, record: &AnalysisRecord, in_force: Option<Uuid>) -> Vec<Link> {
     let path = format!("/v1/maps/{}/analyses/{}", record.map, record.id);
     let to = |rel, below: &str, media_type| base.link(rel, &format!("{path}{below}"), media_type);
     let mut links = vec![to("self", "", JSON), to("related", "/faces", GEO_JSON).titled("Its labelled faces")];
     if in_force != Some(record.id) {
+        links.push(to("related", "/changes", JSON).titled("What would change"));
         links.push(to("related", "/activate", JSON).titled("POST puts it in force"));
     }
     links
@@ -215,19 +220,22 @@ async fn document(app: &App, caller: &Caller, base: &Base, record: AnalysisRecor
 /// remarks on the analysis in force.
 #[utoipa::path(get, path = "/v1/maps/{mapId}/diagnostics", tag = "maps", operation_id = "getDiagnostics",
     params(MapPath),
-    responses((status = 200, description = "The diagnostics", body = Diagnostics,
+    responses((status = 200, description = "The diagnostics",
+        content((Diagnostics = "application/json"), (String = "text/html")),
         headers(("ETag" = String, description = "Changes with the analysis"))),
         NotFound, NotAnalysed))]
 pub async fn diagnostics(
     State(app): State<Arc<App>>,
     caller: Caller,
     Path(path): Path<MapPath>,
+    accept: Accept,
     if_none_match: IfNoneMatch,
 ) -> Result<Response, Problem> {
     let context = app.context(&caller, path.map_id.0).await?;
     let records = app.analyses(&caller, path.map_id.0).await?;
     let record = records.iter().find(|record| record.id == context.analysis_id);
     let stages = record.map(|record| record.stages.iter().map(Into::into).collect()).unwrap_or_default();
-    let tag = EntityTag::of_content(&["diagnostics", &context.analysis_id.to_string()]);
-    tag.answer_computed(&if_none_match, move || Ok(Json(Diagnostics::new(&context, stages)).into_response())).await
+    let tag = EntityTag::of_content(&[&page::kind("diagnostics", &accept), &context.analysis_id.to_string()]);
+    let answer = move || Ok(page::answer(&accept, "Signals and timings", &Diagnostics::new(&context, stages)));
+    tag.answer_computed(&if_none_match, answer).await
 }

@@ -11,14 +11,16 @@ use serde_json::{Map, Value};
 use utoipa::IntoParams;
 
 use super::corrections_body::{self, NewCorrectionsBody};
-use super::semantics::in_force_tag;
+use super::semantics::{answered_tag, in_force_tag};
 use crate::app::{App, Caller, CorrectionId, MapContext, WantedCorrection};
 use crate::blocking::off_the_runtime;
 use crate::http::docs::refusals::{NotAnalysed, NotFound, PreconditionRequired};
 use crate::http::extract::conditional::{IfMatch, IfNoneMatch};
 use crate::http::extract::crs::CrsName;
+use crate::http::extract::negotiation::Accept;
 use crate::http::extract::{self, JsonBody, MapPath, Path, Query};
 use crate::http::links::{Base, JSON};
+use crate::http::page;
 use crate::http::problem::Problem;
 use crate::records::LostDecision;
 use crate::views::correction::{
@@ -55,7 +57,8 @@ pub struct CorrectionPath {
 /// not fit there is kept, changes nothing, and says why.
 #[utoipa::path(get, path = "/v1/maps/{mapId}/corrections", tag = "corrections", operation_id = "listCorrections",
     params(MapPath),
-    responses((status = 200, description = "The corrections", body = CorrectionListView,
+    responses((status = 200, description = "The corrections",
+        content((CorrectionListView = "application/json"), (String = "text/html")),
         headers(("ETag" = String, description = "That of the semantics, which they are part of"))),
         NotFound, NotAnalysed))]
 pub async fn list(
@@ -63,11 +66,12 @@ pub async fn list(
     caller: Caller,
     base: Base,
     Path(path): Path<MapPath>,
+    accept: Accept,
     if_none_match: IfNoneMatch,
 ) -> Result<Response, Problem> {
     let context = app.context(&caller, path.map_id.0).await?;
-    let tag = in_force_tag(&context);
-    let answer = move || Ok(Json(document(&context, &base, Vec::new())).into_response());
+    let tag = answered_tag(&context, &accept);
+    let answer = move || Ok(page::answer(&accept, "Corrections", &document(&context, &base, Vec::new())));
     tag.answer_computed(&if_none_match, answer).await
 }
 
@@ -76,18 +80,21 @@ pub async fn list(
 /// What it says, and what became of it on the analysis in force.
 #[utoipa::path(get, path = "/v1/maps/{mapId}/corrections/{correctionId}", tag = "corrections",
     operation_id = "getCorrection", params(CorrectionPath),
-    responses((status = 200, description = "The correction", body = ListedCorrection,
+    responses((status = 200, description = "The correction",
+        content((ListedCorrection = "application/json"), (String = "text/html")),
         headers(("ETag" = String, description = "That of the semantics, which it is part of"))),
         NotFound, NotAnalysed))]
 pub async fn get(
     State(app): State<Arc<App>>,
     caller: Caller,
     Path(path): Path<CorrectionPath>,
+    accept: Accept,
     if_none_match: IfNoneMatch,
 ) -> Result<Response, Problem> {
     let context = app.context(&caller, path.map_id.0).await?;
     let found = ListedCorrection::find(&context, path.id()?).ok_or_else(|| path.not_found())?;
-    Ok(in_force_tag(&context).answer(&if_none_match, || Json(found).into_response()))
+    let tag = answered_tag(&context, &accept);
+    Ok(tag.answer(&if_none_match, || page::answer(&accept, "A correction", &found)))
 }
 
 /// Correct a map

@@ -49,12 +49,14 @@ fn map_links(base: &Base, map: &MapRecord) -> Vec<Link> {
         to("related", "/diagnostics", JSON).titled("Signals and timings of the analysis"),
         to("related", "/categories", JSON).titled("Categories with suggested labels"),
         to("related", "/semantics", JSON).titled("Labels of the categories"),
+        to("related", "/corrections", JSON).titled("Corrections"),
         to("related", "/registry", JSON).titled("Codes and names of the site's places"),
         to("related", "/changes", JSON).titled("What changed since a version of the labels"),
         to("version-history", "/semantics/versions", JSON).titled("Versions of the labels"),
         to("related", "/exports", JSON).titled("Files for fleet managers, planners and inventory systems"),
         to("enclosure", "/exports/map.gpkg", GEO_PACKAGE).titled("All collections as a GeoPackage"),
         to("related", "/routes", GEO_JSON).titled("Routes between two places"),
+        to("related", "/graph-report", JSON).titled("Report on the navigation graph"),
     ];
     links.extend(pictures::NAMES.map(|(name, kind, title)| to("preview", &format!("/{name}"), kind).titled(title)));
     links.push(base.link("http://www.opengis.net/def/rel/ogc/1.0/job-list", "/v1/jobs", JSON).titled("The jobs"));

@@ -14,8 +14,10 @@ use super::semantics_body::{self, SemanticsPatchBody};
 use crate::app::{App, Caller, MapContext, SemanticsChange, SemanticsRecord};
 use crate::http::docs::refusals::{Conflict, NotAnalysed, NotFound, PreconditionRequired};
 use crate::http::extract::conditional::{EntityTag, IfMatch, IfNoneMatch};
+use crate::http::extract::negotiation::Accept;
 use crate::http::extract::{JsonBody, MapPath, Path};
 use crate::http::links::{Base, JSON};
+use crate::http::page;
 use crate::http::problem::Problem;
 use crate::views::category::{CategoryList, CategoryView};
 use crate::views::id::Id;
@@ -26,7 +28,8 @@ use crate::views::semantics::{SemanticsBody, SemanticsHistory, SemanticsView};
 /// What there is to name: each category with its extent, its features, the label in force and a suggested one.
 #[utoipa::path(get, path = "/v1/maps/{mapId}/categories", tag = "semantics", operation_id = "listCategories",
     params(MapPath),
-    responses((status = 200, description = "The categories", body = CategoryList,
+    responses((status = 200, description = "The categories",
+        content((CategoryList = "application/json"), (String = "text/html")),
         headers(("ETag" = String, description = "Changes with the analysis and the labels"))),
         NotFound, NotAnalysed))]
 pub async fn categories(
@@ -34,11 +37,12 @@ pub async fn categories(
     caller: Caller,
     base: Base,
     Path(path): Path<MapPath>,
+    accept: Accept,
     if_none_match: IfNoneMatch,
 ) -> Result<Response, Problem> {
     let context = app.context(&caller, path.map_id.0).await?;
-    let version = context.semantics.version.to_string();
-    let tag = EntityTag::of_content(&["categories", &context.analysis_id.to_string(), &version]);
+    let (kind, version) = (page::kind("categories", &accept), context.semantics.version.to_string());
+    let tag = EntityTag::of_content(&[&kind, &context.analysis_id.to_string(), &version]);
     tag.answer_computed(&if_none_match, move || {
         let links = vec![
             base.link("self", &format!("/v1/maps/{}/categories", path.map_id), JSON),
@@ -46,21 +50,30 @@ pub async fn categories(
         ];
         let categories = 0..context.analysis.face_categories.count() as u8;
         let categories = categories.map(|category| CategoryView::new(&context, category)).collect();
-        Ok(Json(CategoryList { categories, rule_set: context.semantics.rule_set.clone(), links }).into_response())
+        let list = CategoryList { categories, rule_set: context.semantics.rule_set.clone(), links };
+        Ok(page::answer(&accept, "Categories", &list))
     })
     .await
 }
 
+/// The name of the labels in their tags, which a write names.
+const KIND: &str = "semantics";
+
 /// The tag of the labels in force.
 pub(super) fn in_force_tag(context: &MapContext) -> EntityTag {
-    tag(context.analysis_id, &context.semantics)
+    tag(KIND, context.analysis_id, &context.semantics)
+}
+
+/// The tag of what the labels in force answer, as JSON or as a page.
+pub(super) fn answered_tag(context: &MapContext, accept: &Accept) -> EntityTag {
+    tag(&page::kind(KIND, accept), context.analysis_id, &context.semantics)
 }
 
 /// The tag of a version. Version 0 is the suggestion of whatever analysis is in force, with the layout of the
 /// newest decision on the site, so these are in it too.
-fn tag(analysis: Uuid, record: &SemanticsRecord) -> EntityTag {
+fn tag(kind: &str, analysis: Uuid, record: &SemanticsRecord) -> EntityTag {
     let layout = serde_json::to_string(&record.layout).expect("a layout is plain data");
-    EntityTag::of_content(&["semantics", &analysis.to_string(), &record.version.to_string(), &layout])
+    EntityTag::of_content(&[kind, &analysis.to_string(), &record.version.to_string(), &layout])
 }
 
 /// Labels in force
@@ -68,20 +81,26 @@ fn tag(analysis: Uuid, record: &SemanticsRecord) -> EntityTag {
 /// Until a person assigns labels, the suggestion is in force (version 0, origin `suggested`).
 #[utoipa::path(get, path = "/v1/maps/{mapId}/semantics", tag = "semantics", operation_id = "getSemantics",
     params(MapPath),
-    responses((status = 200, description = "The labels", body = SemanticsView,
+    responses((status = 200, description = "The labels",
+        content((SemanticsView = "application/json"), (String = "text/html")),
         headers(("ETag" = String, description = "Changes with them"))),
         NotFound, NotAnalysed))]
 pub async fn get(
     State(app): State<Arc<App>>,
     caller: Caller,
     Path(path): Path<MapPath>,
+    accept: Accept,
     if_none_match: IfNoneMatch,
 ) -> Result<Response, Problem> {
     let context = app.context(&caller, path.map_id.0).await?;
-    let tag = in_force_tag(&context);
-    let answer =
-        move || Ok(Json(SemanticsView::new(context.semantics.clone(), &context.record.to_site())).into_response());
-    tag.answer_computed(&if_none_match, answer).await
+    let answer = {
+        let (context, accept) = (Arc::clone(&context), accept.clone());
+        move || {
+            let view = SemanticsView::new(context.semantics.clone(), &context.record.to_site());
+            Ok(page::answer(&accept, "Labels in force", &view))
+        }
+    };
+    answered_tag(&context, &accept).answer_computed(&if_none_match, answer).await
 }
 
 /// Assign labels
@@ -146,7 +165,7 @@ async fn decide(
 
 /// Labels with their tag.
 pub(super) fn answer(context: &MapContext, record: SemanticsRecord) -> Response {
-    let headers = [(header::ETAG, tag(context.analysis_id, &record).header())];
+    let headers = [(header::ETAG, tag(KIND, context.analysis_id, &record).header())];
     (headers, Json(SemanticsView::new(record, &context.record.to_site()))).into_response()
 }
 
@@ -169,14 +188,16 @@ fn list_pointer(pointer: &str, faces: &[u32]) -> String {
 /// Every version that a person made, newest first.
 #[utoipa::path(get, path = "/v1/maps/{mapId}/semantics/versions", tag = "semantics",
     operation_id = "listSemanticsVersions", params(MapPath),
-    responses((status = 200, description = "The versions", body = SemanticsHistory),
+    responses((status = 200, description = "The versions",
+        content((SemanticsHistory = "application/json"), (String = "text/html"))),
         NotFound))]
 pub async fn versions(
     State(app): State<Arc<App>>,
     caller: Caller,
     base: Base,
     Path(path): Path<MapPath>,
-) -> Result<Json<SemanticsHistory>, Problem> {
+    accept: Accept,
+) -> Result<Response, Problem> {
     let to_site = app.map(&caller, path.map_id.0).await?.to_site();
     let versions = app.semantics_versions(&caller, path.map_id.0).await?.into_iter();
     let versions = versions.map(|record| SemanticsView::new(record, &to_site)).collect();
@@ -184,7 +205,7 @@ pub async fn versions(
         base.link("self", &format!("/v1/maps/{}/semantics/versions", path.map_id), JSON),
         base.link("latest-version", &format!("/v1/maps/{}/semantics", path.map_id), JSON),
     ];
-    Ok(Json(SemanticsHistory { versions, links }))
+    Ok(page::answer(&accept, "Versions of the labels", &SemanticsHistory { versions, links }))
 }
 
 /// `/v1/maps/{mapId}/semantics/versions/{version}`
@@ -203,19 +224,22 @@ pub struct VersionPath {
 /// A version that a person made never changes. Version 0 is the suggestion for the analysis in force.
 #[utoipa::path(get, path = "/v1/maps/{mapId}/semantics/versions/{version}", tag = "semantics",
     operation_id = "getSemanticsVersion", params(VersionPath),
-    responses((status = 200, description = "The version", body = SemanticsView,
+    responses((status = 200, description = "The version",
+        content((SemanticsView = "application/json"), (String = "text/html")),
         headers(("ETag" = String, description = "Changes with the suggestion"))),
         NotFound, NotAnalysed))]
 pub async fn version(
     State(app): State<Arc<App>>,
     caller: Caller,
     Path(path): Path<VersionPath>,
+    accept: Accept,
     if_none_match: IfNoneMatch,
 ) -> Result<Response, Problem> {
     let to_site = app.map(&caller, path.map_id.0).await?.to_site();
     let record = app.semantics_version(&caller, path.map_id.0, path.version).await?;
-    let tag = tag(record.analysis, &record);
-    Ok(tag.answer(&if_none_match, || Json(SemanticsView::new(record, &to_site)).into_response()))
+    let tag = tag(&page::kind(KIND, &accept), record.analysis, &record);
+    let answer = || page::answer(&accept, "A version of the labels", &SemanticsView::new(record, &to_site));
+    Ok(tag.answer(&if_none_match, answer))
 }
 
 /// Restore a version of the labels

@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use axum::extract::State;
-use axum::http::header;
-use axum::response::{IntoResponse, Response};
+use axum::http::{HeaderValue, header};
+use axum::response::Response;
 use serde::Deserialize;
 use utoipa::IntoParams;
 
@@ -14,8 +14,10 @@ use crate::app::{App, Caller};
 use crate::blocking::off_the_runtime;
 use crate::http::docs::refusals::{Conflict, NotFound};
 use crate::http::extract::crs::{CONTENT_CRS, CrsName};
+use crate::http::extract::negotiation::Accept;
 use crate::http::extract::{Limit, Path, Query};
 use crate::http::links::GEO_JSON;
+use crate::http::page;
 use crate::http::problem::Problem;
 use crate::views::face_difference::{DifferenceCounts, VersionChangesView};
 
@@ -45,8 +47,8 @@ pub struct VersionChangesQuery {
 /// the analysis in force.
 #[utoipa::path(get, path = "/v1/maps/{mapId}/semantics/versions/{version}/changes", tag = "semantics",
     operation_id = "listVersionChanges", params(VersionPath, VersionChangesQuery),
-    responses((status = 200, description = "What changed", body = VersionChangesView,
-            content_type = "application/geo+json",
+    responses((status = 200, description = "What changed",
+            content((VersionChangesView = "application/geo+json"), (String = "text/html")),
             headers(("Content-Crs" = String, description = "System of the coordinates"))),
         NotFound, Conflict))]
 pub async fn list(
@@ -54,16 +56,18 @@ pub async fn list(
     caller: Caller,
     Path(path): Path<VersionPath>,
     Query(query): Query<VersionChangesQuery>,
+    accept: Accept,
 ) -> Result<Response, Problem> {
     let made = app.version_changes(&caller, path.map_id.0, query.since, Some(path.version)).await?;
     let transform =
         query.crs.transform(made.now.record.georeference).map_err(|detail| Problem::parameter("crs", detail))?;
-    let headers = [(header::CONTENT_TYPE, GEO_JSON.parse().expect("is a header")), (CONTENT_CRS, query.crs.header())];
-    let body = off_the_runtime(move || {
+    let headers = [(header::CONTENT_TYPE, HeaderValue::from_static(GEO_JSON)), (CONTENT_CRS, query.crs.header())];
+    let written = move || {
         let (since, version, counts) = (query.since, path.version, DifferenceCounts::of(&made.faces));
         let members = [("since", &since as _), ("version", &version as _), ("counts", &counts as _)];
-        face_differences::written((&made.before, &made.now), &made.faces, query.limit.0 as usize, &transform, &members)
-    })
-    .await;
-    Ok((headers, body).into_response())
+        let of = (&*made.before, &*made.now);
+        let written = face_differences::written(of, &made.faces, query.limit.0 as usize, &transform, &members);
+        page::answer_geojson(&accept, "Changes of a version of the labels", headers, written)
+    };
+    Ok(off_the_runtime(written).await)
 }

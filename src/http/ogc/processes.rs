@@ -158,17 +158,21 @@ fn results(base: &Base, map: Uuid, analysis: Uuid, wants: impl Fn(&str) -> bool)
 ///
 /// 404 until the job is successful, and where it has none because it failed or was dismissed; the problem says which.
 #[utoipa::path(get, path = "/v1/jobs/{jobId}/results", tag = "jobs", operation_id = "getJobResults", params(JobPath),
-    responses((status = 200, description = "The results", body = ResultsView),
+    responses((status = 200, description = "The results",
+        content((ResultsView = "application/json"), (String = "text/html"))),
         NotFound))]
 pub async fn of_job(
     State(app): State<Arc<App>>,
     caller: Caller,
     base: Base,
     Path(path): Path<JobPath>,
-) -> Result<Json<ResultsView>, Problem> {
+    accept: Accept,
+) -> Result<Response, Problem> {
     let job = app.job(&caller, path.job_id.0).await?;
     match (job.state, job.analysis()) {
-        (JobState::Successful, Some(analysis)) => Ok(Json(results(&base, job.map, analysis, |_| true))),
+        (JobState::Successful, Some(analysis)) => {
+            Ok(page::answer(&accept, "Results of a job", &results(&base, job.map, analysis, |_| true)))
+        }
         (state, _) if state.is_final() => {
             Err(Problem::not_found(format!("the job has no results, it is {}: {}", state.name(), job.message)))
         }

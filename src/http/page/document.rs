@@ -7,6 +7,7 @@ use super::markup::{Markup, text};
 /// A document, member by member.
 pub fn markup(value: &Value) -> Markup {
     match value {
+        Value::Object(_) if link(value).is_some() => markup_of_link(value),
         Value::Object(members) => {
             let row = |(name, value): (&String, &Value)| {
                 let head = Markup::element("th", &[("scope", "row")], [text(name)]);
@@ -30,6 +31,16 @@ pub fn markup(value: &Value) -> Markup {
     }
 }
 
+/// Takes the shapes out of GeoJSON: nobody reads coordinates.
+pub fn forget_shapes(value: &mut Value) {
+    if let Some(members) = value.as_object_mut() {
+        members.remove("geometry");
+    }
+    for feature in value.get_mut("features").and_then(Value::as_array_mut).into_iter().flatten() {
+        forget_shapes(feature);
+    }
+}
+
 /// Address and name of a link.
 fn link(value: &Value) -> Option<(&str, String)> {
     let href = value.get("href")?.as_str().filter(|href| is_address(href))?;
@@ -38,8 +49,15 @@ fn link(value: &Value) -> Option<(&str, String)> {
     Some((href, format!("{name} ({})", word("type"))))
 }
 
+/// How the title of a link begins that nobody can follow by a click: what it leads to answers no reading.
+const WRITES: &str = "POST ";
+
 fn markup_of_link(value: &Value) -> Markup {
-    link(value).map_or_else(|| markup(value), |(href, name)| Markup::element("a", &[("href", href)], [text(&name)]))
+    match link(value) {
+        None => markup(value),
+        Some((href, name)) if name.starts_with(WRITES) => text(&format!("{name}: {href}")),
+        Some((href, name)) => Markup::element("a", &[("href", href)], [text(&name)]),
+    }
 }
 
 /// Whether a browser that follows this stays on the web.
@@ -62,5 +80,21 @@ mod tests {
         assert!(html.as_str().starts_with("<table><tr><th scope=\"row\">id</th><td>a&lt;b</td></tr>"), "{html:?}");
         assert!(html.as_str().contains("<a href=\"http://here/x\">self (text/html)</a>"), "{html:?}");
         assert!(!html.as_str().contains("href=\"javascript"), "{html:?}");
+    }
+
+    #[test]
+    fn what_only_a_program_can_follow_is_told_without_a_link() {
+        let link = json!({"href": "http://here/x", "rel": "related", "type": "application/json", "title": "POST does it"});
+        let html = markup(&json!({"links": [link]}));
+        assert!(html.as_str().contains("<li>POST does it (application/json): http://here/x</li>"), "{html:?}");
+    }
+
+    #[test]
+    fn shapes_of_features_are_left_out() {
+        let feature = || json!({"type": "Feature", "geometry": {"type": "Point"}, "properties": {"code": "01-001"}});
+        let mut document = json!({"type": "FeatureCollection", "features": [feature()], "counts": {"added": 1}});
+        forget_shapes(&mut document);
+        let bare = json!({"type": "Feature", "properties": {"code": "01-001"}});
+        assert_eq!(document, json!({"type": "FeatureCollection", "features": [bare], "counts": {"added": 1}}));
     }
 }

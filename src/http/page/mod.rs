@@ -7,8 +7,9 @@ mod markup;
 
 use axum::Json;
 use axum::http::{HeaderValue, header};
-use axum::response::{IntoResponse, Response};
+use axum::response::{IntoResponse, IntoResponseParts, Response};
 use serde::Serialize;
+use serde_json::Value;
 
 use crate::http::extract::negotiation::Accept;
 use crate::http::links::{HTML, JSON};
@@ -30,6 +31,16 @@ const STYLE: &str = "\
 /// A document as the client accepts it: JSON, or a page with this title.
 pub fn answer<T: Serialize>(accept: &Accept, title: &str, view: &T) -> Response {
     if is_wanted(accept) { document(title, view, &Markup::default()) } else { Json(view).into_response() }
+}
+
+/// GeoJSON as the client accepts it: as it is, or a page of what is known of its features, with this title.
+pub fn answer_geojson(accept: &Accept, title: &str, headers: impl IntoResponseParts, written: Vec<u8>) -> Response {
+    if !is_wanted(accept) {
+        return (headers, written).into_response();
+    }
+    let mut value: Value = serde_json::from_slice(&written).expect("GeoJSON that was just written");
+    document::forget_shapes(&mut value);
+    document(title, &value, &Markup::default())
 }
 
 /// Whether the client wants a page rather than JSON.
