@@ -21,10 +21,7 @@ pub(super) fn row(
     claim: FaceClaim,
 ) -> Result<(), Stopped> {
     let snap = Snap::near(draft.pieces(), rectangle, draft.tolerance);
-    let joined = snap.ring(rectangle);
-    // A corner that joined another one, or a side that was bent, is no rectangle to be cut any more.
-    let corners = rectangle.map(|corner| snap.point(corner));
-    let corners = if corners.iter().all(|corner| joined.contains(corner)) { corners } else { *rectangle };
+    let corners = snap.corners(rectangle);
     let at = |place: u32, layer: u32| {
         let (along, across) = (f64::from(place) / f64::from(places), f64::from(layer) / f64::from(layers));
         let front = corners[0] + (corners[1] - corners[0]) * along;
@@ -43,7 +40,7 @@ pub(super) fn row(
         .collect();
     let within: Vec<[Point; 2]> = (1..layers).flat_map(along).chain((1..places).flat_map(across)).collect();
     let claim = FaceClaim { kind: Some(PlotKind::Place), is_drawn_place: true, ..claim };
-    draft.paint(&outline, &within, corners.to_vec(), claim)
+    draft.paint(&outline, &within, corners, claim)
 }
 
 /// The sides of a ring.

@@ -134,6 +134,40 @@ fn what_is_drawn_within_a_cell_of_a_border_leaves_no_sliver() {
     );
 }
 
+/// The corners of the face that a correction drew, rounded to centimetres, the lowest of the leftmost first.
+fn corners_of_drawn(map: &DrawnMap, correction: &str) -> Vec<[f64; 2]> {
+    let corrected = corrected(map, &[correction]);
+    let Outcome::Applied { faces } = &corrected.outcomes[0] else { panic!("{correction} does not fit") };
+    let ring = corrected.analysis.subdivision.rings(faces[0]).swap_remove(0);
+    ring.iter().map(|corner| [corner.x, corner.y].map(|along| (along * 100.0).round() / 100.0)).collect()
+}
+
+#[test]
+fn what_is_drawn_keeps_its_shape_when_it_joins_what_is_there() {
+    let drawn = |ring: &str| corners_of_drawn(&floor(), &format!(r#"{{"kind":"draw","ring":{ring},"label":"pc"}}"#));
+    // The side within a cell of the border moves onto it.
+    assert_eq!(drawn("[[0.3,1.1],[1.8,1.1],[1.8,2.6],[0.3,2.6]]"), [[0.0, 1.1], [1.8, 1.1], [1.8, 2.6], [0.0, 2.6]]);
+    // Three of the corners lie within a cell of different things: it moves as a whole to the nearest of them.
+    assert_eq!(drawn("[[0.4,0.1],[1.6,0.4],[1.5,1.6],[0.3,1.3]]"), [[0.1, 0.1], [1.3, 0.4], [1.2, 1.6], [0.0, 1.3]]);
+    // Both long sides lie within a cell of the border: they stay two.
+    assert_eq!(drawn("[[1,0.1],[5,0.1],[5,0.45],[1,0.45]]"), [[1.0, 0.0], [5.0, 0.0], [5.0, 0.35], [1.0, 0.35]]);
+}
+
+#[test]
+fn a_side_bends_to_what_lies_beside_its_middle_and_not_beside_its_end() {
+    let upper = r#"{"kind":"draw","ring":[[2,2],[4,2],[4,3],[2,3]],"label":"pc"}"#;
+    // Half a cell above the lower corners of the other one: both lie beside the middle of its upper side.
+    let below = r#"{"kind":"draw","ring":[[0,0],[6,0],[6,1.75],[0,1.75]],"label":"co"}"#;
+    let corners = |list: &[&str]| {
+        let corrected = corrected(&floor(), list);
+        let Some(Outcome::Applied { faces }) = corrected.outcomes.last() else { panic!("it fits") };
+        corrected.analysis.subdivision.rings(faces[0])[0].len()
+    };
+    assert_eq!(corners(&[upper, below]), 6);
+    let beside_end = r#"{"kind":"draw","ring":[[1.2,0],[4.8,0],[4.8,1.75],[1.2,1.75]],"label":"co"}"#;
+    assert_eq!(corners(&[upper, beside_end]), 4);
+}
+
 #[test]
 fn a_line_cuts_the_faces_that_it_crosses_from_border_to_border() {
     check(
