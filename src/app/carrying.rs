@@ -1,23 +1,22 @@
-//! What people decided on another analysis of a map, or on an earlier map of its site, carried over to the analysis in force.
+//! What people decided on another analysis of a map, carried over to the analysis in force (from an earlier map of its site:
+//! `site_carrying`).
 //!
 //! That happens when the first question about the map is asked after the analysis came into force, and makes a version that
 //! says what it was carried from, and what was lost. Corrections come along as they are and are applied anew. Labels are
-//! carried by their ground, from one corrected arrangement to the other; from an earlier map of the site come the corrections
-//! alone, moved by how the two maps lie on one another. What was decided on another analysis is carried anew when it changed,
-//! as long as nobody decided on the analysis in force itself.
+//! carried by their ground, from one corrected arrangement to the other. What was decided on another analysis is carried anew
+//! when it changed, as long as nobody decided on the analysis in force itself.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use stillage_core::arrangement::FaceId;
-use stillage_core::corrections::{Correction, Outcome};
-use stillage_core::layout::LayoutOptions;
-use stillage_core::semantics::{self, Assignment, CarriedLabels, LostLabel, RuleSet};
+use stillage_core::geometry::RigidMotion;
+use stillage_core::semantics::{self, AnalysisGround, Assignment, CarriedLabels, LostLabel, RuleSet};
 use uuid::Uuid;
 
 use super::context::read_rule_set;
 use super::geometric_level::GeometricLevel;
-use super::{App, AppError, Caller, MapContext, MapRecord, SemanticsOrigin, SemanticsRecord};
+use super::{App, AppError, Caller, MapContext, SemanticsOrigin, SemanticsRecord};
 use crate::blocking::off_the_runtime;
 use crate::records::{CarryRecord, LostDecision};
 use crate::store::{BlobId, NewCorrections, NewSemanticsRow, StoreError, now};
@@ -82,7 +81,7 @@ impl App {
         let (rule_set, new, decision) = (read_rule_set(&before.draft)?, geometry.clone(), before.assignment);
         let carry = move || {
             let (earlier, new) = (earlier.corrected(corrections.clone()), new.corrected(corrections));
-            (carried(&earlier, &rule_set, &decision, before.version, &new), new)
+            (carried(&DecisionGround::same_map(&earlier), &rule_set, &decision, before.version, &new), new)
         };
         let ((assignment, carried), level) = off_the_runtime(carry).await;
         let row = NewSemanticsRow {
@@ -101,69 +100,8 @@ impl App {
         Ok((row, level))
     }
 
-    /// Carries the corrections of the map of the site before one to its first analysis, and stores them as the first version.
-    /// Those count that the earlier map had when the other one was uploaded: what came later says nothing of it.
-    pub(super) async fn carry_from_site(
-        &self,
-        caller: &Caller,
-        record: &MapRecord,
-        analysis: Uuid,
-        geometry: &GeometricLevel,
-        layout: &LayoutOptions,
-    ) -> Result<Option<SemanticsRecord>, AppError> {
-        let Some((earlier, decided)) = self.decided_on_site(caller, record).await? else { return Ok(None) };
-        let (_, corrections) = self.corrections_of(caller, earlier.id, Some(&decided)).await?;
-        if corrections.is_empty() {
-            return Ok(None);
-        }
-        let motion = earlier.to_site().then(&record.to_site().inverse());
-        let (rule_set, new) = (read_rule_set(&decided.draft)?, geometry.clone());
-        let (level, assignment) = off_the_runtime(move || {
-            let moved = corrections.into_iter().map(|correction| correction.moved(&motion)).collect();
-            let suggested = Assignment::suggested(&semantics::suggest(&new.analysed, &rule_set), &rule_set);
-            (new.corrected(moved), suggested)
-        })
-        .await;
-        let fits = |outcome: &&Outcome| matches!(outcome, Outcome::Applied { .. });
-        let kept = level.corrections.outcomes.iter().filter(fits).count();
-        let new: Vec<(_, Correction)> = level.corrections.list.iter().map(|moved| (None, moved.clone())).collect();
-        self.last_corrected.keep(analysis, level);
-        let row = NewSemanticsRow {
-            map: record.id,
-            analysis,
-            replaces: 0,
-            rule_set: decided.rule_set,
-            draft: decided.draft,
-            assignment,
-            layout: layout.clone(),
-            corrections: NewCorrections::Changed(new),
-            origin: SemanticsOrigin::Carried,
-            carried: Some(CarryRecord { map: Some(earlier.id), from: decided.version, kept, lost: Vec::new() }),
-            restores: None,
-        };
-        self.carry_row(caller, row).await.map(Some)
-    }
-
-    /// The newest of the maps that a map was aligned to, one on the other, on which people had decided when the map was
-    /// uploaded, and what.
-    async fn decided_on_site(
-        &self,
-        caller: &Caller,
-        record: &MapRecord,
-    ) -> Result<Option<(MapRecord, SemanticsRecord)>, AppError> {
-        let mut alignment = record.alignment;
-        while let Some(previous) = alignment.map(|alignment| alignment.previous) {
-            let Some(earlier) = self.store.map(caller.tenant(), previous).await? else { return Ok(None) };
-            if let Some(decided) = self.store.semantics_before(caller.tenant(), previous, record.created).await? {
-                return Ok(Some((earlier, decided)));
-            }
-            alignment = earlier.alignment;
-        }
-        Ok(None)
-    }
-
     /// Stores what was carried over.
-    async fn carry_row(&self, caller: &Caller, row: NewSemanticsRow) -> Result<SemanticsRecord, AppError> {
+    pub(super) async fn carry_row(&self, caller: &Caller, row: NewSemanticsRow) -> Result<SemanticsRecord, AppError> {
         let made = now();
         match self.store.insert_semantics(caller.tenant(), &row, made).await {
             Ok(Some(Ok(record))) => Ok(record),
@@ -189,28 +127,43 @@ impl App {
     }
 }
 
+/// Where a decision that is carried over comes from.
+pub(super) struct DecisionGround<'a> {
+    /// The analysis that it was made on, by the cells of the map that it is carried to.
+    pub(super) ground: AnalysisGround<'a>,
+    /// From the grid frame of the analysis to the map frame of that map.
+    pub(super) to_map: RigidMotion,
+}
+
+impl<'a> DecisionGround<'a> {
+    /// An analysis of the same map.
+    pub(super) fn same_map(level: &'a GeometricLevel) -> Self {
+        Self { ground: level.ground(), to_map: level.analysis.frame.motion() }
+    }
+}
+
 /// Carries the decision of version `from` over to a new analysis. A face that a correction labels has that label, unless a
 /// person gave it one of its own.
-fn carried(
-    earlier: &GeometricLevel,
+pub(super) fn carried(
+    earlier: &DecisionGround<'_>,
     rule_set: &RuleSet,
     decision: &Assignment,
     from: u64,
     new: &GeometricLevel,
 ) -> (Assignment, CarryRecord) {
     let CarriedLabels { mut assignment, kept, lost } =
-        semantics::carry(earlier.ground(), decision, new.ground(), rule_set);
+        semantics::carry(earlier.ground, decision, new.ground(), rule_set);
     if !new.corrections.labels.is_empty() {
         let (own, _) = carried_overrides(earlier, rule_set, &decision.overrides, new);
         let is_labelled = |face: u32| new.corrections.labels.contains_key(&FaceId(face));
         assignment.overrides.retain(|&face, _| !is_labelled(face) || own.contains_key(&face));
     }
-    (assignment, CarryRecord { map: None, from, kept, lost: told(lost, new) })
+    (assignment, CarryRecord { map: None, from, kept, lost: told(lost, &earlier.to_map) })
 }
 
 /// The labels that people gave to single faces of one arrangement, on those of another, and what was lost.
 pub(super) fn carried_overrides(
-    earlier: &GeometricLevel,
+    earlier: &DecisionGround<'_>,
     rule_set: &RuleSet,
     overrides: &BTreeMap<u32, String>,
     new: &GeometricLevel,
@@ -219,16 +172,16 @@ pub(super) fn carried_overrides(
         return (BTreeMap::new(), Vec::new());
     }
     // As if nobody had decided on a category.
-    let suggested = Assignment::suggested(&semantics::suggest(&earlier.analysis, rule_set), rule_set);
+    let suggested = Assignment::suggested(&semantics::suggest(earlier.ground.analysis, rule_set), rule_set);
     let decision = Assignment { overrides: overrides.clone(), ..suggested };
-    let carried = semantics::carry(earlier.ground(), &decision, new.ground(), rule_set);
-    (carried.assignment.overrides, told(carried.lost, new))
+    let carried = semantics::carry(earlier.ground, &decision, new.ground(), rule_set);
+    (carried.assignment.overrides, told(carried.lost, &earlier.to_map))
 }
 
 /// Lost labels, told where they are in the map frame.
-fn told(lost: Vec<LostLabel>, on: &GeometricLevel) -> Vec<LostDecision> {
+fn told(lost: Vec<LostLabel>, to_map: &RigidMotion) -> Vec<LostDecision> {
     let decision = |LostLabel { subject, label, at }| {
-        let at = on.analysis.frame.to_map(at);
+        let at = to_map.apply(at);
         LostDecision { subject, label, at: [at.x, at.y] }
     };
     lost.into_iter().map(decision).collect()

@@ -12,7 +12,7 @@ use stillage_core::corrections::{Correction, CorrectionProblem, Outcome};
 use stillage_core::semantics::RuleSet;
 use uuid::Uuid;
 
-use super::carrying::carried_overrides;
+use super::carrying::{DecisionGround, carried_overrides};
 use super::error::FieldProblem;
 use super::geometric_level::{AppliedCorrections, GeometricLevel};
 use super::{App, AppError, Caller, CorrectionId, MapContext, SemanticsChange, SemanticsRecord, WantedCorrection};
@@ -103,12 +103,8 @@ pub(super) fn correct(
     is_tried: bool,
 ) -> Result<Correcting, AppError> {
     let is_new = new_corrections(on, wanted, limits.corrections)?;
-    let check = |correction: &Correction| -> Result<(), CorrectionProblem> {
-        correction.check(limits.faces)?;
-        check_label(correction, rule_set)
-    };
     let new = || wanted.iter().enumerate().filter(|&(index, _)| is_new[index]);
-    refuse(new().filter_map(|(index, (_, correction))| Some((index, check(correction).err()?))))?;
+    check_corrections(new().map(|(index, (_, correction))| (index, correction)), rule_set, limits.faces)?;
     let before = on.geometric_level();
     let level = before.clone().corrected(wanted.iter().map(|(_, correction)| correction.clone()).collect());
     let outcomes = &level.corrections.outcomes;
@@ -118,7 +114,7 @@ pub(super) fn correct(
             Outcome::Applied { .. } => None,
         }))?;
     }
-    let (mut carried, lost) = carried_overrides(&before, rule_set, overrides, &level);
+    let (mut carried, lost) = carried_overrides(&DecisionGround::same_map(&before), rule_set, overrides, &level);
     let labelled_anew: BTreeSet<FaceId> = new()
         .filter(|(_, (_, correction))| correction.label().is_some())
         .filter_map(|(index, _)| match &outcomes[index] {
@@ -131,6 +127,22 @@ pub(super) fn correct(
         .collect();
     carried.retain(|&face, _| !labelled_anew.contains(&FaceId(face)));
     Ok(Correcting { level, overrides: carried, lost })
+}
+
+/// Refuses corrections that make no sense on any map, by their numbers in a list; each may make `most_faces`.
+///
+/// # Errors
+/// What is wrong with them, `/corrections/...`.
+pub fn check_corrections<'a>(
+    corrections: impl Iterator<Item = (usize, &'a Correction)>,
+    rule_set: &RuleSet,
+    most_faces: usize,
+) -> Result<(), AppError> {
+    let check = |correction: &Correction| -> Result<(), CorrectionProblem> {
+        correction.check(most_faces)?;
+        check_label(correction, rule_set)
+    };
+    refuse(corrections.filter_map(|(index, correction)| Some((index, check(correction).err()?))))
 }
 
 /// Which corrections of a list are new or say something else than before.

@@ -83,6 +83,15 @@ pub enum AppError {
 }
 
 impl AppError {
+    /// Whether the same may succeed later without anyone mending anything by hand.
+    pub(crate) fn is_transient(&self) -> bool {
+        match self {
+            Self::Unavailable | Self::NoSpace | Self::Busy { .. } => true,
+            Self::Internal(source) => source.downcast_ref::<StoreError>().is_some_and(StoreError::is_transient),
+            _ => false,
+        }
+    }
+
     /// A value of a request that cannot be used.
     pub(crate) fn invalid(pointer: &str, detail: impl Into<String>) -> Self {
         let field = FieldProblem { pointer: pointer.to_owned(), detail: detail.into() };

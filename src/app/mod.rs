@@ -7,7 +7,7 @@
 //! | `jobs` | analyses and the jobs that make them |
 //! | `rule_sets` | the vocabulary of labels |
 //! | `semantics`, `semantics_change` | the human decision on a map, its versions |
-//! | `carrying` | the labels of another analysis, carried over to the one in force |
+//! | `carrying`, `site_carrying` | what was decided on another analysis, or on an earlier map of the site, carried over |
 //! | `corrections` | what people corrected about a map |
 //! | `history` | back and forth in the versions |
 //! | `proposals` | analyses as they would answer if they were in force |
@@ -57,6 +57,7 @@ mod rule_sets;
 mod semantics;
 mod semantics_change;
 mod service;
+mod site_carrying;
 #[cfg(test)]
 mod tests;
 
@@ -67,6 +68,7 @@ pub use crate::records::{
 };
 pub use caller::Caller;
 pub use comparisons::{LocationComparison, MapComparison, PairAlignment, ReadingComparison};
+pub use corrections::check_corrections;
 pub use deletion::DeletedMap;
 pub use error::{AppError, FieldProblem};
 pub use file_context::FileMap;

@@ -8,7 +8,7 @@ use super::carrying::is_to_be_carried;
 use super::context::Decided;
 use super::geometric_level::GeometricLevel;
 use super::registries::codes_of;
-use super::{AnalysisRecord, App, AppError, Caller, MapContext, SemanticsRecord, ReadingComparison};
+use super::{AnalysisRecord, App, AppError, Caller, MapContext, ReadingComparison, SemanticsRecord};
 use crate::blocking::off_the_runtime;
 use crate::records::CarryRecord;
 use crate::store::{BlobId, now};
@@ -74,17 +74,25 @@ impl App {
         map: Uuid,
         analysis: Uuid,
     ) -> Result<ReadingComparison, AppError> {
-        let (before, now) =
-            (self.context(caller, map).await?, self.proposal(caller, map, analysis).await?.context);
+        let (before, now) = (self.context(caller, map).await?, self.proposal(caller, map, analysis).await?.context);
         off_the_runtime(move || Ok(ReadingComparison::of(before, now))).await
     }
 
-    /// The part of an analysis that no decision changes, from the store.
+    /// The part of an analysis that no decision changes, from the store, when it is its turn.
     async fn geometry_of(&self, caller: &Caller, record: AnalysisRecord) -> Result<GeometricLevel, AppError> {
+        let _permit = self.decoders.acquire().await.map_err(|_| AppError::Unavailable)?;
+        self.stored_geometry(caller, record).await
+    }
+
+    /// The part of an analysis that no decision changes, from the store.
+    pub(super) async fn stored_geometry(
+        &self,
+        caller: &Caller,
+        record: AnalysisRecord,
+    ) -> Result<GeometricLevel, AppError> {
         let source = self.store.map_source(caller.tenant(), record.map).await?;
         let source = source.ok_or_else(|| AppError::not_found("map", record.map))?;
         let blob = self.analysis_blob(caller, record.map, record.id).await?;
-        let _permit = self.decoders.acquire().await.map_err(|_| AppError::Unavailable)?;
         let (source, blob) = (self.store.blobs().get(&source).await?, self.store.blobs().get(&blob).await?);
         let limits = self.config.limits;
         off_the_runtime(move || GeometricLevel::read(&source, &blob, &record, &limits)).await

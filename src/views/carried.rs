@@ -8,8 +8,8 @@ use super::id::Id;
 use crate::features::rounded;
 use crate::records::{CarryRecord, LostDecision};
 
-/// What became of what people decided on another analysis of the map, or corrected on an earlier map of the site. A label is kept where most of its ground has it
-/// again, however that is cut into faces now.
+/// What became of what people decided on another analysis of the map, or on an earlier map of the site. A label is kept where
+/// most of its ground has it again, however that is cut into faces now.
 #[derive(Debug, Serialize, ToSchema)]
 #[schema(as = CarriedLabels)]
 pub struct CarriedView {
@@ -19,7 +19,7 @@ pub struct CarriedView {
     map: Option<Id>,
     /// The version that they come from.
     from: u64,
-    /// Labels of categories and faces that were kept; from an earlier map, corrections that fit.
+    /// Labels of categories and faces that were kept; from an earlier map, corrections that fit, too.
     kept: usize,
     /// Those that could not be carried over.
     lost: Vec<LostLabelView>,

@@ -103,6 +103,53 @@ async fn codes_stay_with_their_places_through_a_new_scan() {
     assert!(changed.iter().all(|change| change["code"] == change["codeBefore"]), "{compared}");
 }
 
+/// The face at a point of the first scan, metres of its map frame: id and label.
+async fn face_at(api: &Api, map: &str, [x, y]: [f64; 2]) -> (u64, String) {
+    let path = format!("{map}/collections/faces/items?bbox={x},{y},{x},{y}&bbox-crs=EPSG:3857&crs=EPSG:3857");
+    let found = api.get(&path).await.json();
+    let [face] = found["features"].as_array().expect("features").as_slice() else { panic!("not one face: {found}") };
+    (face["id"].as_u64().expect("a number"), face["properties"]["label"].as_str().expect("a label").to_owned())
+}
+
+#[tokio::test]
+async fn labels_stay_with_their_ground_through_a_new_scan() {
+    let api = Api::new().await;
+    let first = api.analysed(&first_scan()).await;
+    // The pallet that is gone in the second scan, another one, and an aisle.
+    let (gone, other, aisle) = ([-0.375, 0.75], [-0.375, 2.75], [5.0, 1.75]);
+    let (pallet, _) = face_at(&api, &first, gone).await;
+    let (kept, _) = face_at(&api, &first, other).await;
+    let of_aisle = api.get(&format!("{first}/collections/faces/items/{}", face_at(&api, &first, aisle).await.0)).await;
+    let category = of_aisle.json()["properties"]["category"].to_string();
+    let decision =
+        json!({"overrides": {pallet.to_string(): "ro", kept.to_string(): "ro"}, "assignment": {category: "ju"}});
+    let decided = api.send_json(Method::PATCH, &format!("{first}/semantics"), &[("if-match", "*")], &decision).await;
+    assert_eq!(decided.status, 200, "{}", decided.text());
+
+    let second = scanned_again(&api, &second_scan(), &first).await;
+    let semantics = api.get(&format!("{second}/semantics")).await.json();
+    let carried = &semantics["carried"];
+    assert_eq!(
+        (&semantics["origin"], &semantics["version"], &carried["map"]),
+        (&json!("carried"), &json!(1), &json!(first.trim_start_matches("/v1/maps/")))
+    );
+    assert_eq!((&carried["from"], &carried["kept"]), (&json!(1), &json!(2)), "{carried}");
+    assert_eq!(carried["lost"].as_array().map(Vec::len), Some(1), "{carried}");
+    assert_eq!((&carried["lost"][0]["face"], &carried["lost"][0]["label"]), (&json!(pallet), &json!("ro")));
+    // The second scan is turned upside down, three columns and a row further.
+    let turned = |[x, y]: [f64; 2]| [-2.0 + 65.0 * 0.25 - (x + 2.0), -1.0 + 23.0 * 0.25 - (y + 1.0)];
+    let told = carried["lost"][0]["at"].as_array().expect("a point");
+    let wished = turned(gone);
+    assert!(
+        (0..2).all(|axis| (told[axis].as_f64().expect("metres") - wished[axis]).abs() < 0.5),
+        "{told:?} {wished:?}"
+    );
+    assert_eq!(face_at(&api, &second, turned(other)).await.1, "ro");
+    assert_eq!(face_at(&api, &second, turned(aisle)).await.1, "ju");
+    let again = api.get(&format!("{second}/semantics/versions")).await.json();
+    assert_eq!(again["versions"].as_array().map(Vec::len), Some(1), "it is carried once");
+}
+
 #[tokio::test]
 async fn another_building_is_refused_and_nothing_is_stored() {
     let api = Api::new().await;

@@ -14,7 +14,7 @@ use rayon::prelude::*;
 
 use super::ids::{EdgeId, FaceId};
 use super::subdivision::Subdivision;
-use crate::geometry::Point;
+use crate::geometry::{Point, RigidMotion};
 use crate::grid::OccupancyGrid;
 
 /// Rows that one task fills: 64 rows of 4,000 cells of 4 bytes at most are 1 MB and fit a second-level cache.
@@ -51,6 +51,22 @@ impl CellFaces {
             Numbers::Wide(filled(subdivision, centers, |sides| sides))
         };
         Self { width, numbers }
+    }
+
+    /// The faces as another grid sees them: each of its cells has the face around its centre, the unbounded one outside of
+    /// the cells that are known. `motion` leads from the frame of that grid to the one that the faces are known in, whose cells
+    /// have sides of `resolution` metres. O(cells of the other grid).
+    #[must_use]
+    pub fn seen_on(&self, resolution: f64, grid: &OccupancyGrid, motion: &RigidMotion) -> Self {
+        let height = self.faces.len() / self.width.max(1);
+        let width = grid.width();
+        let face = |index: usize| {
+            let center = motion.apply(grid.center(index % width, index / width));
+            let [column, row] = [center.x, center.y].map(|along| (along / resolution).floor());
+            let is_known = column >= 0.0 && row >= 0.0 && column < self.width as f64 && row < height as f64;
+            if is_known { self.at(column as usize, row as usize) } else { FaceId::OUTER }
+        };
+        Self { width, faces: (0..grid.cells().len()).into_par_iter().map(face).collect() }
     }
 
     /// Whether the four cells that are `reach` cells away along the axes lie in a face, too.

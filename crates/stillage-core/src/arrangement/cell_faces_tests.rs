@@ -4,7 +4,8 @@ use expect_test::expect;
 use proptest::prelude::*;
 
 use super::{CellFaces, FaceId};
-use crate::geometry::{Point, polygon};
+use crate::geometry::{Point, RigidMotion, Vector, polygon};
+use crate::grid::OccupancyGrid;
 use crate::test_maps::segments::{boxed, subdivide};
 
 fn picture_of(cells: &CellFaces, width: usize) -> String {
@@ -70,6 +71,38 @@ fn runs_are_as_long_as_they_can_be() {
     let cells = CellFaces::rasterize(&boxed([1.0, 0.0, 3.0, 2.0], &[]), 4, 2, 1.0);
     let runs: Vec<(u32, std::ops::Range<usize>)> = cells.runs(1..7).map(|(face, run)| (face.0, run)).collect();
     assert_eq!(runs, [(1, 1..3), (0, 3..5), (1, 5..7)]);
+}
+
+#[test]
+fn another_grid_sees_the_faces_where_it_lies_on_them() {
+    let faces = CellFaces::rasterize(&boxed([0.0, 0.0, 4.0, 3.0], &[[2.0, 0.0, 2.0, 3.0]]), 4, 3, 1.0);
+    let quarter_turn = RigidMotion { shift: Vector::new(3.0, 0.0), turn: std::f64::consts::FRAC_PI_2 };
+    let grid = OccupancyGrid::from_ascii(
+        "
+        ........
+        ........
+        ........
+        ........
+        ",
+        0.5,
+    );
+    expect![[r#"
+        11222200
+        11222200
+        11222200
+        11222200
+    "#]]
+    .assert_eq(&picture_of(
+        &faces.seen_on(1.0, &grid, &RigidMotion { shift: Vector::new(1.0, 1.0), ..RigidMotion::identity() }),
+        8,
+    ));
+    expect![[r#"
+        11111100
+        11111100
+        22222200
+        22222200
+    "#]]
+    .assert_eq(&picture_of(&faces.seen_on(1.0, &grid, &quarter_turn), 8));
 }
 
 fn crossing_lines() -> impl Strategy<Value = Vec<[f64; 4]>> {

@@ -1,4 +1,4 @@
-//! The labels that people gave to one analysis, on another analysis of the same map.
+//! The labels that people gave to one analysis, on another analysis of the same map, or of a later map of the site.
 //!
 //! Each analysis counts its categories and faces anew, so that what a person decided is carried by the ground it was
 //! decided on, cell by cell:
@@ -11,7 +11,8 @@
 //!   or if the label was a face's own before.
 //! - A decision is kept where most of its ground has its label again, however that is cut now; otherwise it is lost.
 //!
-//! Cost: O(cells). Limits: a face smaller than a cell has no ground, so that its label is lost.
+//! Of a later map, ground is what that one shows of it. Cost: O(cells). Limits: a face smaller than a cell has no ground, so
+//! that its label is lost.
 
 use std::collections::BTreeMap;
 
@@ -29,7 +30,8 @@ use crate::geometry::Point;
 pub struct AnalysisGround<'a> {
     /// The analysis.
     pub analysis: &'a Analysis,
-    /// Its face at every cell.
+    /// Its face at every cell of the grid that labels are carried on: its own, or that of a later map
+    /// ([`CellFaces::seen_on`]).
     pub cells: &'a CellFaces,
 }
 
@@ -51,7 +53,7 @@ pub struct LostLabel {
     pub subject: LabelSubject,
     /// Id of the label.
     pub label: String,
-    /// A point inside the face, or inside the largest face of the category, in the grid frame.
+    /// A point inside the face, or inside the largest face of the category, in the grid frame of its analysis.
     pub at: Point,
 }
 
@@ -65,7 +67,7 @@ pub enum LabelSubject {
     Face(u32),
 }
 
-/// Carries labels of `old`, as a person decided them under a rule set, to `new`: two analyses of one grid.
+/// Carries labels of `old`, as a person decided them under a rule set, to `new`: two analyses by the cells of one grid.
 #[must_use]
 pub fn carry(
     old: AnalysisGround<'_>,
@@ -198,6 +200,10 @@ fn outcome(
     };
     // By decision: its label, cells of its ground in all, and those that have the label again.
     let mut ground: BTreeMap<LabelSubject, (&str, [u64; 2])> = BTreeMap::new();
+    // What has no ground here is a decision, too.
+    for (subject, label) in old.analysis.subdivision.faces().filter_map(|face| old.decision(face)) {
+        ground.insert(subject, (label, [0, 0]));
+    }
     for (&face, label) in old.by_face {
         ground.insert(LabelSubject::Face(face), (label, [0, 0]));
     }

@@ -1,4 +1,5 @@
 use super::*;
+use crate::geometry::{RigidMotion, Vector};
 use crate::semantics::pictures::DrawnMap;
 
 /// Two racks with a corridor between them, and a corner that is free.
@@ -169,4 +170,51 @@ fn ground_that_nobody_decided_on_brings_no_labels_of_its_own_to_faces() {
     let carried = carried(&old, &changed(&old, &Assignment::default()), &new);
     assert_eq!((carried.kept, carried.lost.len()), (0, 0));
     assert!(carried.assignment.overrides.is_empty(), "{carried:?}");
+}
+
+#[test]
+fn labels_come_along_to_a_later_map_that_shows_less_of_the_site() {
+    let old = drawn(FIRST);
+    let gone = old.face_at(0, 4);
+    // The corner and a rack have other labels; the next map shows all but the two columns at the right, turned upside down.
+    let labels = changed(&old, &decision(&[(1, "ju")], &[(gone, "co")]));
+    let cells = "
+        #.##.#
+        #.##.#
+        ......
+        ......
+        ..##.#
+        ...#.#
+    ";
+    let new = DrawnMap::new(
+        cells,
+        "
+        ppppqq
+        ppppqq
+        cccccc
+        cccccc
+        jjqqpp
+        jjqqpp
+        ",
+    );
+    let half_turn = RigidMotion { shift: Vector::new(3.0, 3.0), turn: std::f64::consts::PI };
+    let seen = old.cells.faces.seen_on(old.grid.resolution(), &new.grid, &half_turn);
+    let carried =
+        carry(AnalysisGround { analysis: &old.analysis, cells: &seen }, &labels, ground(&new), &RuleSet::warehouse());
+    assert_eq!((carried.kept, carried.lost.len()), (2, 0), "{carried:?}");
+    let expected = ["ppppcc", "ppppcc", "cccccc", "cccccc", "jjpppp", "jjpppp"];
+    assert_eq!(picture(&new, &carried.assignment).lines().collect::<Vec<_>>(), expected);
+}
+
+#[test]
+fn a_decision_on_ground_that_a_later_map_does_not_show_is_lost() {
+    let old = drawn(FIRST);
+    let labels = changed(&old, &decision(&[(1, "ju")], &[(old.face_at(0, 4), "co")]));
+    let new = DrawnMap::new("####\n....", "pppp\ncccc");
+    let far = RigidMotion { shift: Vector::new(50.0, 0.0), turn: 0.0 };
+    let seen = old.cells.faces.seen_on(old.grid.resolution(), &new.grid, &far);
+    let carried =
+        carry(AnalysisGround { analysis: &old.analysis, cells: &seen }, &labels, ground(&new), &RuleSet::warehouse());
+    let subjects: Vec<LabelSubject> = carried.lost.iter().map(|lost| lost.subject).collect();
+    assert_eq!((carried.kept, subjects), (0, vec![LabelSubject::Category(1), LabelSubject::Face(old.face_at(0, 4).0)]));
 }
