@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use jiff::Timestamp;
+use stillage_core::corrections::Correction;
 use stillage_core::layout::LayoutOptions;
 use stillage_core::semantics::{Assignment, RuleSet};
 use stillage_core::{Analysis, OccupancyGrid, SiteCells};
@@ -25,17 +26,19 @@ pub struct FileMap {
     pub cells: SiteCells,
     /// Labels and their rules.
     pub rule_set: RuleSet,
-    /// The label of each category.
+    /// The label of each category, and of single faces of the corrected map.
     pub assignment: Assignment,
+    /// What people say about it, in metres of the map frame.
+    pub corrections: Vec<Correction>,
 }
 
 impl MapContext {
     /// Reads a map file as a map of the service is read. Its id is made of its cells: the same file has the same id.
     ///
     /// # Errors
-    /// An assignment that does not fit the analysis or the rule set.
+    /// An assignment that does not fit the corrected analysis or the rule set.
     pub fn of_file(file: FileMap) -> Result<Self, AppError> {
-        let FileMap { name, grid, analysis, cells, rule_set, assignment } = file;
+        let FileMap { name, grid, analysis, cells, rule_set, assignment, corrections } = file;
         let bytes: Vec<u8> = grid.cells().iter().map(|&cell| cell as u8).collect();
         let hash = blake3::hash(&bytes);
         let id = uuid::Builder::from_custom_bytes(std::array::from_fn(|index| hash.as_bytes()[index])).into_uuid();
@@ -68,7 +71,7 @@ impl MapContext {
             restores: None,
             created: Timestamp::UNIX_EPOCH,
         };
-        let level = GeometricLevel::new(Arc::new(grid), analysis, cells);
+        let level = GeometricLevel::new(Arc::new(grid), analysis, cells).corrected(corrections);
         let decided = Decided { semantics: Some(semantics), ..Decided::default() };
         level.read_under(record, (Uuid::nil(), Timestamp::UNIX_EPOCH), decided, LayoutOptions::default())
     }

@@ -48,7 +48,7 @@ fn from_files(before: &Path, now: &Path, analysis: &AnalysisArgs) -> Result<Vec<
     let pool = analysis.pool()?;
     let read = |map: &Path| -> Result<MapContext, Failure> {
         progress.say(&map.display().to_string());
-        analysis.find(map, &pool, &progress)?.into_context()
+        Ok(analysis.find(map, &pool, &progress)?.context)
     };
     let (first, second) = (read(before)?, read(now)?);
     let made = pool.install(|| MapComparison::of(&first, &second));

@@ -9,13 +9,13 @@ use stillage_core::layout::LayoutSpec;
 use stillage_core::routing::Router;
 
 use super::failure::Failure;
-use super::findings::{AnalysisArgs, Findings};
+use super::findings::CorrectedAnalysisArgs;
 use super::input;
 use super::output;
 use super::progress::ProgressDisplay;
 use super::server;
+use crate::app::MapContext;
 use crate::exports::{Export, ExportError, ExportOptions, ExportSource, NamedFile, list, option, write};
-use crate::features::MapNames;
 
 /// In place of a format: every one.
 const ALL: &str = "all";
@@ -42,7 +42,7 @@ pub(super) struct ExportArgs {
     #[arg(long = "set", value_name = "NAME=VALUE", value_parser = input::name_and_value)]
     set: Vec<(String, String)>,
     #[command(flatten)]
-    analysis: AnalysisArgs,
+    analysis: CorrectedAnalysisArgs,
 }
 
 /// Runs the command.
@@ -99,10 +99,10 @@ fn from_server(server: &str, wanted: &[Wanted], given: &[(String, String)]) -> R
 }
 
 /// Analyses a map file and writes exports of it.
-fn from_file(map: &Path, analysis: &AnalysisArgs, wanted: &[Wanted]) -> Result<Vec<NamedFile>, Failure> {
+fn from_file(map: &Path, analysis: &CorrectedAnalysisArgs, wanted: &[Wanted]) -> Result<Vec<NamedFile>, Failure> {
     let progress = ProgressDisplay::new();
     let pool = analysis.pool()?;
-    let findings = analysis.find(map, &pool, &progress)?;
+    let context = analysis.find(map, &pool, &progress)?.context;
     let changed = std::fs::metadata(map).and_then(|file| file.modified()).map_err(Failure::internal)?;
     let created = Timestamp::try_from(changed).map_err(Failure::internal)?;
     let files = pool.install(|| -> Result<Vec<NamedFile>, Failure> {
@@ -110,14 +110,14 @@ fn from_file(map: &Path, analysis: &AnalysisArgs, wanted: &[Wanted]) -> Result<V
         // Exports for the same vehicle share its graph.
         let mut made: Option<(f64, NavigationGraph)> = None;
         for (export, options) in wanted {
-            let usual = || LayoutSpec::of(&findings.analysis.options).vehicle_radius;
+            let usual = || LayoutSpec::of(&context.analysis.options).vehicle_radius;
             let radius = options.footprint_radius.unwrap_or_else(usual);
             if export.reads_graph() && made.as_ref().is_none_or(|(of, _)| *of != radius) {
-                made = Some((radius, graph(&findings, radius)));
+                made = Some((radius, graph(&context, radius)));
             }
             let empty = NavigationGraph::default();
             let graph = made.as_ref().map_or(&empty, |(_, graph)| graph);
-            match export_of(&findings, created, graph, export, options) {
+            match export_of(&context, created, graph, export, options) {
                 Ok(bytes) => files.push(NamedFile { name: export.name.to_owned(), bytes }),
                 Err(reason) if wanted.len() > 1 => progress.say(&format!("{} is left out: {reason}", export.name)),
                 Err(reason) => return Err(Failure::Input(format!("{} cannot be written: {reason}", export.name))),
@@ -129,40 +129,43 @@ fn from_file(map: &Path, analysis: &AnalysisArgs, wanted: &[Wanted]) -> Result<V
     files
 }
 
-fn graph(findings: &Findings, radius: f64) -> NavigationGraph {
-    let site = findings.site();
-    navigation_graph(&site, &findings.layout, &Router::new(&site, radius))
+fn graph(context: &MapContext, radius: f64) -> NavigationGraph {
+    let site = context.site();
+    navigation_graph(&site, &context.layout, &Router::new(&site, radius))
 }
 
 fn export_of(
-    findings: &Findings,
+    context: &MapContext,
     created: Timestamp,
     graph: &NavigationGraph,
     export: &Export,
     options: &ExportOptions,
 ) -> Result<Vec<u8>, ExportError> {
+    let name = &context.record.name;
     let source = ExportSource {
-        name: &findings.name,
-        map_id: &findings.name,
-        version: &version(findings),
+        name,
+        map_id: name,
+        version: &version(context),
         created,
-        grid: &findings.grid,
-        analysis: &findings.analysis,
-        semantic: &findings.semantic,
-        cells: &findings.cells.faces,
-        layout: &findings.layout,
-        names: MapNames::none(),
+        grid: &context.grid,
+        analysis: &context.analysis,
+        semantic: &context.semantic,
+        cells: &context.cells.faces,
+        layout: &context.layout,
+        names: &context.names,
         graph,
         georeference: None,
     };
     write(export, &source, options)
 }
 
-/// A text that changes with the cells, the options, the labels and the algorithms: no store counts versions here.
-fn version(findings: &Findings) -> String {
-    let cells: Vec<u8> = findings.grid.cells().iter().map(|&cell| cell as u8).collect();
-    let rest = (findings.grid.frame(), &findings.analysis.options, findings.semantic.rule_set.draft());
-    let rest = serde_json::to_vec(&(rest, &findings.assignment, ALGORITHM_VERSION));
+/// A text that changes with the cells, the options, the corrections, the labels and the algorithms: no store counts versions
+/// here.
+fn version(context: &MapContext) -> String {
+    let MapContext { grid, analysis, semantic, semantics, corrections, .. } = context;
+    let cells: Vec<u8> = grid.cells().iter().map(|&cell| cell as u8).collect();
+    let rest = (grid.frame(), &analysis.options, &corrections.list, semantic.rule_set.draft());
+    let rest = serde_json::to_vec(&(rest, &semantics.assignment, ALGORITHM_VERSION));
     let mut hasher = blake3::Hasher::new();
     hasher.update(&cells).update(&rest.expect("options and labels are JSON"));
     hasher.finalize().to_hex()[..12].to_owned()

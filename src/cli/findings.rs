@@ -1,18 +1,19 @@
-//! A map file, analysed and labelled: what `analyze` and `export` begin with.
+//! A map file, analysed, corrected and labelled: what `analyze`, `export` and `route` begin with.
 
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
+use stillage_core::SiteCells;
 use stillage_core::analysis::Diagnostic;
-use stillage_core::layout::{self, Layout, LayoutSpec};
-use stillage_core::semantics::{self, Assignment, RuleSet, SemanticMap, Suggestion};
-use stillage_core::{Analysis, OccupancyGrid, SiteCells, SiteMap};
+use stillage_core::corrections::{Correction, Outcome};
+use stillage_core::semantics::{self, Assignment, RuleSet};
 
 use super::computation::{self, Computed};
 use super::failure::Failure;
 use super::input;
 use super::progress::ProgressDisplay;
 use crate::app::{FileMap, MapContext};
+use crate::http::problem::Problem;
 
 /// How a map file is analysed and labelled.
 #[derive(Debug, clap::Args)]
@@ -31,33 +32,23 @@ pub(super) struct AnalysisArgs {
     threads: Option<NonZeroUsize>,
 }
 
-/// Everything that is found in a map file.
-pub(super) struct Findings {
-    pub(super) name: String,
-    pub(super) grid: OccupancyGrid,
-    pub(super) analysis: Analysis,
-    pub(super) cells: SiteCells,
-    pub(super) suggestions: Vec<Suggestion>,
-    pub(super) assignment: Assignment,
-    pub(super) semantic: SemanticMap,
-    pub(super) layout: Layout,
-    /// Remarks of the ingest and the analysis.
-    pub(super) diagnostics: Vec<Diagnostic>,
+/// How a map file is analysed, corrected and labelled.
+#[derive(Debug, clap::Args)]
+pub(super) struct CorrectedAnalysisArgs {
+    #[command(flatten)]
+    analysis: AnalysisArgs,
+    /// JSON file with corrections, as a service answers them (`GET .../corrections`), or GeoJSON in metres of the map. Those that
+    /// do not fit are told and change nothing.
+    #[arg(long, value_name = "FILE")]
+    corrections: Option<PathBuf>,
 }
 
-impl Findings {
-    /// The map as the service reads it.
-    pub(super) fn into_context(self) -> Result<MapContext, Failure> {
-        let Self { name, grid, analysis, cells, assignment, semantic, .. } = self;
-        let rule_set = semantic.rule_set;
-        let file = FileMap { name, grid, analysis, cells, rule_set, assignment };
-        MapContext::of_file(file).map_err(Failure::internal)
-    }
-
-    /// The map as layout, graph and routing read it.
-    pub(super) fn site(&self) -> SiteMap<'_> {
-        self.cells.map(&self.grid, &self.analysis, &self.semantic)
-    }
+/// Everything that is found in a map file.
+pub(super) struct Findings {
+    /// The map as a service reads it.
+    pub(super) context: MapContext,
+    /// Remarks of the ingest and the analysis.
+    pub(super) diagnostics: Vec<Diagnostic>,
 }
 
 impl AnalysisArgs {
@@ -73,29 +64,69 @@ impl AnalysisArgs {
         pool: &rayon::ThreadPool,
         progress: &ProgressDisplay,
     ) -> Result<Findings, Failure> {
+        self.find_corrected(map, None, pool, progress)
+    }
+
+    fn find_corrected(
+        &self,
+        map: &Path,
+        corrections: Option<&Path>,
+        pool: &rayon::ThreadPool,
+        progress: &ProgressDisplay,
+    ) -> Result<Findings, Failure> {
         // Everything small is read first: a typing error should not cost an analysis.
         let spec = input::options(self.options.as_deref())?;
         let rule_set = input::rule_set(&self.rule_set)?;
         let assignment = self.assignment.as_deref().map(input::assignment).transpose()?;
+        let corrections = corrections.map(|file| input::corrections(file, &rule_set)).transpose()?;
         let source = input::map(map)?;
         let computed = computation::analyze(map, source, &spec, pool, progress)?;
-        progress.clock().time("semantics", || read(input::map_name(map), computed, &rule_set, assignment))
+        let human = Human { rule_set, assignment, corrections: corrections.unwrap_or_default() };
+        progress.clock().time("semantics", || pool.install(|| read(input::map_name(map), computed, human)))
     }
 }
 
-/// Applies the human level, or the suggestion in its place.
-fn read(
-    name: String,
-    computed: Computed,
-    rule_set: &RuleSet,
+impl CorrectedAnalysisArgs {
+    /// Threads to compute with.
+    pub(super) fn pool(&self) -> Result<rayon::ThreadPool, Failure> {
+        self.analysis.pool()
+    }
+
+    /// Analyses a map file, corrects and labels what is found, and tells the corrections that do not fit.
+    pub(super) fn find(
+        &self,
+        map: &Path,
+        pool: &rayon::ThreadPool,
+        progress: &ProgressDisplay,
+    ) -> Result<Findings, Failure> {
+        let found = self.analysis.find_corrected(map, self.corrections.as_deref(), pool, progress)?;
+        for (number, outcome) in (1..).zip(&found.context.corrections.outcomes) {
+            if let Outcome::Unfit(problem) = outcome {
+                progress.say(&format!("warning: correction {number} does not fit and changes nothing: {problem}"));
+            }
+        }
+        Ok(found)
+    }
+}
+
+/// What people say about a map.
+struct Human {
+    rule_set: RuleSet,
     assignment: Option<Assignment>,
-) -> Result<Findings, Failure> {
+    corrections: Vec<Correction>,
+}
+
+/// Applies the human level, or the suggestion in its place.
+fn read(name: String, computed: Computed, human: Human) -> Result<Findings, Failure> {
     let Computed { grid, analysis, warnings: mut diagnostics } = computed;
-    let suggestions = semantics::suggest(&analysis, rule_set);
-    let assignment = assignment.unwrap_or_else(|| Assignment::suggested(&suggestions, rule_set));
-    let semantic = semantics::apply(&analysis, rule_set, &assignment).map_err(|problems| input::misfit(&problems))?;
+    let Human { rule_set, assignment, corrections } = human;
+    let suggested = || Assignment::suggested(&semantics::suggest(&analysis, &rule_set), &rule_set);
+    let assignment = assignment.unwrap_or_else(suggested);
     let cells = SiteCells::of(&grid, &analysis);
-    let layout = layout::layout(&cells.map(&grid, &analysis, &semantic), &LayoutSpec::of(&analysis.options));
     diagnostics.extend(analysis.diagnostics.iter().cloned());
-    Ok(Findings { name, grid, analysis, cells, suggestions, assignment, semantic, layout, diagnostics })
+    let context = MapContext::of_file(FileMap { name, grid, analysis, cells, rule_set, assignment, corrections });
+    let context = context.map_err(|error| {
+        Failure::Input(format!("the assignment does not fit this map: {}", Problem::from(error).message()))
+    })?;
+    Ok(Findings { context, diagnostics })
 }

@@ -5,9 +5,12 @@ use std::path::{Path, PathBuf};
 
 use serde::de::DeserializeOwned;
 use stillage_core::AnalysisSpec;
+use stillage_core::corrections::Correction;
 use stillage_core::semantics::{Assignment, AssignmentProblem, RuleSet, RuleSetDraft};
 
 use super::failure::Failure;
+use crate::coordinates::Transform;
+use crate::http::maps::corrections_body::NewCorrectionsBody;
 use crate::ingest::{self, IngestError, MapSource};
 use crate::options::RequestedOptions;
 
@@ -77,6 +80,13 @@ pub(super) fn rule_set(name: &str) -> Result<RuleSet, Failure> {
 /// The assignment in a file.
 pub(super) fn assignment(path: &Path) -> Result<Assignment, Failure> {
     read_json(path)
+}
+
+/// The corrections in a file, for a map whose labels are those of a rule set. GeoJSON is in metres of the map.
+pub(super) fn corrections(path: &Path, rule_set: &RuleSet) -> Result<Vec<Correction>, Failure> {
+    let read = NewCorrectionsBody::read(&read(path)?, rule_set, &Transform::map_frame());
+    let corrections = read.and_then(|body| body.checked(rule_set));
+    corrections.map_err(|problem| Failure::Input(format!("{}: {}", path.display(), problem.message())))
 }
 
 /// A refusal of the ingest, about a file.

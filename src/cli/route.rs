@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::failure::Failure;
-use super::findings::AnalysisArgs;
+use super::findings::CorrectedAnalysisArgs;
 use super::input;
 use super::output;
 use super::progress::ProgressDisplay;
@@ -28,7 +28,7 @@ pub(super) struct RouteArgs {
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
     #[command(flatten)]
-    analysis: AnalysisArgs,
+    analysis: CorrectedAnalysisArgs,
 }
 
 /// Runs the command.
@@ -54,13 +54,13 @@ fn query(arguments: &RouteArgs, from: &str, to: &str) -> Vec<(String, String)> {
     query
 }
 
-fn from_file(map: &Path, analysis: &AnalysisArgs, query: &[(String, String)]) -> Result<Vec<u8>, Failure> {
+fn from_file(map: &Path, analysis: &CorrectedAnalysisArgs, query: &[(String, String)]) -> Result<Vec<u8>, Failure> {
     let query: Vec<String> = query.iter().map(|(name, value)| format!("{}={}", encode(name), encode(value))).collect();
     // A typing error should not cost an analysis.
     let query = RouteQuery::read(&query.join("&")).map_err(|problem| Failure::Input(problem.message()))?;
     let progress = ProgressDisplay::new();
     let pool = analysis.pool()?;
-    let context = analysis.find(map, &pool, &progress)?.into_context()?;
+    let context = analysis.find(map, &pool, &progress)?.context;
     let answer = pool.install(|| route::answer(&context, &query));
     progress.finish();
     answer.map_err(|problem| Failure::Input(problem.message()))

@@ -14,7 +14,7 @@ mod extract;
 pub(crate) mod fleet;
 mod guard;
 pub(crate) mod links;
-mod maps;
+pub(crate) mod maps;
 mod ogc;
 mod page;
 mod paging;

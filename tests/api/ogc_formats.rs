@@ -76,7 +76,15 @@ async fn a_person_walks_from_page_to_page() {
         }
     }
     let pages = [
-        "analyses", "categories", "changes", "corrections", "diagnostics", "exports", "graph-report", "registry", "semantics",
+        "analyses",
+        "categories",
+        "changes",
+        "corrections",
+        "diagnostics",
+        "exports",
+        "graph-report",
+        "registry",
+        "semantics",
         "semantics/versions",
     ];
     for page in pages {

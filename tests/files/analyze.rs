@@ -50,6 +50,50 @@ fn a_map_becomes_a_folder_of_layers_and_pictures() {
 }
 
 #[test]
+fn corrections_are_applied_and_those_that_do_not_fit_are_told() {
+    let folder = folder();
+    let write = |name: &str, content: &str| std::fs::write(folder.path().join(name), content).unwrap();
+    // As a service answers them.
+    let list = r#"{"version": 4, "corrections": [
+        {"id": "c1", "kind": "draw", "ring": [[-2, 3], [0, 3], [0, 5], [-2, 5]], "label": "pc", "name": "Rack 12", "isApplied": true, "faces": [3]},
+        {"id": "c2", "kind": "split", "line": [[50, 50], [60, 50]], "isApplied": false, "reason": "outside"}],
+        "links": [{"href": "http://127.0.0.1/", "rel": "self", "type": "application/json"}]}"#;
+    write("corrections.json", list);
+    let output = analyze(folder.path(), &["room.yaml", "--corrections", "corrections.json"]);
+    let told = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{told}");
+    assert!(told.contains("warning: correction 2 does not fit and changes nothing: /line/0: the point lies"), "{told}");
+    let json = |name: &str| -> Value {
+        serde_json::from_slice(&std::fs::read(folder.path().join("room.stillage").join(name)).unwrap()).unwrap()
+    };
+    let fits: Vec<Value> =
+        json("report.json")["corrections"].as_array().unwrap().iter().map(|one| one["isApplied"].clone()).collect();
+    assert_eq!(fits, [true, false]);
+    let faces = json("faces.geojson");
+    let is_rack = |face: &&Value| face["properties"]["name"] == "Rack 12" && face["properties"]["label"] == "pc";
+    assert_eq!(faces["features"].as_array().unwrap().iter().filter(is_rack).count(), 1);
+
+    let plan = r#"{"type": "FeatureCollection", "features": [{"type": "Feature", "properties": {"name": "Rack 12"},
+        "geometry": {"type": "Polygon", "coordinates": [[[-2, 3], [0, 3], [0, 5], [-2, 5], [-2, 3]]]}}]}"#;
+    write("plan.geojson", plan);
+    let exported = Command::new(env!("CARGO_BIN_EXE_stillage"))
+        .args(["export", "room.yaml", "--format", "csv", "--out", "-", "--corrections", "plan.geojson"])
+        .current_dir(folder.path())
+        .output()
+        .unwrap();
+    assert!(exported.status.success(), "{exported:?}");
+    assert_eq!(String::from_utf8_lossy(&exported.stdout).lines().count(), 2, "a head and the rack: {exported:?}");
+
+    write("wrong.geojson", &plan.replace(r#""name": "Rack 12""#, r#""label": "shelf""#));
+    let refused = analyze(folder.path(), &["room.yaml", "--corrections", "wrong.geojson"]);
+    expect![[r#"
+        error: wrong.geojson: /features/0/properties/label: the rule set has no label "shelf": it has co, ju, pc, ro, un
+    "#]]
+    .assert_eq(&String::from_utf8_lossy(&refused.stderr));
+    assert_eq!(refused.status.code(), Some(2));
+}
+
+#[test]
 fn the_report_tells_how_categories_were_found_and_relaxed() {
     let folder = folder();
     let options = r#"{"categorization": {"k": "auto", "maxK": 4, "clustering": "gaussianMixture", "relaxation": {}},

@@ -5,7 +5,7 @@ mod output;
 use std::path::PathBuf;
 
 use super::failure::Failure;
-use super::findings::AnalysisArgs;
+use super::findings::CorrectedAnalysisArgs;
 use super::input;
 use super::progress::ProgressDisplay;
 
@@ -19,7 +19,7 @@ pub(super) struct AnalyzeArgs {
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     #[command(flatten)]
-    analysis: AnalysisArgs,
+    analysis: CorrectedAnalysisArgs,
 }
 
 /// Runs the command.

@@ -11,15 +11,16 @@ use stillage_core::Occupancy;
 use stillage_core::analysis::ALGORITHM_VERSION;
 use stillage_core::semantics::Suggestion;
 
-use crate::app::StageReport;
+use crate::app::{MapContext, StageReport};
 use crate::cli::failure::Failure;
 use crate::cli::findings::Findings;
 use crate::coordinates::Transform;
+use crate::features::Collection;
 use crate::features::query::PropertySelection;
-use crate::features::{AnalysedMap, Collection, MapNames, features};
 use crate::formats::{csv, geojson};
 use crate::render;
 use crate::stage_clock::peak_rss_mib;
+use crate::views::correction::ListedCorrection;
 
 /// Checks that the folder can be written, before the long work.
 pub(super) fn check(folder: &Path) -> Result<(), Failure> {
@@ -72,29 +73,30 @@ fn parent(folder: &Path) -> &Path {
 
 /// Name and content of each file.
 fn files(findings: &Findings, stages: &[StageReport]) -> Vec<(PathBuf, Vec<u8>)> {
-    let Findings { grid, analysis, semantic, .. } = findings;
-    let view = AnalysedMap { analysis, semantic, layout: &findings.layout, names: MapNames::none() };
+    let MapContext { grid, analysis, semantic, layout, .. } = &findings.context;
     let layer = |collection: Collection| {
         let members: geojson::Members<'_> = &[("crs", &geojson::EPSG_3857)];
         let all = PropertySelection::all(collection);
-        let bytes = geojson::feature_collection(&features(&view, collection), &all, &Transform::map_frame(), members);
+        let features = findings.context.features(collection);
+        let bytes = geojson::feature_collection(features, &all, &Transform::map_frame(), members);
         (PathBuf::from(format!("{}.geojson", collection.id())), bytes)
     };
     let mut files: Vec<(PathBuf, Vec<u8>)> = Collection::ALL.into_iter().map(layer).collect();
     files.push(("image.png".into(), render::image(grid)));
     files.push(("categories.png".into(), render::categories(analysis)));
     files.push(("regions.png".into(), render::regions(analysis, grid)));
-    let locations = &findings.layout.locations;
+    let locations = &layout.locations;
     files.push(("semantic.png".into(), render::semantic_png(grid, analysis, semantic, locations)));
     files.push(("semantic.svg".into(), render::semantic_svg(grid, analysis, semantic, locations)));
-    files.push(("locations.csv".into(), csv::locations(&features(&view, Collection::Locations))));
+    files.push(("locations.csv".into(), csv::locations(findings.context.features(Collection::Locations))));
     files.push(("report.json".into(), format!("{:#}\n", report(findings, stages)).into_bytes()));
     files
 }
 
 /// What was done, what it cost and what came out.
 fn report(findings: &Findings, stages: &[StageReport]) -> Value {
-    let Findings { grid, analysis, semantic, .. } = findings;
+    let Findings { context, diagnostics } = findings;
+    let MapContext { grid, analysis, semantic, .. } = context;
     let frame = grid.frame();
     let rule_set = &semantic.rule_set;
     let suggestion = |suggestion: &Suggestion| {
@@ -107,7 +109,7 @@ fn report(findings: &Findings, stages: &[StageReport]) -> Value {
     };
     json!({
         "map": {
-            "name": findings.name,
+            "name": context.record.name,
             "width": grid.width(),
             "height": grid.height(),
             "resolution": frame.resolution,
@@ -128,13 +130,14 @@ fn report(findings: &Findings, stages: &[StageReport]) -> Value {
             "vertices": analysis.subdivision.vertex_count(),
             "regions": analysis.regions.regions.len(),
             "places": semantic.places.len(),
-            "locations": findings.layout.locations.len(),
+            "locations": context.layout.locations.len(),
         },
         "clustering": analysis.categories.fit,
         "relaxation": {"cells": analysis.categories.relaxation, "faces": analysis.face_relaxation},
-        "diagnostics": findings.diagnostics,
+        "diagnostics": diagnostics,
+        "corrections": ListedCorrection::of_preview(&vec![None; context.corrections.list.len()], context),
         "ruleSet": rule_set.draft(),
-        "assignment": findings.assignment,
-        "suggestions": findings.suggestions.iter().map(suggestion).collect::<Vec<_>>(),
+        "assignment": context.semantics.assignment,
+        "suggestions": context.suggestions.iter().map(suggestion).collect::<Vec<_>>(),
     })
 }

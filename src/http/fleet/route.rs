@@ -194,8 +194,7 @@ pub async fn get(
 ) -> Result<Response, Problem> {
     let context = app.context(&caller, path.map_id.0).await?;
     off_the_runtime(move || {
-        let headers =
-            [(header::CONTENT_TYPE, HeaderValue::from_static(GEO_JSON)), (CONTENT_CRS, query.crs.header())];
+        let headers = [(header::CONTENT_TYPE, HeaderValue::from_static(GEO_JSON)), (CONTENT_CRS, query.crs.header())];
         Ok(page::answer_geojson(&accept, "Route", headers, answer(&context, &query)?))
     })
     .await

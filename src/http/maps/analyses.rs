@@ -187,8 +187,7 @@ pub async fn faces(
     let headers = [(header::CONTENT_TYPE, HeaderValue::from_static(GEO_JSON)), (CONTENT_CRS, query.crs.header())];
     let written = move || {
         let faces = context.features(Collection::Faces);
-        let written =
-            geojson::feature_collection(faces, &properties, &transform, &[("numberReturned", &faces.len())]);
+        let written = geojson::feature_collection(faces, &properties, &transform, &[("numberReturned", &faces.len())]);
         page::answer_geojson(&accept, "Faces of an analysis", headers, written)
     };
     Ok(off_the_runtime(written).await)

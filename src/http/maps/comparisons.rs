@@ -7,9 +7,9 @@ use axum::response::Response;
 use serde::Deserialize;
 use utoipa::IntoParams;
 
+use super::analyses::AnalysisPath;
 use crate::app::{App, Caller};
 use crate::blocking::off_the_runtime;
-use super::analyses::AnalysisPath;
 use crate::http::docs::refusals::{Conflict, NotAnalysed, NotFound};
 use crate::http::extract::negotiation::Accept;
 use crate::http::extract::{MapPath, Path, Query};

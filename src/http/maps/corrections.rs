@@ -127,7 +127,7 @@ pub async fn create(
         query.crs.transform(context.record.georeference).map_err(|detail| Problem::parameter("crs", detail))?;
     let on = Arc::clone(&context);
     let read = move || {
-        let body = NewCorrectionsBody::read(&bytes, &on, &transform)?;
+        let body = NewCorrectionsBody::read(&bytes, &on.semantic.rule_set, &transform)?;
         let is_one = body.corrections.len() == 1;
         let (wanted, in_request) = body.after(&on);
         Ok::<_, Problem>((wanted, in_request, is_one))

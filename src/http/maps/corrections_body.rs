@@ -3,8 +3,9 @@
 use axum::http::HeaderMap;
 use serde_json::{Map, Value};
 use stillage_core::corrections::Correction;
+use stillage_core::semantics::RuleSet;
 
-use crate::app::{AppError, CorrectionId, FieldProblem, MapContext, WantedCorrection};
+use crate::app::{AppError, CorrectionId, FieldProblem, MapContext, WantedCorrection, check_corrections};
 use crate::coordinates::Transform;
 use crate::http::extract::{is_json, parse_json};
 use crate::http::problem::{Problem, ProblemType};
@@ -12,6 +13,8 @@ use crate::ingest::{self, CorrectionFeature, IngestError};
 
 /// What a read adds to a correction: it may be sent back and is ignored.
 const READ_ONLY: [&str; 4] = ["id", "isApplied", "faces", "reason"];
+/// What a read adds to the list, likewise.
+const READ_ONLY_OF_LIST: [&str; 3] = ["version", "lost", "links"];
 /// Problems that are told at most.
 const MOST_TOLD: usize = 100;
 
@@ -52,16 +55,16 @@ impl NewCorrectionsBody {
     ///
     /// # Errors
     /// All that is wrong, with pointers into the body.
-    pub fn read(bytes: &[u8], context: &MapContext, transform: &Transform) -> Result<Self, Problem> {
+    pub fn read(bytes: &[u8], rule_set: &RuleSet, transform: &Transform) -> Result<Self, Problem> {
         let mut body: Map<String, Value> = parse_json("", bytes)?;
         if matches!(body.get("type").and_then(Value::as_str), Some("Feature" | "FeatureCollection")) {
-            return Self::of_geojson(&Value::Object(body), context, transform);
+            return Self::of_geojson(&Value::Object(body), rule_set, transform);
         }
         let Some(list) = body.remove("corrections") else {
             let corrections = vec![read_correction("", body)?];
             return Ok(Self { corrections, places: vec![CorrectionPlace::Correction(String::new())] });
         };
-        if let Some(other) = body.keys().next() {
+        if let Some(other) = body.keys().find(|name| !READ_ONLY_OF_LIST.contains(&name.as_str())) {
             return Err(Problem::invalid(format!("/{other}"), "is not known beside corrections"));
         }
         let list = objects(list)?;
@@ -77,8 +80,8 @@ impl NewCorrectionsBody {
         Ok(Self { corrections, places })
     }
 
-    fn of_geojson(document: &Value, context: &MapContext, transform: &Transform) -> Result<Self, Problem> {
-        let mut storage = context.semantic.rule_set.labels().iter().filter(|label| label.is_storage());
+    fn of_geojson(document: &Value, rule_set: &RuleSet, transform: &Transform) -> Result<Self, Problem> {
+        let mut storage = rule_set.labels().iter().filter(|label| label.is_storage());
         let drawn_label = match (storage.next(), storage.next()) {
             (Some(label), None) => Some(label.id.as_str()),
             _ => None,
@@ -100,15 +103,29 @@ impl NewCorrectionsBody {
         let mut wanted = context.wanted_corrections();
         let known = wanted.len();
         wanted.extend(self.corrections.into_iter().map(|correction| (None, correction)));
-        let places = self.places;
-        let in_request = move |pointer: &str| -> String {
-            let step = pointer.strip_prefix("/corrections/").map(|rest| rest.split_once('/').unwrap_or((rest, "")));
-            let Some((index, within)) = step else { return pointer.to_owned() };
-            let place = index.parse::<usize>().ok().and_then(|index| places.get(index.checked_sub(known)?));
-            let within = if within.is_empty() { String::new() } else { format!("/{within}") };
-            place.map_or_else(|| pointer.to_owned(), |place| place.pointer(&within))
-        };
-        (wanted, in_request)
+        (wanted, in_request(self.places, known))
+    }
+
+    /// The corrections by themselves, as they would be the whole list of a map under a rule set.
+    ///
+    /// # Errors
+    /// What makes no sense on any map, with pointers into the body.
+    pub fn checked(self, rule_set: &RuleSet) -> Result<Vec<Correction>, Problem> {
+        let Self { corrections, places } = self;
+        let checked = check_corrections(corrections.iter().enumerate(), rule_set, usize::MAX);
+        checked.map_err(|error| Problem::from(error).map_pointers(in_request(places, 0)))?;
+        Ok(corrections)
+    }
+}
+
+/// Leads a pointer into a list of corrections, of which so many were `known`, back to the request that named the others.
+fn in_request(places: Vec<CorrectionPlace>, known: usize) -> impl Fn(&str) -> String {
+    move |pointer| {
+        let step = pointer.strip_prefix("/corrections/").map(|rest| rest.split_once('/').unwrap_or((rest, "")));
+        let Some((index, within)) = step else { return pointer.to_owned() };
+        let place = index.parse::<usize>().ok().and_then(|index| places.get(index.checked_sub(known)?));
+        let within = if within.is_empty() { String::new() } else { format!("/{within}") };
+        place.map_or_else(|| pointer.to_owned(), |place| place.pointer(&within))
     }
 }
 

@@ -4,7 +4,7 @@ pub mod analyses;
 pub mod cogency_matrix;
 pub mod comparisons;
 pub mod corrections;
-mod corrections_body;
+pub(crate) mod corrections_body;
 pub mod deletion;
 pub mod evaluations;
 mod face_differences;

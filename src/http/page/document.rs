@@ -84,7 +84,8 @@ mod tests {
 
     #[test]
     fn what_only_a_program_can_follow_is_told_without_a_link() {
-        let link = json!({"href": "http://here/x", "rel": "related", "type": "application/json", "title": "POST does it"});
+        let link =
+            json!({"href": "http://here/x", "rel": "related", "type": "application/json", "title": "POST does it"});
         let html = markup(&json!({"links": [link]}));
         assert!(html.as_str().contains("<li>POST does it (application/json): http://here/x</li>"), "{html:?}");
     }
