@@ -33,7 +33,8 @@ fn summary(base: &Base) -> ProcessSummaryView {
     let links = vec![
         base.link("self", &path, JSON),
         base.link("alternate", &format!("{path}?f=html"), HTML),
-        base.link("http://www.opengis.net/def/rel/ogc/1.0/execute", &format!("{path}/execution"), JSON),
+        base.link("http://www.opengis.net/def/rel/ogc/1.0/execute", &format!("{path}/execution"), JSON)
+            .titled("POST executes it"),
         base.link("http://www.opengis.net/def/rel/ogc/1.0/job-list", "/v1/jobs", JSON),
     ];
     ProcessSummaryView::new(&ANALYSIS, links)
