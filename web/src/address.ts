@@ -21,6 +21,14 @@ export function read(hash: string): Address {
   };
 }
 
+/** A view in which one name has another value, or none. */
+export function withValue(view: ReadonlyMap<string, string>, name: string, value?: string): Map<string, string> {
+  const changed = new Map(view);
+  if (value === undefined) changed.delete(name);
+  else changed.set(name, value);
+  return changed;
+}
+
 /** The address of a map with a tool. */
 export function ofMap(map: string, tool = "look", view: ReadonlyMap<string, string> = new Map()): string {
   const query = new URLSearchParams([...view]).toString();

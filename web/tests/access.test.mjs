@@ -49,6 +49,10 @@ const PAGES = {
     await page.getByRole("combobox", { name: /Compare with|Vergleichen mit/ }).selectOption("version 0");
     await page.locator(".swipe").waitFor();
   },
+  analyses: async (page) => {
+    await openMap(page, service.base, map, "analyses");
+    await page.locator(".analyses > li").waitFor();
+  },
   routes: (page) => openMap(page, service.base, map, "routes"),
   "hand-over": (page) =>
     openMap(page, service.base, map, "hand-over").then(() => page.locator("tbody tr").first().waitFor()),

@@ -80,6 +80,9 @@ test("another scan of the site is laid on the map: what moved, went and came is 
   form.append("previous", map);
   const { body: job } = await json(service.base, "/v1/maps", { method: "POST", body: form });
   await (await fetch(`${service.base}/v1/jobs/${job.jobID}/events`)).text();
+  // Labels come along; what is decided later does not.
+  const { body } = await json(service.base, `/v1/maps/${map}/collections/faces/items?label=pc&limit=2`);
+  await changeLabels(service.base, map, { overrides: Object.fromEntries(body.features.map(({ id }) => [id, "ro"])) });
   await openMap(page, service.base, map, "look");
   await page.getByRole("button", { name: "Show all" }).click();
   await page.waitForTimeout(500);
@@ -92,29 +95,47 @@ test("another scan of the site is laid on the map: what moved, went and came is 
   await picture(page, "compare");
 });
 
-test("another analysis is put in force and laid beside the one before, and the way leads back", async () => {
+test("another analysis is compared without being in force, put in force, and undone", async () => {
   const headers = { "content-type": "application/json" };
   const options = { decomposition: { method: "paper" } };
   const path = `/v1/maps/${map}/analyses`;
   const { body: job } = await json(service.base, path, { method: "POST", headers, body: JSON.stringify(options) });
   await (await fetch(`${service.base}/v1/jobs/${job.jobID}/events`)).text();
-  const inForce = async () => (await json(service.base, path)).body.analyses.find((one) => one.inForce);
+  const inForce = async () => (await json(service.base, path)).body.analyses.find((one) => one.inForce).id;
   const first = await inForce();
   await openMap(page, service.base, map, "look");
   await openMap(page, service.base, map, "compare");
   await choose("Analysis, ");
-  await page.getByText('decomposition/method: "adaptive" → "paper"').waitFor();
-  assert.equal((await inForce()).id, first.id, "nothing happens before it is agreed to");
-  await page.getByRole("button", { name: "Put it in force and compare" }).click();
-  await page.getByText("The other analysis is in force now").waitFor();
-  assert.notEqual((await inForce()).id, first.id);
+  await page.getByText("Method (decomposition/method): adaptive → paper").waitFor();
+  await page.getByText(/^Faces: \d+ added/).waitFor();
+  await page.getByText(/Labels that people gave: \d+ would be kept, \d+ lost/).waitFor();
+  await page.getByText(/Locations removed: \d+/).waitFor();
   await page.waitForTimeout(500);
   await picture(page, "compare-analyses");
-  await choose("Analysis, ");
-  await page.getByRole("button", { name: "Put it in force and compare" }).click();
-  await page.getByText("Options that differ").waitFor({ state: "detached" });
+  assert.equal(await inForce(), first, "nobody sees it");
+  const address = page.url();
+  await page.getByRole("button", { name: "Put in force" }).click();
+  await page
+    .getByRole("dialog")
+    .getByRole("button", { name: /Keep|Cancel/ })
+    .click();
+  assert.equal(await inForce(), first, "nothing happens before it is agreed to");
+  await page.getByRole("button", { name: "Put in force" }).click();
+  await page
+    .getByRole("dialog")
+    .getByText(/Everybody sees it then/)
+    .waitFor();
+  await picture(page, "activate-question");
+  await page.getByRole("dialog").getByRole("button", { name: "Put in force" }).click();
   await page.getByText("The other analysis is in force now").waitFor();
-  assert.equal((await inForce()).id, first.id);
+  assert.notEqual(await inForce(), first);
+  await page.getByText("Method (decomposition/method): paper → adaptive").waitFor();
+  await page.getByRole("button", { name: "Undo" }).click();
+  await page.getByText("Method (decomposition/method): adaptive → paper").waitFor();
+  assert.equal(await inForce(), first);
+  await openMap(page, service.base, map, "look");
+  await page.goto(address);
+  await page.getByText(/Locations removed: \d+/).waitFor();
 });
 
 test("a map of another building is refused with the reason", async () => {

@@ -204,6 +204,24 @@ test("locations are sorted as people count", async () => {
   assert.deepEqual(codes("occup", true), ["2-10", "2-9"]);
 });
 
+test("whole options are said by what differs from the defaults, and said again they are the same", async () => {
+  const { optionDocument, saidOptions } = await load("service/options.ts");
+  const fields = [
+    { path: ["seed"], standard: "0" },
+    { path: ["categorization", "k"], standard: "auto" },
+    { path: ["categorization", "maxRangeM"], standard: "" },
+    { path: ["annotation", "relaxation", "iterations"], standard: "5" },
+  ];
+  const said = (options) => optionDocument(saidOptions(fields, options));
+  assert.equal(
+    said({ seed: 0, categorization: { k: "auto", maxRangeM: null }, annotation: { relaxation: null } }),
+    undefined,
+  );
+  const own = { seed: 7, categorization: { k: 3 }, annotation: { relaxation: { iterations: 5 } } };
+  assert.deepEqual(said(own), own, "a group that may be absent is there by its members");
+  assert.equal(said(undefined), undefined);
+});
+
 test("every text is there in both languages, with the same values to fill in", async () => {
   const { TABLES, texts } = await load("texts/texts.ts");
   const names = TABLES.flatMap((table) => Object.keys(table));
@@ -348,6 +366,11 @@ test("a point is drawn to a corner, else to where a direction meets an edge, els
   assert.equal(along.to, "direction");
   near([along.point], [[8, 0]]);
   assert.deepEqual(snapped([8, 1.5], [2, 0], targets, 0.2), { point: [8, 1.5], to: undefined });
+  assert.deepEqual(
+    snapped([5.1, 5.1], [5, 5], targets, 0.2),
+    { point: [5.1, 5.1], to: undefined },
+    "two corners stay two",
+  );
 });
 
 test("a crooked shape is aligned: its sides follow the directions, its size stays", async () => {
@@ -420,25 +443,14 @@ test("a draft of corrections lies over the list, and over a later one nothing of
   );
 });
 
-test("two analyses differ in the options that are told, and in places by their codes", async () => {
-  const { differentOptions } = await load("pages/map/compare/different_options.ts");
-  const { changesByCode } = await load("pages/map/compare/changes_by_code.ts");
-  assert.deepEqual(differentOptions({ seed: 1, grid: { mode: "a" } }, { seed: 1, grid: { mode: "b" } }), [
-    { path: "grid/mode", before: '"a"', now: '"b"' },
+test("two analyses differ in the options that are told", async () => {
+  const { differentOptions } = await load("pages/map/analyses/different_options.ts");
+  const [before, now] = [
+    { seed: 1, grid: { mode: "a" }, range: null },
+    { seed: 1, grid: { mode: "b" }, range: [1, 2] },
+  ];
+  assert.deepEqual(differentOptions(before, now), [
+    { path: "grid/mode", before: "a", now: "b" },
+    { path: "range", before: "–", now: "[1,2]" },
   ]);
-  const before = new Map([
-    ["01", [0, 0]],
-    ["02", [1, 0]],
-    ["03", [2, 0]],
-  ]);
-  const now = new Map([
-    ["01", [0, 0.01]],
-    ["02", [1, 0.5]],
-    ["04", [3, 0]],
-  ]);
-  const { added, removed, changed } = changesByCode(before, now);
-  assert.deepEqual(
-    [added, removed, changed].map((list) => list.map(({ code }) => code)),
-    [["04"], ["03"], ["02"]],
-  );
 });

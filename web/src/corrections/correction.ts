@@ -1,44 +1,25 @@
 /** What a person says about a map that no automatic reading got right. Points are metres of the map frame. */
 
 import type { Point } from "../map/frame";
+import type { components } from "../service/openapi";
+import type { ListedCorrection } from "../service/types";
 
-export type Correction =
-  /** What lies inside a ring is one face. */
-  | { readonly kind: "draw"; readonly ring: readonly Point[]; readonly label: string; readonly name?: string }
-  /** The faces that a line crosses are cut along it. */
-  | { readonly kind: "split"; readonly line: readonly Point[] }
-  /** The faces at these points become one. */
-  | { readonly kind: "merge"; readonly at: readonly Point[] }
-  /** A rectangle, its first side along the row, is cut into places: so many, or one for each pitch. */
-  | {
-      readonly kind: "row";
-      readonly rectangle: readonly Point[];
-      readonly places?: number;
-      /** Metres. */
-      readonly pitchM?: number;
-      /** Places one behind the other. */
-      readonly layers: number;
-      readonly label?: string;
-    }
-  /** What was found inside a ring joins the ground around it. */
-  | { readonly kind: "erase"; readonly ring: readonly Point[] }
-  /** The face at a point has a label. */
-  | { readonly kind: "label"; readonly at: Point; readonly label: string }
-  /** The border along a line is a door, or is shut. */
-  | { readonly kind: "door"; readonly line: readonly Point[]; readonly isOpen: boolean }
-  /** The face at a point has a name. */
-  | { readonly kind: "name"; readonly at: Point; readonly name: string };
+/** The members of a document with its points and lists of points as this page has them: the document tells no length. */
+type WithPoints<T> = {
+  readonly [Name in keyof T]: T[Name] extends number[][]
+    ? readonly Point[]
+    : T[Name] extends number[]
+      ? Point
+      : T[Name];
+};
+
+/** One correction, as the service reads it. */
+export type Correction = WithPoints<components["schemas"]["Correction"]>;
 
 export type Kind = Correction["kind"];
 
-/** A correction as the service lists it, with what became of it. */
-export type Listed = Correction & {
-  /** A correction that is only previewed has none. */
-  readonly id?: string;
-  readonly isApplied: boolean;
-  /** Why it does not fit. */
-  readonly reason?: string;
-};
+/** A correction as the service lists it, with what became of it. One that is only previewed has no id. */
+export type Listed = Correction & Readonly<Pick<ListedCorrection, "id" | "isApplied" | "faces" | "reason">>;
 
 /** The shape of a kind: a closed ring, a line, single points. */
 export function shapeOf(kind: Kind): "ring" | "line" | "points" {
@@ -91,7 +72,6 @@ function open(ring: readonly Point[]): readonly Point[] {
 
 /** What is sent of a listed correction: without what the service adds. */
 export function plain(listed: Listed): Correction {
-  const { id: _id, isApplied: _isApplied, reason: _reason, ...correction } = listed as Listed & { faces?: unknown };
-  const { faces: _faces, ...rest } = correction as { faces?: unknown };
-  return rest as Correction;
+  const { id: _id, isApplied: _isApplied, faces: _faces, reason: _reason, ...correction } = listed;
+  return correction as Correction;
 }

@@ -20,8 +20,16 @@ export interface Snapped {
   readonly to: "corner" | "edge" | "direction" | undefined;
 }
 
-/** The place that is meant by a point, within reach (metres); `previous` is the corner drawn before it. */
+/**
+ * The place that is meant by a point, within reach (metres); `previous` is the corner drawn before it. The two are never drawn
+ * to one place: what is smaller than the reach keeps its corners.
+ */
 export function snapped(point: Point, previous: Point | undefined, targets: Targets, reach: number): Snapped {
+  const found = meant(point, previous, targets, reach);
+  return previous && distance(found.point, previous) === 0 ? { point, to: undefined } : found;
+}
+
+function meant(point: Point, previous: Point | undefined, targets: Targets, reach: number): Snapped {
   const corner = nearest(targets.corners, point, reach);
   if (corner) return { point: corner, to: "corner" };
   const along = previous && alongDirection(point, previous, targets.directions);

@@ -1,10 +1,10 @@
-/** A question before something that is lost. */
+/** A question before something is done that others see. */
 
 import { button, h } from "../dom";
 import { t } from "../language";
 
-/** Asks; true where the person agrees. */
-export function confirm(question: string, detail: string, agree: string): Promise<boolean> {
+/** Asks; true where the person agrees. What is lost by it is kept by the other answer. */
+export function confirm(question: string, detail: string, agree: string, isLost = true): Promise<boolean> {
   return new Promise((answer) => {
     const dialog = h(
       "dialog",
@@ -14,8 +14,8 @@ export function confirm(question: string, detail: string, agree: string): Promis
       h(
         "div",
         { class: "actions" },
-        button(t("keep"), () => dialog.close("")),
-        button(agree, () => dialog.close("yes"), { class: "danger" }),
+        button(t(isLost ? "keep" : "cancel"), () => dialog.close("")),
+        button(agree, () => dialog.close("yes"), { class: isLost ? "danger" : "primary" }),
       ),
     );
     dialog.addEventListener("close", () => {

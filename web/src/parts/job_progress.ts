@@ -6,7 +6,7 @@ import { dismiss, isOver, watch } from "../service/jobs";
 import type { Job } from "../service/types";
 
 export interface JobEvents {
-  /** The job is over. */
+  /** The job is over, or what it is about is another. */
   readonly changed: () => void;
   readonly failed: (error: unknown) => void;
   /** The job is followed until this is called. */

@@ -1,14 +1,24 @@
 /** Maps: the list, upload, deletion. */
 
-import { ask, get, Refused, send, type Tagged } from "./request";
-import type { Job, MapView } from "./types";
+import { ask, get, send, type Tagged } from "./request";
+import type { DeletedMap, Job, MapView } from "./types";
 
-/** All maps, newest first, page after page. */
-export async function listMaps(): Promise<MapView[]> {
-  const maps: MapView[] = [];
-  let path: string | undefined = "v1/maps?limit=100";
+/** All maps, newest first. */
+export function listMaps(): Promise<MapView[]> {
+  return everyPage("v1/maps?limit=100");
+}
+
+/** The deleted maps that can be brought back, the newest map first. */
+export function listDeletedMaps(): Promise<DeletedMap[]> {
+  return everyPage("v1/deleted-maps?limit=100");
+}
+
+/** The maps of a list, page after page. */
+async function everyPage<T>(first: string): Promise<T[]> {
+  const maps: T[] = [];
+  let path: string | undefined = first;
   while (path !== undefined) {
-    const page: { maps: MapView[]; links: { rel: string; href: string }[] } = await get(path);
+    const page: { maps: T[]; links: { rel: string; href: string }[] } = await get(path);
     maps.push(...page.maps);
     path = nextPath(page.links);
   }
@@ -58,15 +68,4 @@ export function renameMap(id: string, name: string, tag: string): Promise<Tagged
 /** Brings a deleted map back. */
 export async function restoreMap(id: string): Promise<void> {
   await ask(`v1/maps/${id}/restore`, { method: "POST" });
-}
-
-/** Whether a deleted map can still be brought back: the service says so as long as it keeps it. */
-export async function isKept(id: string): Promise<boolean> {
-  try {
-    await ask(`v1/maps/${id}`);
-    return false;
-  } catch (error) {
-    if (!(error instanceof Refused) || error.status === 0) throw error;
-    return error.status === 404 && error.problem.detail.includes(`/v1/maps/${id}/restore`);
-  }
 }

@@ -56,11 +56,28 @@ function optionField(path: readonly string[], property: Schema, target: Schema):
     path,
     kind: target.enum ? "choice" : types.includes("boolean") ? "switch" : isNumber ? "number" : "text",
     meaning: (property.description ?? target.description ?? "").replaceAll("`", ""),
-    standard: property.default === undefined ? "" : JSON.stringify(property.default).replace(/^"(.*)"$/, "$1"),
+    standard: property.default === undefined ? "" : written(property.default),
     values: target.enum ?? [],
     minimum: target.minimum,
     maximum: target.maximum,
   };
+}
+
+/** How a value is written in its field. */
+export function written(value: unknown): string {
+  return JSON.stringify(value).replace(/^"(.*)"$/, "$1");
+}
+
+/** What of whole options is to be said beside the defaults, by path. The members of a group that may be absent are all said. */
+export function saidOptions(fields: readonly OptionField[], options: unknown): Map<string, unknown> {
+  const said = new Map<string, unknown>();
+  for (const { path, standard } of fields) {
+    let value = options;
+    for (const step of path) value = (value as Readonly<Record<string, unknown>> | null | undefined)?.[step];
+    if (value === undefined || value === null) continue;
+    if (path.length > 2 || written(value) !== standard) said.set(path.join("/"), value);
+  }
+  return said;
 }
 
 /** The options that a person chose, by path, as the document that the service reads. */

@@ -28,3 +28,7 @@ export type LocationChanges = Schemas["LocationChanges"];
 export type LabelPreview = Schemas["LabelPreview"];
 export type Registry = Schemas["Registry"];
 export type Analysis = Schemas["Analysis"];
+export type AnalysisComparison = Schemas["AnalysisComparison"];
+export type CarriedLabels = Schemas["CarriedLabels"];
+export type DeletedMap = Schemas["DeletedMap"];
+export type ListedCorrection = Schemas["ListedCorrection"];

@@ -16,14 +16,6 @@ export const compareTexts = {
   suggestionVersion: ["Version 0, the suggestion", "Version 0, der Vorschlag"],
   otherMaps: ["Other maps", "Andere Karten"],
   proposals: ["Other analyses of this map", "Andere Analysen dieser Karte"],
-  analysisOf: ["Analysis, {moment}", "Analyse, {moment}"],
-  differentOptions: ["Options that differ:", "Unterschiedliche Optionen:"],
-  activateMeaning: [
-    "Only the analysis in force answers: to compare, the other one is put in force for everybody. Choose the one before to go back.",
-    "Nur die geltende Analyse antwortet: Zum Vergleich wird die andere für alle in Kraft gesetzt. Wählen Sie die vorige, um zurückzugehen.",
-  ],
-  activate: ["Put it in force and compare", "In Kraft setzen und vergleichen"],
-  analysisActivated: ["The other analysis is in force now.", "Die andere Analyse gilt jetzt."],
   swipe: ["Divider between the two, percent of the width", "Teiler zwischen beiden, Prozent der Breite"],
   comparedFromTo: ["From “{before}” to “{now}”", "Von „{before}“ nach „{now}“"],
   alignedBy: [

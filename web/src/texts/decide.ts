@@ -45,6 +45,16 @@ export const decideTexts = {
   correctionCount: ["Corrections: {count}", "Berichtigungen: {count}"],
   bySuggestion: ["suggestion", "Vorschlag"],
   byPerson: ["decided", "entschieden"],
+  byCarrying: ["carried over", "übernommen"],
+  carriedFromMap: [
+    "The labels and corrections come from an earlier scan of the site; {kept} of them were kept.",
+    "Die Labels und Berichtigungen stammen von einer früheren Aufnahme der Anlage; {kept} davon blieben erhalten.",
+  ],
+  carriedFromAnalysis: [
+    "The labels come from another analysis of the map; {kept} of them were kept.",
+    "Die Labels stammen von einer anderen Analyse der Karte; {kept} davon blieben erhalten.",
+  ],
+  labelsNotKept: ["Could not be kept", "Nicht erhalten"],
   restore: ["Restore", "Wiederherstellen"],
   restoreOne: ["Restore version {version}", "Version {version} wiederherstellen"],
   ruleSet: ["Rule set", "Regelsatz"],

@@ -47,6 +47,7 @@ export const mapsTexts = {
   ],
   deletedMaps: ["Deleted maps", "Gelöschte Karten"],
   deletedMap: ["“{name}” was deleted.", "„{name}“ wurde gelöscht."],
+  restorableUntil: ["It can be brought back until {moment}.", "Bis {moment} lässt sie sich zurückholen."],
   undoDeletion: ["Undo", "Rückgängig"],
   undoDeletionOf: ["Bring back {name}", "{name} zurückholen"],
   rename: ["Rename", "Umbenennen"],

@@ -1,5 +1,6 @@
 /** Every text of the page by its name. What the service says stays in its own words. */
 
+import { analysesTexts } from "./analyses";
 import { compareTexts } from "./compare";
 import { correctTexts } from "./correct";
 import { decideTexts } from "./decide";
@@ -19,6 +20,7 @@ export const TABLES = [
   decideTexts,
   correctTexts,
   compareTexts,
+  analysesTexts,
   routesTexts,
   handOverTexts,
 ] as const;
@@ -31,6 +33,7 @@ export const texts = {
   ...decideTexts,
   ...correctTexts,
   ...compareTexts,
+  ...analysesTexts,
   ...routesTexts,
   ...handOverTexts,
 };

@@ -1,5 +1,6 @@
 /** The tools of a map, in the order of their tabs. */
 
+import { analyses } from "./analyses/analyses";
 import { compare } from "./compare/compare";
 import { correct } from "./correct/correct";
 import { decide } from "./decide/decide";
@@ -8,4 +9,4 @@ import { look } from "./look/look";
 import { routes } from "./routes/routes";
 import type { Tool } from "./workspace";
 
-export const TOOLS: readonly Tool[] = [look, decide, correct, compare, routes, handOver];
+export const TOOLS: readonly Tool[] = [look, decide, correct, compare, analyses, routes, handOver];

@@ -1,57 +1,33 @@
-/** Maps that were deleted in this browser and that the service still keeps: each can be brought back. */
+/** Maps that were deleted, by whomever, and that the service still keeps: each can be brought back. */
 
 import { button, h, replace } from "../../dom";
-import { t } from "../../language";
-import { isKept, restoreMap } from "../../service/maps";
-import type { MapView } from "../../service/types";
-import { readStored, writeStored } from "../../stored";
-
-const KEY = "stillage.deleted";
-
-interface DeletedMap {
-  readonly id: string;
-  readonly name: string;
-}
+import { moment, t } from "../../language";
+import { listDeletedMaps, restoreMap } from "../../service/maps";
+import type { DeletedMap } from "../../service/types";
 
 export interface DeletedMaps {
   readonly element: HTMLElement;
-  /** A map was deleted. */
-  add(map: MapView): void;
-  /** Asks the service which of them it still keeps. */
-  check(): Promise<void>;
+  /** Asks the service which there are. */
+  read(): Promise<void>;
 }
 
 export function deletedMaps(restored: () => void, failed: (error: unknown) => void): DeletedMaps {
-  const element = h("ul", { class: "deleted", "aria-label": t("deletedMaps"), "aria-live": "polite" });
-  let maps = readStored<readonly DeletedMap[]>(KEY) ?? [];
+  const element = h("ul", { class: "deleted", "aria-label": t("deletedMaps"), "aria-live": "polite", hidden: true });
 
-  function keep(kept: readonly DeletedMap[]): void {
-    maps = kept;
-    writeStored(KEY, kept.length > 0 ? kept : undefined);
-    element.hidden = kept.length === 0;
-    replace(element, ...kept.map(line));
-  }
-
-  function line(map: DeletedMap): HTMLElement {
-    const restore = async (): Promise<void> => {
-      await restoreMap(map.id);
-      keep(maps.filter(({ id }) => id !== map.id));
-      restored();
-    };
-    const undo = button(t("undoDeletion"), () => void restore().catch(failed), {
-      "aria-label": t("undoDeletionOf", { name: map.name }),
+  function line({ id, name, restorableUntil }: DeletedMap): HTMLElement {
+    const undo = button(t("undoDeletion"), () => void restoreMap(id).then(restored).catch(failed), {
+      "aria-label": t("undoDeletionOf", { name }),
     });
-    return h("li", { class: "card line" }, t("deletedMap", { name: map.name }), undo);
+    const until = h("small", {}, t("restorableUntil", { moment: moment(restorableUntil) }));
+    return h("li", { class: "card line" }, h("span", {}, t("deletedMap", { name }), " ", until), undo);
   }
 
-  keep(maps);
   return {
     element,
-    add: ({ id, name }) => keep([{ id, name }, ...maps]),
-    check: async () => {
-      const asked = maps;
-      const kept = await Promise.all(asked.map(({ id }) => isKept(id)));
-      keep(maps.filter((map) => kept[asked.indexOf(map)] ?? true));
+    read: async () => {
+      const maps = await listDeletedMaps();
+      element.hidden = maps.length === 0;
+      replace(element, ...maps.map(line));
     },
   };
 }

@@ -19,18 +19,12 @@ export interface CardJob {
   readonly isWatched: boolean;
 }
 
-/** What the list does after a card's actions. */
-export interface CardEvents extends JobEvents {
-  /** The map was deleted. */
-  readonly deleted: (map: MapView) => void;
-}
-
-export function mapCard(map: MapView, job: CardJob, events: CardEvents): HTMLElement {
+export function mapCard(map: MapView, job: CardJob, events: JobEvents): HTMLElement {
   const isAnalysed = Boolean(map.analysisId);
   const remove = async (): Promise<void> => {
     if (!(await confirm(t("deleteQuestion", { name: map.name }), t("deleteMeaning"), t("delete")))) return;
     await deleteMap(map.id);
-    events.deleted(map);
+    events.changed();
   };
   const name = isAnalysed ? h("a", { href: ofMap(map.id) }, map.name) : map.name;
   return h(

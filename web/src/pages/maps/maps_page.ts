@@ -26,17 +26,13 @@ export function mapsPage(): Page {
   }
 
   async function read(): Promise<void> {
-    const [maps, jobs] = await Promise.all([listMaps(), latestJobs()]);
+    const [maps, jobs] = await Promise.all([listMaps(), latestJobs(), deleted.read()]);
     if (isLeft) return;
     clear(problems);
     stopFollowing();
     const events = {
       changed: () => void read().catch(failed),
       failed,
-      deleted: (map: MapView) => {
-        deleted.add(map);
-        void read().catch(failed);
-      },
       following: (stop: () => void) => void following.push(stop),
     };
     const watched = watchedJobs([...jobs.values()]);
@@ -48,7 +44,7 @@ export function mapsPage(): Page {
     else replace(list, ...maps.map(card));
   }
 
-  const begin = (): void => void read().then(deleted.check).catch(failed);
+  const begin = (): void => void read().catch(failed);
   const stopWaiting = onConnection((isGone) => !isGone && begin());
   begin();
   document.title = `${t("maps")} · stillage`;

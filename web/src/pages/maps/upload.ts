@@ -2,11 +2,11 @@
 
 import { button, field, h, replace } from "../../dom";
 import { t } from "../../language";
+import { optionsForm } from "../../parts/options_form";
 import { clear, problemBox, show } from "../../parts/problem";
 import { createMap, type Upload } from "../../service/maps";
 import { optionDocument } from "../../service/options";
 import type { Job } from "../../service/types";
-import { optionsForm } from "./options_form";
 import { classify, waitsForPicture, type Missing } from "./uploaded_files";
 
 /** The form; tells the job of a map that is uploaded. */

@@ -1,11 +1,12 @@
-/** Comparing a map with an earlier version of its labels or with another map: side by side under a divider, and as a list. */
+/** Comparing a map with an earlier version of its labels, another analysis or another map: under a divider, and as a list. */
 
 import Feature from "ol/Feature";
 import { Point as PointGeometry } from "ol/geom";
 import VectorSource from "ol/source/Vector";
 import type Style from "ol/style/Style";
 
-import { button, field, h, replace } from "../../../dom";
+import * as address from "../../../address";
+import { field, h, replace } from "../../../dom";
 import { moment, t } from "../../../language";
 import type { Point } from "../../../map/frame";
 import { dot } from "../../../map/look";
@@ -13,12 +14,12 @@ import { clear, problemBox, show } from "../../../parts/problem";
 import { listMaps } from "../../../service/maps";
 import { get } from "../../../service/request";
 import type { Analysis, MapView, Semantics } from "../../../service/types";
+import { wayBack } from "../analyses/activation";
+import { changeList } from "../change_list";
 import type { OpenTool, Tool, Workspace } from "../workspace";
 import { compareAnalysis } from "./analysis_comparison";
-import { changeList } from "./change_list";
 import type { Comparison } from "./comparison";
 import { compareMap } from "./map_comparison";
-import { differentOptions } from "./different_options";
 import { swipe } from "./swipe";
 import { compareVersion } from "./version_comparison";
 
@@ -30,6 +31,7 @@ const MARGIN = 6;
 function open(workspace: Workspace): OpenTool {
   const { map, canvas, labels, failed } = workspace;
   const problems = problemBox();
+  const notice = h("div", { role: "status" });
   const answer = h("div", {});
   const select = h("select", { onchange: () => void start(select.value) });
   const marks = new VectorSource();
@@ -81,28 +83,37 @@ function open(workspace: Workspace): OpenTool {
     wanted = value;
     stop();
     clear(problems);
+    remember(value);
     const [kind, id = ""] = value.split(" ");
-    if (kind === "") return;
-    if (kind === "analysis") return ask(id);
-    await run(value, kind === "map" ? compareMap(workspace, id) : compareVersion(workspace, Number(id)));
+    if (kind === "analysis") return startAnalysis(value, id);
+    if (kind !== "")
+      await run(value, kind === "map" ? compareMap(workspace, id) : compareVersion(workspace, Number(id)));
   }
 
-  /** Another analysis is put in force first: that is asked, for everybody sees it. */
-  function ask(id: string): void {
+  async function startAnalysis(value: string, id: string): Promise<void> {
     const [other, inForce] = [analyses.find((one) => one.id === id), analyses.find((one) => one.inForce)];
     if (!other || !inForce) return;
-    const options = differentOptions(inForce.options, other.options);
-    const activate = async (): Promise<void> => {
-      await run(`analysis ${id}`, compareAnalysis(workspace, other, inForce));
-      await readChoices();
+    const activated = async (): Promise<void> => {
+      const undone = (): Promise<void> => (replace(notice), restart(value));
+      replace(notice, wayBack(workspace, inForce.id, undone));
+      await restart(`analysis ${inForce.id}`);
     };
-    replace(
-      answer,
-      options.length > 0 && h("p", {}, t("differentOptions")),
-      h("ul", {}, ...options.map(({ path, before, now }) => h("li", {}, `${path}: ${before} → ${now}`))),
-      h("p", {}, t("activateMeaning")),
-      button(t("activate"), () => void activate().catch(failed), { class: "primary" }),
-    );
+    await run(value, compareAnalysis(workspace, other, inForce, activated));
+  }
+
+  /** Another analysis is in force: the choices are others. */
+  async function restart(value: string): Promise<void> {
+    await readChoices();
+    select.value = value;
+    await start(value);
+  }
+
+  /** What is compared with is part of the address: whoever has it sees the same. */
+  function remember(value: string): void {
+    const { tool, view } = address.read(location.hash);
+    const now = address.withValue(view, "with", value === "" ? undefined : value);
+    history.replaceState(null, "", address.ofMap(map.id, tool, now));
+    canvas.target.dispatchEvent(new Event("layerschanged"));
   }
 
   async function run(value: string, comparing: Promise<Comparison>): Promise<void> {
@@ -116,10 +127,10 @@ function open(workspace: Workspace): OpenTool {
     }
   }
 
-  function draw({ layers, name, hasPicture, remarks, groups }: Comparison): void {
+  function draw({ layers, name, nameInForce, hasPicture, remarks, groups, actions }: Comparison): void {
     for (const layer of layers) canvas.map.addLayer(layer);
     const right = hasPicture ? [canvas.raster, ...canvas.ownLayers()] : canvas.ownLayers();
-    const rightName = hasPicture ? map.name : t("version", { version: labels.inForce.version });
+    const rightName = nameInForce ?? t("version", { version: labels.inForce.version });
     const endSwipe = swipe(canvas, { left: layers, right, leftName: name, rightName });
     for (const { color, changes } of groups) {
       for (const { position } of changes) {
@@ -129,7 +140,8 @@ function open(workspace: Workspace): OpenTool {
         marks.addFeature(mark);
       }
     }
-    replace(answer, ...remarks.map((remark) => h("p", {}, remark)), changeList(groups, fly));
+    const said = remarks.map((remark) => (typeof remark === "string" ? h("p", {}, remark) : remark));
+    replace(answer, ...said, actions, changeList(groups, fly));
     end = () => {
       endSwipe();
       for (const layer of layers) canvas.map.removeLayer(layer);
@@ -147,13 +159,21 @@ function open(workspace: Workspace): OpenTool {
     replace(answer);
   }
 
-  readChoices().catch(failed);
+  const begin = async (): Promise<void> => {
+    await readChoices();
+    const named = address.read(location.hash).view.get("with") ?? "";
+    select.value = named;
+    if (named !== "" && select.value === named) await start(named);
+    else select.value = "";
+  };
+  begin().catch(failed);
   return {
     element: h(
       "section",
       { "aria-label": t("compare") },
       h("p", {}, h("small", {}, t("compareMeaning"))),
       field(t("compareWith"), select),
+      notice,
       problems,
       answer,
     ),

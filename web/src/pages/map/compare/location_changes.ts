@@ -4,16 +4,11 @@ import { t } from "../../../language";
 import type { Point } from "../../../map/frame";
 import { COLORS } from "../../../map/look";
 import type { LocationChanges } from "../../../service/types";
-import type { ChangeGroup } from "./change_list";
-
-/** What is shown of the changes. */
-export type ShownChanges = Pick<LocationChanges, "added" | "removed"> & {
-  readonly changed: readonly Pick<LocationChanges["changed"][number], "code" | "codeBefore" | "changes" | "centre">[];
-};
+import type { ChangeGroup } from "../change_list";
 
 /** Groups of changes; `place` leads from the coordinates of the answer to the shown map. */
 export function locationGroups(
-  { added, removed, changed }: ShownChanges,
+  { added, removed, changed }: LocationChanges,
   place: (position: Point) => Point,
 ): ChangeGroup[] {
   const at = (centre: readonly number[]): Point => place([centre[0] ?? 0, centre[1] ?? 0]);

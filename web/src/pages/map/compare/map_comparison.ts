@@ -47,6 +47,7 @@ export async function compareMap({ map, canvas }: Workspace, id: string): Promis
   return {
     layers: [picture, faces],
     name: `${other.name}, ${moment(other.created)}`,
+    nameInForce: map.name,
     hasPicture: true,
     remarks: [
       t("comparedFromTo", { before: before.name, now: now.name }),

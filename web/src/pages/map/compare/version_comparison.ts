@@ -12,7 +12,7 @@ import { area, COLORS } from "../../../map/look";
 import { get } from "../../../service/request";
 import type { LabelComparison, Semantics } from "../../../service/types";
 import type { Workspace } from "../workspace";
-import type { Change, ChangeGroup } from "./change_list";
+import type { Change, ChangeGroup } from "../change_list";
 import type { Comparison } from "./comparison";
 import { readColors } from "./label_colors";
 import { locationGroups } from "./location_changes";

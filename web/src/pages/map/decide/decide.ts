@@ -8,6 +8,7 @@ import { rowOf } from "../../../map/geojson";
 import { get } from "../../../service/request";
 import type { Category } from "../../../service/types";
 import type { OpenTool, Tool, Workspace } from "../workspace";
+import { carriedNotice } from "./carried_notice";
 import { categoryList } from "./category_list";
 import { effect } from "./effect";
 import { faceSelection } from "./face_selection";
@@ -39,6 +40,7 @@ function open(workspace: Workspace): OpenTool {
     const isHistoryOpen = element.querySelector<HTMLDetailsElement>("details.history")?.open ?? false;
     replace(
       content,
+      carriedNotice(workspace),
       ruleSetChoice(workspace),
       selection.element(),
       h("h2", {}, t("categories")),

@@ -7,6 +7,9 @@ import { get } from "../../../service/request";
 import type { Semantics } from "../../../service/types";
 import type { Workspace } from "../workspace";
 
+/** Who decided, by the name of its text. */
+const ORIGINS = { suggested: "bySuggestion", assigned: "byPerson", carried: "byCarrying" } as const;
+
 export function historyList(workspace: Workspace, isOpen: boolean, restored: () => Promise<void>): HTMLElement {
   const { map, labels, failed } = workspace;
   const list = h("ul", { class: "list" });
@@ -24,9 +27,9 @@ export function historyList(workspace: Workspace, isOpen: boolean, restored: () 
   }
 
   function line(version: Semantics, before: Semantics | undefined): HTMLElement {
-    const origin = version.origin === "suggested" ? t("bySuggestion") : t("byPerson");
+    const origin = t(ORIGINS[version.origin]);
     const changes = before ? t("changes", { count: differences(before, version).length }) : "";
-    const { correctionCount = 0 } = version as Semantics & { readonly correctionCount?: number };
+    const { correctionCount } = version;
     const corrected = correctionCount > 0 ? t("correctionCount", { count: correctionCount }) : "";
     const restore = (): void => void labels.restore(version.version).then(restored).catch(failed);
     return h(

@@ -1,8 +1,8 @@
 /** What changed, group by group, each line with its place on the map. */
 
-import { button, h } from "../../../dom";
-import { t } from "../../../language";
-import type { Point } from "../../../map/frame";
+import { button, h } from "../../dom";
+import { t } from "../../language";
+import type { Point } from "../../map/frame";
 
 /** Lines of a group that are shown. */
 const MOST = 100;
@@ -26,11 +26,12 @@ export function changeList(groups: readonly ChangeGroup[], fly: (position: Point
     "div",
     { class: "list", "aria-live": "polite" },
     h("p", {}, h("strong", {}, count === 0 ? t("nothingChanged") : t("changes", { count }))),
-    ...groups.filter(({ changes }) => changes.length > 0).map((group) => section(group, fly)),
+    ...groups.filter(({ changes }) => changes.length > 0).map((group) => changeGroup(group, fly)),
   );
 }
 
-function section({ title, color, changes }: ChangeGroup, fly: (position: Point) => void): HTMLElement {
+/** One group, folded open. */
+export function changeGroup({ title, color, changes }: ChangeGroup, fly: (position: Point) => void): HTMLElement {
   const dot = h("span", { class: "swatch", "aria-hidden": "true" });
   dot.style.backgroundColor = color;
   const line = ({ text, position }: Change): HTMLElement =>

@@ -1,36 +1,44 @@
 /** The options of an analysis with their meaning, from the OpenAPI document. What stays empty keeps its default. */
 
-import { choice, field, h, replace } from "../../dom";
-import { inLanguage, t } from "../../language";
-import { problemBox, show } from "../../parts/problem";
-import { readOptionFields, type OptionField } from "../../service/options";
-import { optionGroups, optionTexts } from "../../texts/options";
+import { choice, field, h, replace } from "../dom";
+import { inLanguage, t } from "../language";
+import { readOptionFields, saidOptions, written, type OptionField } from "../service/options";
+import { optionGroups, optionTexts } from "../texts/options";
+import { problemBox, show } from "./problem";
 
 export interface OptionsForm {
   readonly element: HTMLElement;
   /** What was chosen, by path (`group/name`). */
   chosen(): ReadonlyMap<string, unknown>;
+  /** Fills the form with whole options; without them, every option has its default. */
+  fill(options?: unknown): Promise<void>;
 }
 
+/** The form, folded until it is filled or opened. */
 export function optionsForm(): OptionsForm {
-  const chosen = new Map<string, unknown>();
+  let chosen = new Map<string, unknown>();
   const content = h("div", { class: "options" });
-  let isAsked = false;
+  let isFilled = false;
   const element = h("details", {}, h("summary", {}, t("options")), content);
+
+  async function fill(options?: unknown): Promise<void> {
+    isFilled = true;
+    try {
+      const fields = await readOptionFields();
+      chosen = saidOptions(fields, options);
+      replace(content, ...groups(fields).map(([name, group]) => fieldset(name, group, chosen)));
+    } catch (error) {
+      isFilled = false;
+      const box = problemBox();
+      replace(content, box);
+      show(box, error);
+    }
+  }
+
   element.addEventListener("toggle", () => {
-    if (isAsked) return;
-    isAsked = true;
-    readOptionFields().then(
-      (fields) => replace(content, ...groups(fields).map(([name, group]) => fieldset(name, group, chosen))),
-      (error: unknown) => {
-        isAsked = false;
-        const box = problemBox();
-        replace(content, box);
-        show(box, error);
-      },
-    );
+    if (element.open && !isFilled) void fill();
   });
-  return { element, chosen: () => chosen };
+  return { element, chosen: () => chosen, fill };
 }
 
 /** Fields by the group that they lie in; those of none first. */
@@ -60,10 +68,11 @@ function input(option: OptionField, chosen: Map<string, unknown>): HTMLElement {
   const standard = option.standard === "" ? t("automatic") : t("standard", { value: option.standard });
   const set = (text: string, value: unknown): void =>
     void (text === "" ? chosen.delete(path) : chosen.set(path, value));
+  const begin = chosen.has(path) ? written(chosen.get(path)) : "";
   if (option.kind === "choice" || option.kind === "switch") {
     const values = option.kind === "switch" ? ["true", "false"] : option.values;
     const options = [["", standard] as const, ...values.map((value) => [value, value] as const)];
-    return choice(options, "", (value) => set(value, option.kind === "switch" ? value === "true" : value));
+    return choice(options, begin, (value) => set(value, option.kind === "switch" ? value === "true" : value));
   }
   const text = h("input", {
     type: option.kind === "number" ? "number" : "text",
@@ -71,6 +80,7 @@ function input(option: OptionField, chosen: Map<string, unknown>): HTMLElement {
     min: option.minimum,
     max: option.maximum,
     placeholder: standard,
+    value: begin,
     oninput: () => set(text.value, option.kind === "number" ? text.valueAsNumber : jsonOrText(text.value)),
   });
   return text;

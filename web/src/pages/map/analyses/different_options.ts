@@ -1,5 +1,7 @@
 /** The options in which two analyses differ. */
 
+import { written } from "../../../service/options";
+
 export interface DifferentOption {
   /** Its steps from the top, as docs/options.md writes them. */
   readonly path: string;
@@ -21,5 +23,5 @@ function isObject(value: unknown): value is Record<string, unknown> {
 }
 
 function text(value: unknown): string {
-  return value === undefined || value === null ? "–" : JSON.stringify(value);
+  return value === undefined || value === null ? "–" : written(value);
 }
