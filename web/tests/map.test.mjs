@@ -40,7 +40,11 @@ test("a click tells all that is known of a place", async () => {
   await openMap(page, service.base, map);
   await clickMap(page, location.centre);
   const inspector = page.getByRole("complementary", { name: "Properties" });
-  await inspector.getByText("areaM2").first().waitFor();
+  await inspector.getByText("Area, m²").first().waitFor();
+  await inspector
+    .locator("summary", { hasText: /^(Face|Location) / })
+    .first()
+    .waitFor();
   const link = await inspector.getByRole("link", { name: "JSON" }).first().getAttribute("href");
   assert.match(link, new RegExp(`^v1/maps/${map}/collections/\\w+/items/`));
   await picture(page, "look");
@@ -222,8 +226,8 @@ test("locations are listed, sorted and filtered; files are offered with their op
   const codes = page.locator("tbody tr td:first-child");
   await codes.first().waitFor();
   const first = await codes.first().textContent();
-  await page.getByRole("button", { name: /^code/ }).click();
-  await page.getByRole("button", { name: "code ▼" }).waitFor();
+  await page.getByRole("button", { name: /^Code/ }).click();
+  await page.getByRole("button", { name: "Code ▼" }).waitFor();
   assert.notEqual(await codes.first().textContent(), first);
   await page.getByLabel("Filter").fill(first);
   assert.equal(await codes.count(), 1);

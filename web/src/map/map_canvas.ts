@@ -18,8 +18,11 @@ import { pictureOf, rasterLayer } from "./raster";
 
 /** How near a line or a point has to be to the pointer, pixels. */
 const NEAR = 6;
-/** Pixels kept free around what is shown whole; at the right lies the list of layers. */
-const PADDING = [30, 250, 40, 40];
+/** Width of a page, pixels, on which the list of layers lies open beside the map. */
+export const WIDE = 900;
+/** Pixels kept free around what is shown whole; at the right lies the list of layers, where it is open. */
+const PADDING = [30, 40, 40, 40];
+const PADDING_BESIDE_LAYERS = [30, 250, 40, 40];
 /** The closest view of a flight, metres a pixel. */
 const CLOSEST_FLIGHT = 0.02;
 /** Pixels of a cell at the closest look. */
@@ -142,7 +145,8 @@ export class MapCanvas {
 
   /** Shows a box whole, at once or by a short flight. */
   fit(box: Box, duration = 0): void {
-    this.map.getView().fit(box, { padding: PADDING, duration, minResolution: CLOSEST_FLIGHT });
+    const padding = innerWidth > WIDE ? PADDING_BESIDE_LAYERS : PADDING;
+    this.map.getView().fit(box, { padding, duration, minResolution: CLOSEST_FLIGHT });
   }
 }
 

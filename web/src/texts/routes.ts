@@ -12,7 +12,7 @@ export const routesTexts = {
   to: ["To", "Nach"],
   here: ["here", "hier"],
   footprint: ["Vehicle", "Fahrzeug"],
-  radius: ["It keeps {metres} m from obstacles.", "Es hält {metres} m Abstand von Hindernissen."],
+  radius: ["Its middle keeps {metres} m from obstacles.", "Seine Mitte hält {metres} m Abstand von Hindernissen."],
   best: ["Best is", "Am besten ist"],
   shortest: ["the shortest way", "der kürzeste Weg"],
   clearance: ["far from obstacles", "weit von Hindernissen"],

@@ -8,6 +8,8 @@ import { confirmCodes } from "../../service/codes";
 import { rowOf } from "../../map/geojson";
 import type { Collections } from "../../map/collections";
 import type { MapCanvas } from "../../map/map_canvas";
+import { propertyTitles } from "../../map/property_titles";
+import type { TextName } from "../../texts/texts";
 
 export function inspector(
   map: string,
@@ -67,18 +69,22 @@ function section(
 ): HTMLElement {
   const [collection = "", ...id] = String(feature.getId()).split("/");
   const name = id.join("/");
+  const row = rowOf(feature);
+  const heads = new Map<string, HTMLElement>();
+  const line = ([key, value]: [string, unknown]): HTMLElement => {
+    // The name by which programs ask for it.
+    const head = h("th", { scope: "row", title: key }, key);
+    heads.set(key, head);
+    return h("tr", {}, head, h("td", {}, readable(value)));
+  };
+  const isSaid = ([, value]: [string, unknown]): boolean =>
+    value !== null && !(Array.isArray(value) && value.length === 0);
   const details = h(
     "details",
     { open: isOpen },
-    h("summary", {}, `${collection} ${name}`),
+    h("summary", {}, [`${oneOf(collection)} ${name}`, row["labelName"], row["name"]].filter(Boolean).join(" · ")),
     question,
-    h(
-      "table",
-      {},
-      ...Object.entries(rowOf(feature))
-        .filter(([, value]) => value !== null && !(Array.isArray(value) && value.length === 0))
-        .map(([key, value]) => h("tr", {}, h("th", { scope: "row" }, key), h("td", {}, readable(value)))),
-    ),
+    h("table", {}, ...Object.entries(row).filter(isSaid).map(line)),
     h(
       "a",
       {
@@ -90,7 +96,29 @@ function section(
     ),
   );
   details.addEventListener("toggle", () => details.open && opened());
+  // Without titles the names stay.
+  propertyTitles(map, collection).then(
+    (titles) => heads.forEach((head, key) => replace(head, titles.get(key) ?? key)),
+    () => undefined,
+  );
   return details;
+}
+
+/** What one thing of a collection is called. */
+const ONE = {
+  faces: "oneFace",
+  edges: "oneEdge",
+  locations: "oneLocation",
+  places: "onePlace",
+  doors: "oneDoor",
+  lines: "oneLine",
+  regions: "oneRegion",
+  nodes: "oneNode",
+  links: "oneLink",
+} as const satisfies Record<string, TextName>;
+
+function oneOf(collection: string): string {
+  return collection in ONE ? t(ONE[collection as keyof typeof ONE]) : collection;
 }
 
 function readable(value: unknown): string {

@@ -3,6 +3,7 @@
 import { h, replace, swatch } from "../../dom";
 import { t } from "../../language";
 import { LAYERS, type LayerKind } from "../../map/layers";
+import { WIDE } from "../../map/map_canvas";
 import type { Workspace } from "./workspace";
 
 export function layerSwitch(workspace: Workspace): { readonly element: HTMLElement; update(): void } {
@@ -53,7 +54,7 @@ export function layerSwitch(workspace: Workspace): { readonly element: HTMLEleme
   const title = h("summary", {}, t("layers"));
   const element = h(
     "details",
-    { class: "layers card", open: innerWidth > 900 },
+    { class: "layers card", open: innerWidth > WIDE },
     title,
     h("label", { class: "line" }, t("picture"), opacity),
     list,

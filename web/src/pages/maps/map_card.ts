@@ -30,7 +30,7 @@ export function mapCard(map: MapView, job: CardJob, events: JobEvents): HTMLElem
   return h(
     "li",
     { class: "card map" },
-    thumbnail(map),
+    isAnalysed ? h("a", { href: ofMap(map.id), tabindex: -1, "aria-hidden": "true" }, thumbnail(map)) : thumbnail(map),
     h(
       "div",
       { class: "about" },

@@ -15,7 +15,7 @@ export const analyses: Tool = { id: "analyses", name: "analyses", open };
 function open(workspace: Workspace): OpenTool {
   const { map, failed } = workspace;
   const notice = h("div", { role: "status" });
-  const list = h("ol", { class: "list analyses" });
+  const list = h("ol", { class: "analyses" });
   const again = againForm(workspace, show);
 
   /** Reads the analyses; the one that was made just now is marked. */

@@ -68,8 +68,9 @@ export function correctBar(workspace: Workspace, corrections: Corrections, saved
     const changes = corrections.count;
     replace(count, changes === 0 ? t("version", { version: corrections.version }) : t("changes", { count: changes }));
     [save.disabled, discard.disabled] = [changes === 0, changes === 0];
-    undo.disabled = changes > 0 && !corrections.canUndoDraft;
-    redo.disabled = changes > 0 && !corrections.canRedoDraft;
+    // Before the first version there is nothing; only one that restores another has something after it.
+    undo.disabled = !corrections.canUndoDraft && (changes > 0 || corrections.version === 0);
+    redo.disabled = !corrections.canRedoDraft && (changes > 0 || !("restores" in labels.inForce));
   }
 
   // A draft that was kept in the browser can be older than what is in force.

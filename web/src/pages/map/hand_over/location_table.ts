@@ -1,8 +1,11 @@
 /** The storage locations as a table that is sorted and filtered; a line leads to its place on the map. */
 
+import type Feature from "ol/Feature";
+
 import { button, field, h, replace } from "../../../dom";
 import { number, t } from "../../../language";
 import { rowOf, type Properties } from "../../../map/geojson";
+import type { TextName } from "../../../texts/texts";
 import type { Workspace } from "../workspace";
 import { COLUMNS, shownRows, type Column, type Order } from "./table_rows";
 
@@ -11,8 +14,34 @@ const MOST = 200;
 /** Metres around a location that is flown to. */
 const MARGIN = 6;
 
+/** The heads of the columns, by the names of their texts. */
+const TITLES = {
+  code: "columnCode",
+  name: "columnName",
+  aisle: "columnAisle",
+  bay: "columnBay",
+  side: "columnSide",
+  label: "columnLabel",
+  widthM: "columnWidthM",
+  depthM: "columnDepthM",
+  occupancy: "columnOccupancy",
+} as const satisfies Record<Column, TextName>;
+
+/** Words of the service that the page has in both languages. */
+const WORDS = {
+  left: "sideLeft",
+  right: "sideRight",
+  occupied: "occupied",
+  empty: "empty",
+  unknown: "unknown",
+} as const satisfies Record<string, TextName>;
+
+function isWord(value: unknown): value is keyof typeof WORDS {
+  return typeof value === "string" && value in WORDS;
+}
+
 export function locationTable(workspace: Workspace): HTMLElement {
-  const { map, collections, failed } = workspace;
+  const { map, collections, labels, failed } = workspace;
   let rows: Properties[] = [];
   let order: Order = { column: "code", isDescending: false };
   const filter = h("input", { type: "search", autocomplete: "off", oninput: () => show() });
@@ -21,7 +50,7 @@ export function locationTable(workspace: Workspace): HTMLElement {
 
   function show(): void {
     const shown = shownRows(rows, filter.value, order);
-    replace(count, t("rowsShown", { shown: Math.min(shown.length, MOST), found: shown.length, all: rows.length }));
+    replace(count, counted(shown.length));
     replace(
       table,
       h("thead", {}, h("tr", {}, ...COLUMNS.map(head))),
@@ -31,6 +60,13 @@ export function locationTable(workspace: Workspace): HTMLElement {
         ...shown.slice(0, MOST).map((row) => h("tr", {}, ...COLUMNS.map((column) => h("td", {}, cell(row, column))))),
       ),
     );
+  }
+
+  function counted(found: number): string {
+    const all = rows.length;
+    if (all === 0) return t("noLocations");
+    if (found > MOST) return t("rowsShown", { shown: MOST, found, all });
+    return found === all ? t("allShown", { all }) : t("rowsFound", { found, all });
   }
 
   function head(column: Column): HTMLElement {
@@ -45,7 +81,7 @@ export function locationTable(workspace: Workspace): HTMLElement {
     return h(
       "th",
       { scope: "col", "aria-sort": direction },
-      button(`${column}${arrow}`, sort, { id: `sort-${column}` }),
+      button(`${t(TITLES[column])}${arrow}`, sort, { id: `sort-${column}` }),
     );
   }
 
@@ -53,6 +89,14 @@ export function locationTable(workspace: Workspace): HTMLElement {
     const value = row[column];
     if (column === "code") return button(String(value), () => fly(String(value)));
     return typeof value === "number" ? number(value, column.endsWith("M") ? 2 : 0) : String(value ?? "");
+  }
+
+  /** The row of a location in the words of the page. */
+  function inWords(location: Feature): Properties {
+    const row = rowOf(location);
+    const word = (value: unknown): string => (isWord(value) ? t(WORDS[value]) : String(value ?? ""));
+    const label = labels.label(String(row["label"]))?.name ?? row["label"];
+    return { ...row, label, side: word(row["side"]), occupancy: word(row["occupancy"]) };
   }
 
   function fly(code: string): void {
@@ -64,7 +108,7 @@ export function locationTable(workspace: Workspace): HTMLElement {
   }
 
   collections.read("locations").then((source) => {
-    rows = source.getFeatures().map(rowOf);
+    rows = source.getFeatures().map(inWords);
     show();
   }, failed);
   return h(
