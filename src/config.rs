@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 use std::time::Duration;
 
+use crate::allowed_hosts::AllowedHosts;
 use crate::ingest::Limits;
 
 /// Configuration of a running service.
@@ -36,6 +37,8 @@ pub struct Config {
     pub max_corrections: usize,
     /// Faces that one correction may make.
     pub max_correction_faces: usize,
+    /// Hosts under which the service answers.
+    pub allowed_hosts: AllowedHosts,
     /// Whether what a proxy says about the client's address is believed.
     pub trust_proxy: bool,
     /// How long a deleted map is kept, so that it can be restored.
@@ -65,6 +68,7 @@ impl Config {
             cached_answer_bytes: 64 << 20,
             max_corrections: 10_000,
             max_correction_faces: 5_000,
+            allowed_hosts: AllowedHosts::default(),
             trust_proxy: false,
             keep_deleted: Duration::from_hours(1),
             shutdown_grace: Duration::from_secs(25),

@@ -13,6 +13,7 @@ use tracing_subscriber::filter::Targets;
 use tracing_subscriber::layer::SubscriberExt as _;
 use tracing_subscriber::util::SubscriberInitExt as _;
 
+use crate::allowed_hosts::HostPattern;
 use crate::app::{App, AppError};
 use crate::config::Config;
 use crate::ingest::Limits;
@@ -72,6 +73,10 @@ pub(super) struct ServeArgs {
     /// Connections at the same time; further ones wait.
     #[arg(long, env = "STILLAGE_MAX_CONNECTIONS", default_value_t = 1_024, value_name = "N")]
     pub(super) max_connections: usize,
+    /// Host names under which the service answers, beside localhost and every address, separated by commas:
+    /// `maps.example.com`, `*.example.com`, or `*` for all.
+    #[arg(long, env = "STILLAGE_ALLOWED_HOSTS", value_delimiter = ',', value_name = "NAMES")]
+    pub(super) allowed_hosts: Vec<HostPattern>,
     /// Believe `Forwarded` and `X-Forwarded-*`: links then have the address by which clients reach the proxy in front. Only
     /// behind a proxy that sets or removes these headers.
     #[arg(long, env = "STILLAGE_TRUST_PROXY")]
@@ -154,6 +159,7 @@ impl ServeArgs {
             cached_answer_bytes: self.cached_answer_mib.saturating_mul(1 << 20),
             max_corrections: self.max_corrections,
             max_correction_faces: self.max_correction_faces,
+            allowed_hosts: self.allowed_hosts.clone().into(),
             trust_proxy: self.trust_proxy,
             shutdown_grace: Duration::from_secs(self.shutdown_grace_s),
             ..defaults

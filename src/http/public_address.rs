@@ -45,6 +45,15 @@ impl PublicAddress {
         self.scheme.is_none_or(|own| own == scheme) && self.authority.as_ref().is_some_and(same)
     }
 
+    /// The host, without its port.
+    #[must_use]
+    pub fn host(&self) -> Option<&str> {
+        let authority = self.authority.as_deref()?;
+        // The colons of an IPv6 address stand in brackets.
+        let port = authority.rfind(':').filter(|&colon| authority[colon..].find(']').is_none());
+        Some(&authority[..port.unwrap_or(authority.len())])
+    }
+
     /// The address of a request.
     fn of(headers: &HeaderMap, uri: &Uri, trust_proxy: bool) -> Self {
         let host = text(headers, "host").or_else(|| uri.authority().map(Authority::as_str)).map(str::to_owned);

@@ -36,6 +36,7 @@ impl Api {
         config.min_free_bytes = 0;
         // Jobs run when a test says so.
         config.job_slots = 0;
+        config.allowed_hosts = vec!["stillage.test".parse().expect("is a name")].into();
         change(&mut config);
         let app = App::open(config).await.expect("the service opens");
         Self { router: stillage::http::router(Arc::clone(&app)), app, _folder: folder }

@@ -159,7 +159,11 @@ async fn links_and_origins_follow_a_proxy_that_is_trusted() {
         ("content-type", "application/json"),
     ];
     let own_page = [forwarded.as_slice(), &[("origin", "https://maps.example.com")]].concat();
-    let trusting = Api::with(|config| config.trust_proxy = true).await;
+    let trusting = Api::with(|config| {
+        config.trust_proxy = true;
+        config.allowed_hosts = vec!["stillage.test".parse().unwrap(), "maps.example.com".parse().unwrap()].into();
+    })
+    .await;
     let page = trusting.get_with("/", &forwarded).await.json();
     assert_eq!(page["links"][0]["href"], "https://maps.example.com/stillage/");
     let answer = trusting.send(post(&own_page, MESSAGE)).await;

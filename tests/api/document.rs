@@ -314,6 +314,7 @@ fn wrongs(site: &Site, operation: &str, good: &Sent) -> Vec<Sent> {
     let mut wrongs = vec![
         sent().at(format!("{}{parameter}", good.path)),
         sent().with("origin", "https://elsewhere.example"),
+        sent().with("host", "elsewhere.example"),
         sent().at(good.path.replace(&site.map, &site.waiting)),
     ];
     if good.method == Method::GET {

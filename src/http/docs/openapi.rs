@@ -8,8 +8,8 @@ use utoipa::openapi::{OpenApi, RefOr, Required, ResponseBuilder, Schema};
 use utoipa::{IntoResponses as _, OpenApi as _};
 
 use super::refusals::{
-    BadRequest, Forbidden, Internal, Invalid, NotAcceptable, PreconditionFailed, Timeout, TooLarge, Unavailable,
-    UnsupportedMediaType,
+    BadRequest, Forbidden, Internal, Invalid, Misdirected, NotAcceptable, PreconditionFailed, Timeout, TooLarge,
+    Unavailable, UnsupportedMediaType,
 };
 use crate::http::extract::crs::CrsName;
 use crate::http::extract::format;
@@ -98,6 +98,7 @@ fn complete_operation(operation: &mut Operation, is_read: bool) {
         (has_if_match, PreconditionFailed::responses()),
         (has_body, TooLarge::responses()),
         (has_body, UnsupportedMediaType::responses()),
+        (true, Misdirected::responses()),
         (has_body, Invalid::responses()),
         (true, Internal::responses()),
         (true, Unavailable::responses()),

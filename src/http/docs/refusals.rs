@@ -61,6 +61,8 @@ refusals! {
     TooLarge = 413, "The request is over a limit";
     /// 415: of every body.
     UnsupportedMediaType = 415, "The format is not supported";
+    /// 421: of every operation.
+    Misdirected = 421, "The service does not answer under this host";
     /// 422: of every body.
     Invalid = 422, "The content is invalid";
     /// 428: named by handlers that write only with `If-Match`.

@@ -1,5 +1,6 @@
 //! What is checked of every request before a handler sees it: host, origin, parameters, pace and patience.
 
+pub mod hosts;
 pub mod observe;
 
 use std::collections::{HashMap, HashSet};
@@ -10,8 +11,7 @@ use std::time::Duration;
 
 use axum::body::{Body, BodyDataStream, Bytes};
 use axum::extract::{MatchedPath, Query, Request, State};
-use axum::http::uri::Authority;
-use axum::http::{HeaderName, HeaderValue, Method, StatusCode, Uri, Version, header};
+use axum::http::{HeaderName, HeaderValue, Method, StatusCode, Uri, header};
 use axum::middleware::Next;
 use axum::response::{IntoResponse, Response};
 use futures::Stream;
@@ -28,29 +28,14 @@ const PACE_GRACE: Duration = Duration::from_secs(15);
 /// Slowest pace of a body, bytes per second: a mobile link of the slow kind.
 const PACE: f64 = 16_384.0;
 
-/// Middleware: exactly one valid `Host` (RFC 9112, 3.2). Requests that smuggle a second one end here.
-pub async fn one_host(request: Request, next: Next) -> Response {
-    let mut hosts = request.headers().get_all(header::HOST).iter();
-    let valid = |host: &HeaderValue| host.to_str().ok().and_then(|host| host.parse::<Authority>().ok()).is_some();
-    let allowed = match (hosts.next(), hosts.next()) {
-        (Some(host), None) => valid(host),
-        // HTTP/2 names the authority in the address, HTTP/1.0 not at all.
-        (None, None) => request.version() != Version::HTTP_11,
-        _ => false,
-    };
-    if allowed {
-        return next.run(request).await;
-    }
-    Problem::new(ProblemType::BadRequest, "a request needs exactly one valid Host header").into_response()
-}
-
 /// Middleware: what pages of other sites may do (CORS), and `OPTIONS`.
 ///
-/// They may read, without credentials; they may not write. A form of another site can post without asking first, so
-/// a write whose `Origin` is not this host is refused. Programs send no `Origin` and are not touched.
+/// They may read, without credentials; they may not write, nor read what a write answers. A form of another site can post
+/// without asking first, so a write whose `Origin` is not this host is refused. Programs send no `Origin` and are not touched.
 pub async fn other_origins(request: Request, next: Next) -> Response {
     let is_options = request.method() == Method::OPTIONS;
-    if !request.method().is_safe() && !is_own_origin(&request) {
+    let is_write = !request.method().is_safe();
+    if is_write && !is_own_origin(&request) {
         let detail = "a page of another site may read this service, not write to it";
         return Problem::new(ProblemType::CrossOrigin, detail).into_response();
     }
@@ -69,13 +54,15 @@ pub async fn other_origins(request: Request, next: Next) -> Response {
             fixed("access-control-max-age", "86400"),
         ]);
     }
-    response.headers_mut().extend([
-        fixed("access-control-allow-origin", "*"),
-        fixed(
-            "access-control-expose-headers",
-            "content-crs, etag, idempotent-replayed, link, location, preference-applied, retry-after, x-request-id",
-        ),
-    ]);
+    if !is_write {
+        response.headers_mut().extend([
+            fixed("access-control-allow-origin", "*"),
+            fixed(
+                "access-control-expose-headers",
+                "content-crs, etag, link, location, preference-applied, retry-after, x-request-id",
+            ),
+        ]);
+    }
     response
 }
 

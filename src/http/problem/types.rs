@@ -31,6 +31,8 @@ problem_types! {
     BadParameter = "bad-parameter", BAD_REQUEST, "A parameter is unknown or has a bad value";
     /// A page of another site tried to write.
     CrossOrigin = "cross-origin-write", FORBIDDEN, "Pages of other sites may not write";
+    /// The service has another name.
+    Misdirected = "misdirected", MISDIRECTED_REQUEST, "The service does not answer under this host";
     /// What is built in cannot be changed.
     ReadOnly = "read-only", FORBIDDEN, "The resource is read-only";
     /// Nothing is there.
