@@ -25,6 +25,14 @@ pub struct Config {
     pub max_attempts: u32,
     /// Jobs that may wait; further uploads are answered 503.
     pub max_queued_jobs: u64,
+    /// Requests under way at the same time, those that wait for their turn included; further ones are answered 503.
+    pub max_requests: usize,
+    /// The same of requests that compute (pictures, routes, exports), and of uploads.
+    pub max_heavy_requests: usize,
+    /// Bytes of requests that are held at the same time until they have arrived.
+    pub max_uploading_bytes: u64,
+    /// Streams of events that are open at the same time.
+    pub max_event_streams: usize,
     /// Free space below which uploads are answered 507, bytes.
     pub min_free_bytes: u64,
     /// Memory that one job may need by estimate, bytes.
@@ -43,6 +51,8 @@ pub struct Config {
     pub trust_proxy: bool,
     /// How long a deleted map is kept, so that it can be restored.
     pub keep_deleted: Duration,
+    /// How long the service says that it is not ready, before it takes no more connections.
+    pub shutdown_notice: Duration,
     /// How long running jobs may go on after a request to stop, before they are put back.
     pub shutdown_grace: Duration,
 }
@@ -61,6 +71,10 @@ impl Config {
             heartbeat: Duration::from_millis(250),
             max_attempts: 5,
             max_queued_jobs: 1_000,
+            max_requests: 256,
+            max_heavy_requests: 32,
+            max_uploading_bytes: 4 << 30,
+            max_event_streams: 256,
             min_free_bytes: 256 << 20,
             max_job_bytes: 8 << 30,
             cached_maps: 8,
@@ -71,6 +85,7 @@ impl Config {
             allowed_hosts: AllowedHosts::default(),
             trust_proxy: false,
             keep_deleted: Duration::from_hours(1),
+            shutdown_notice: Duration::from_secs(1),
             shutdown_grace: Duration::from_secs(25),
         }
     }

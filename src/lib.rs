@@ -22,6 +22,7 @@ mod blocking;
 pub mod cql2;
 mod did_you_mean;
 mod fail_point;
+mod pace;
 
 pub mod store;
 

@@ -35,6 +35,10 @@ impl App {
         {
             return answer(seen);
         }
+        // It is checked again when the job is stored; until then a full queue costs nothing but the reading of the upload.
+        if self.store.waiting_jobs().await? >= self.config.max_queued_jobs {
+            return Err(AppError::Busy { retry_after_s: RETRY_AFTER_S });
+        }
         self.store.check_space()?;
         let (name, options, georeference) = (map.name.trim().to_owned(), map.options, map.georeference);
         let (mut decoded, blob) = self.decode_upload(map.source, &options).await?;

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::net::SocketAddr;
+use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressStyle};
 use stillage_core::AnalysisOptions;
@@ -12,14 +13,14 @@ use super::failure::Failure;
 use crate::app::{App, AppError, Caller, JobRecord, JobState, MapContext, NewMap};
 use crate::config::Config;
 use crate::ingest::MapSource;
-use crate::server;
+use crate::server::{self, ConnectionLimits};
 
 /// A generated warehouse; `examples/README.md` tells how it was made.
 const IMAGE: &[u8] = include_bytes!("../../examples/warehouse.png");
 const METADATA: &[u8] = include_bytes!("../../examples/warehouse.yaml");
 
 /// The demo serves one person.
-const MAX_CONNECTIONS: usize = 64;
+const CONNECTIONS: ConnectionLimits = ConnectionLimits { in_all: 64, of_address: 64 };
 
 /// Arguments of `stillage demo`.
 #[derive(Debug, clap::Args)]
@@ -52,10 +53,12 @@ async fn demo(arguments: &DemoArgs) -> Result<(), Failure> {
     })?;
     let base = format!("http://{}", listener.local_addr().map_err(Failure::internal)?);
     let folder = tempfile::tempdir().map_err(Failure::internal)?;
-    let app = App::open(Config::new(folder.path())).await.map_err(Failure::internal)?;
+    let app = App::open(Config { shutdown_notice: Duration::ZERO, ..Config::new(folder.path()) })
+        .await
+        .map_err(Failure::internal)?;
 
     let (stop, stopped) = tokio::sync::oneshot::channel::<()>();
-    let serving = tokio::spawn(server::serve(listener, app.clone(), MAX_CONNECTIONS, async {
+    let serving = tokio::spawn(server::serve(listener, app.clone(), CONNECTIONS, async {
         // A dropped sender (a failed upload) stops the service as well.
         let _ = stopped.await;
     }));

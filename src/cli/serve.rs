@@ -17,7 +17,7 @@ use crate::allowed_hosts::HostPattern;
 use crate::app::{App, AppError};
 use crate::config::Config;
 use crate::ingest::Limits;
-use crate::server;
+use crate::server::{self, ConnectionLimits, open_files};
 
 /// Serves the API. Everything can also be set in the environment.
 #[derive(Debug, Clone, Args)]
@@ -70,9 +70,24 @@ pub(super) struct ServeArgs {
     /// Faces that one correction may make, such as the places of a row.
     #[arg(long, env = "STILLAGE_MAX_CORRECTION_FACES", default_value_t = 5_000, value_name = "N")]
     pub(super) max_correction_faces: usize,
-    /// Connections at the same time; further ones wait.
+    /// Connections at the same time. Beyond that, the one that has been waiting for its client longest makes room for the next.
     #[arg(long, env = "STILLAGE_MAX_CONNECTIONS", default_value_t = 1_024, value_name = "N")]
     pub(super) max_connections: usize,
+    /// Connections of one address at the same time; half of all when absent, behind a trusted proxy all.
+    #[arg(long, env = "STILLAGE_MAX_CONNECTIONS_PER_ADDRESS", value_name = "N")]
+    pub(super) max_connections_per_address: Option<usize>,
+    /// Requests under way at the same time, those that wait for their turn included; further ones are answered 503.
+    #[arg(long, env = "STILLAGE_MAX_REQUESTS", default_value_t = 256, value_name = "N")]
+    pub(super) max_requests: usize,
+    /// The same of requests that compute (pictures, routes, exports), and of uploads.
+    #[arg(long, env = "STILLAGE_MAX_HEAVY_REQUESTS", default_value_t = 32, value_name = "N")]
+    pub(super) max_heavy_requests: usize,
+    /// Requests that arrive are held on the disk until they are there: so much of them at the same time, MiB.
+    #[arg(long, env = "STILLAGE_MAX_UPLOADING_MIB", default_value_t = 4_096, value_name = "MIB")]
+    pub(super) max_uploading_mib: u64,
+    /// Streams of events that are open at the same time; an address may have a quarter of them, a trusted proxy all.
+    #[arg(long, env = "STILLAGE_MAX_EVENT_STREAMS", default_value_t = 256, value_name = "N")]
+    pub(super) max_event_streams: usize,
     /// Host names under which the service answers, beside localhost and every address, separated by commas:
     /// `maps.example.com`, `*.example.com`, or `*` for all.
     #[arg(long, env = "STILLAGE_ALLOWED_HOSTS", value_delimiter = ',', value_name = "NAMES")]
@@ -81,6 +96,9 @@ pub(super) struct ServeArgs {
     /// behind a proxy that sets or removes these headers.
     #[arg(long, env = "STILLAGE_TRUST_PROXY")]
     pub(super) trust_proxy: bool,
+    /// How long the service is not ready after a request to stop and still answers, seconds, so that balancers see it.
+    #[arg(long, env = "STILLAGE_SHUTDOWN_NOTICE_S", default_value_t = 1, value_name = "S")]
+    pub(super) shutdown_notice_s: u64,
     /// How long running jobs may go on after a request to stop, seconds; then they are put back.
     #[arg(long, env = "STILLAGE_SHUTDOWN_GRACE_S", default_value_t = 25, value_name = "S")]
     pub(super) shutdown_grace_s: u64,
@@ -152,6 +170,10 @@ impl ServeArgs {
             compute_threads: self.compute_threads.unwrap_or(defaults.compute_threads),
             max_attempts: self.max_attempts,
             max_queued_jobs: self.max_queued_jobs,
+            max_requests: self.max_requests,
+            max_heavy_requests: self.max_heavy_requests,
+            max_uploading_bytes: self.max_uploading_mib.saturating_mul(1 << 20),
+            max_event_streams: self.max_event_streams,
             min_free_bytes: self.min_free_mib.saturating_mul(1 << 20),
             max_job_bytes: self.max_job_mib.saturating_mul(1 << 20),
             cached_maps: self.cached_maps,
@@ -161,9 +183,19 @@ impl ServeArgs {
             max_correction_faces: self.max_correction_faces,
             allowed_hosts: self.allowed_hosts.clone().into(),
             trust_proxy: self.trust_proxy,
+            shutdown_notice: Duration::from_secs(self.shutdown_notice_s),
             shutdown_grace: Duration::from_secs(self.shutdown_grace_s),
             ..defaults
         }
+    }
+}
+
+impl ServeArgs {
+    /// The connections that there may be, as far as the system lets there be so many.
+    fn connections(&self) -> ConnectionLimits {
+        let in_all = open_files::make_room(self.max_connections.max(1));
+        let of_address = if self.trust_proxy { in_all } else { in_all.div_ceil(2) };
+        ConnectionLimits { in_all, of_address: self.max_connections_per_address.unwrap_or(of_address).max(1) }
     }
 }
 
@@ -192,7 +224,7 @@ async fn serve(args: &ServeArgs) -> Result<(), ServeError> {
             std::process::exit(130);
         });
     };
-    server::serve(listener, app, args.max_connections, stop).await;
+    server::serve(listener, app, args.connections(), stop).await;
     tracing::info!("stopped");
     Ok(())
 }

@@ -8,6 +8,7 @@
 
 mod admin;
 mod answers;
+mod client_address;
 mod dashboard;
 mod docs;
 mod extract;
@@ -32,73 +33,95 @@ use axum::{Extension, extract::Request, middleware::Next, response::Response};
 use tower::{ServiceBuilder, util::MapRequest};
 use tower_http::catch_panic::CatchPanicLayer;
 use tower_http::compression::CompressionLayer;
-use tower_http::limit::RequestBodyLimitLayer;
-use utoipa_axum::router::{OpenApiRouter, UtoipaMethodRouterExt};
+use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 
+pub use client_address::ClientAddress;
 pub use docs::Texts as OpenApiTexts;
 
 use crate::app::App;
+use crate::config::Config;
 
 /// Bytes that a body may have where nothing else is said: overrides for a hundred thousand faces.
 const BODY_BYTES: usize = 8 << 20;
 
 /// The list of routes.
 ///
-/// What holds for one route only stands at the route: the length of its body and the time for its answer here, the
-/// refusals it can answer and its headers at its handler. The document is made from both.
-fn routes(upload_bytes: usize) -> OpenApiRouter<Arc<App>> {
-    // Refuses by the declared length before anything is read, and while reading where none was declared.
-    let upload_limit =
-        ServiceBuilder::new().layer(RequestBodyLimitLayer::new(upload_bytes)).layer(DefaultBodyLimit::disable());
-    // A large upload takes as long as its pace allows: no clock runs for its answer.
+/// What holds for one route only stands at the route: the length of its body, the time for its answer and how much it
+/// computes here, the refusals it can answer and its headers at its handler. The document is made from both.
+fn routes(config: &Config) -> OpenApiRouter<Arc<App>> {
+    let upload_bytes = config.limits.max_bytes + maps::upload::FORM_OVERHEAD_BYTES;
+    let entrances = guard::admission::Entrances::new(config, BODY_BYTES, upload_bytes);
+    let admit = |entrance| from_fn_with_state(entrance, guard::admission::admit);
+    // The length of their bodies is checked at the entrance. No clock runs for their answers, which may wait for a job.
     let uploads = OpenApiRouter::new()
-        .routes(routes!(maps::map::create).layer(upload_limit.clone()))
-        .routes(routes!(ogc::processes::execute).layer(upload_limit));
+        .routes(routes!(maps::map::create))
+        .routes(routes!(ogc::processes::execute))
+        .layer(DefaultBodyLimit::disable())
+        .layer(admit(entrances.uploads));
+    let heavy = computing().layer(from_fn(guard::in_time)).layer(admit(entrances.heavy));
+    let light = reading_and_writing().layer(from_fn(guard::in_time)).layer(admit(entrances.light));
     OpenApiRouter::with_openapi(docs::openapi::head())
-        .merge(answered_in_time().layer(from_fn(guard::in_time)))
+        .merge(about_the_service().layer(from_fn(guard::in_time)))
+        .merge(light)
+        .merge(heavy)
         .merge(uploads)
 }
 
-/// The routes whose answers come within [`guard::in_time`].
-fn answered_in_time() -> OpenApiRouter<Arc<App>> {
+/// The routes that are answered however much there is to do.
+fn about_the_service() -> OpenApiRouter<Arc<App>> {
     OpenApiRouter::new()
         .routes(routes!(docs::landing))
+        .routes(routes!(admin::health::live))
+        .routes(routes!(admin::health::ready))
+        .routes(routes!(guard::observe::metrics))
+}
+
+/// The routes whose answers are computed: each keeps a core busy for milliseconds to seconds.
+fn computing() -> OpenApiRouter<Arc<App>> {
+    OpenApiRouter::new()
+        .routes(routes!(maps::analyses::faces))
+        .routes(routes!(maps::evaluations::create))
+        .routes(routes!(maps::comparisons::compare))
+        .routes(routes!(maps::comparisons::of_analysis))
+        .routes(routes!(maps::comparisons::changes))
+        .routes(routes!(maps::pictures::image))
+        .routes(routes!(maps::pictures::categories))
+        .routes(routes!(maps::pictures::regions))
+        .routes(routes!(maps::pictures::semantic))
+        .routes(routes!(maps::pictures::semantic_svg))
+        .routes(routes!(maps::label_preview::create))
+        .routes(routes!(maps::version_changes::list))
+        .routes(routes!(fleet::route::get))
+        .routes(routes!(fleet::distance_matrix::create))
+        .routes(routes!(fleet::exports::get))
+        .routes(routes!(fleet::graph_report::get))
+        .routes(routes!(fleet::graph_report::picture))
+}
+
+/// All other routes.
+fn reading_and_writing() -> OpenApiRouter<Arc<App>> {
+    OpenApiRouter::new()
         .route(dashboard::ASSET_PATH, axum::routing::get(dashboard::asset))
         .routes(routes!(docs::openapi))
         .routes(routes!(docs::openapi_3_0))
         .routes(routes!(docs::problem_types::describe))
-        .routes(routes!(admin::health::live))
-        .routes(routes!(admin::health::ready))
-        .routes(routes!(guard::observe::metrics))
         .routes(routes!(maps::map::list))
         .routes(routes!(maps::map::get, maps::map::update, maps::deletion::delete))
         .routes(routes!(maps::deletion::list))
         .routes(routes!(maps::deletion::restore))
         .routes(routes!(maps::analyses::list, maps::analyses::create))
         .routes(routes!(maps::analyses::get))
-        .routes(routes!(maps::analyses::faces))
-        .routes(routes!(maps::comparisons::of_analysis))
         .routes(routes!(maps::analyses::activate))
         .routes(routes!(maps::analyses::diagnostics))
-        .routes(routes!(maps::evaluations::create))
-        .routes(routes!(maps::comparisons::compare))
-        .routes(routes!(maps::comparisons::changes))
         .routes(routes!(maps::registry::get))
         .routes(routes!(maps::registry::confirm))
         .routes(routes!(maps::names::create))
-        .routes(routes!(maps::pictures::image))
-        .routes(routes!(maps::pictures::categories))
-        .routes(routes!(maps::pictures::regions))
-        .routes(routes!(maps::pictures::semantic))
-        .routes(routes!(maps::pictures::semantic_svg))
         .routes(routes!(maps::semantics::categories))
         .routes(routes!(maps::semantics::get, maps::semantics::assign, maps::semantics::change))
-        .routes(routes!(maps::label_preview::create))
         .routes(routes!(maps::semantics::versions))
         .routes(routes!(maps::semantics::version))
         .routes(routes!(maps::semantics::restore))
-        .routes(routes!(maps::version_changes::list))
         .routes(routes!(maps::history::undo))
         .routes(routes!(maps::history::redo))
         .routes(routes!(maps::corrections::list, maps::corrections::create))
@@ -121,12 +144,7 @@ fn answered_in_time() -> OpenApiRouter<Arc<App>> {
         )
         .routes(routes!(fleet::at::get))
         .routes(routes!(fleet::nearest::get))
-        .routes(routes!(fleet::route::get))
-        .routes(routes!(fleet::distance_matrix::create))
         .routes(routes!(fleet::exports::list))
-        .routes(routes!(fleet::exports::get))
-        .routes(routes!(fleet::graph_report::get))
-        .routes(routes!(fleet::graph_report::picture))
         .routes(routes!(ogc::root::landing))
         .routes(routes!(ogc::root::conformance))
         .routes(routes!(ogc::processes::list))
@@ -143,7 +161,7 @@ fn answered_in_time() -> OpenApiRouter<Arc<App>> {
 /// The OpenAPI documents of the service, as they are served and as they lie in `openapi/`.
 #[must_use]
 pub fn openapi_texts() -> OpenApiTexts {
-    OpenApiTexts::of(&docs::openapi::value(&document(routes(BODY_BYTES)).1))
+    OpenApiTexts::of(&docs::openapi::value(&document(routes(&Config::new("data"))).1))
 }
 
 fn document<S: Clone + Send + Sync + 'static>(routes: OpenApiRouter<S>) -> (Router<S>, utoipa::openapi::OpenApi) {
@@ -159,8 +177,7 @@ fn document<S: Clone + Send + Sync + 'static>(routes: OpenApiRouter<S>) -> (Rout
 /// problems; what a deleted map answers; panics; checks of host and origin; pace and coding of bodies; formats; unknown
 /// parameters; `Accept`.
 pub fn router(app: Arc<App>) -> Router {
-    let upload_bytes = app.config().limits.max_bytes + maps::upload::FORM_OVERHEAD_BYTES;
-    let (router, document) = document(routes(upload_bytes));
+    let (router, document) = document(routes(app.config()));
     let known = Arc::new(guard::KnownParameters::of(&document));
     let metrics = Arc::new(guard::observe::Metrics::new());
     let layers = ServiceBuilder::new()
@@ -176,13 +193,14 @@ pub fn router(app: Arc<App>) -> Router {
         .layer(from_fn(guard::hosts::one_host))
         .layer(from_fn_with_state(Arc::clone(&app), guard::hosts::own_host))
         .layer(from_fn(guard::other_origins))
-        .layer(from_fn(guard::at_pace))
+        .layer(from_fn(guard::pace::at_pace))
         .layer(from_fn(extract::coding::decoded))
         .layer(from_fn(extract::format::format_parameter))
         .layer(from_fn_with_state(known, guard::known_parameters))
         .layer(from_fn(extract::negotiation::negotiate))
         .layer(DefaultBodyLimit::max(BODY_BYTES))
         .layer(Extension(Arc::clone(&metrics)))
+        .layer(Extension(ogc::event_streams::EventStreams::new(app.config())))
         .layer(Extension(Arc::new(docs::Documents::of(&docs::openapi::value(&document)))))
         .layer_fn(shared_service::SharedService::new);
     let router = router.merge(docs::reference_page()).layer(layers).with_state(Arc::clone(&app));

@@ -38,6 +38,9 @@ pub trait Jobs {
     /// when there is no such job.
     async fn dismiss(&self, tenant: &Tenant, id: Uuid, now: Timestamp) -> Result<Option<JobRecord>, StoreError>;
 
+    /// How many jobs of all tenants wait.
+    async fn waiting_jobs(&self) -> Result<u64, StoreError>;
+
     /// How many jobs of all tenants are in a state, for every state that has some.
     async fn job_counts(&self) -> Result<Vec<(JobState, u64)>, StoreError>;
 }

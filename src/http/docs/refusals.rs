@@ -70,7 +70,7 @@ refusals! {
     /// 500: of every operation.
     Internal = 500, "The service failed";
     /// 503: of every operation.
-    Unavailable = 503, "The service cannot answer now, or the queue is full";
+    Unavailable = 503, "The service cannot answer now, has as much to do as it can, or its queue is full";
     /// 507: named by handlers that store something large.
     NoSpace = 507, "The server is short of disk space";
 }

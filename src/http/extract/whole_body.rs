@@ -30,7 +30,7 @@ pub async fn body<S: Send + Sync>(request: Request, state: &S) -> Result<Bytes, 
 /// Why a body could not be read to its end.
 pub fn broken_body(error: &(dyn Error + 'static)) -> Problem {
     let mut causes = std::iter::successors(Some(error), |&cause| cause.source());
-    match causes.find_map(|cause| cause.downcast_ref::<crate::http::guard::TooSlow>()) {
+    match causes.find_map(|cause| cause.downcast_ref::<crate::http::guard::pace::TooSlow>()) {
         Some(slow) => Problem::new(ProblemType::Timeout, slow.to_string()),
         None => Problem::new(
             ProblemType::BadRequest,

@@ -1,20 +1,20 @@
-//! What is checked of every request before a handler sees it: host, origin, parameters, pace and patience.
+//! What is checked of every request before a handler sees it: host, origin, parameters, pace, room and patience.
 
+pub mod admission;
+mod bodies;
+mod gate;
 pub mod hosts;
 pub mod observe;
+pub mod pace;
 
 use std::collections::{HashMap, HashSet};
-use std::pin::Pin;
 use std::sync::Arc;
-use std::task::{Context, Poll};
 use std::time::Duration;
 
-use axum::body::{Body, BodyDataStream, Bytes};
 use axum::extract::{MatchedPath, Query, Request, State};
 use axum::http::{HeaderName, HeaderValue, Method, StatusCode, Uri, header};
 use axum::middleware::Next;
 use axum::response::{IntoResponse, Response};
-use futures::Stream;
 use utoipa::openapi::path::ParameterIn;
 use utoipa::openapi::{OpenApi, RefOr};
 
@@ -23,10 +23,6 @@ use crate::http::public_address::PublicAddress;
 
 /// Longest time in which a request is answered, once its body is there.
 const PATIENCE: Duration = Duration::from_secs(30);
-/// Time that a body has before its pace counts.
-const PACE_GRACE: Duration = Duration::from_secs(15);
-/// Slowest pace of a body, bytes per second: a mobile link of the slow kind.
-const PACE: f64 = 16_384.0;
 
 /// Middleware: what pages of other sites may do (CORS), and `OPTIONS`.
 ///
@@ -142,70 +138,9 @@ pub fn without_last_slash(mut request: Request) -> Request {
     request
 }
 
-/// Middleware: a body has to keep a pace; [`Paced`] ends the slow ones.
-pub async fn at_pace(request: Request, next: Next) -> Response {
-    let is_read = request.method().is_safe();
-    let paced = |body| Body::from_stream(Paced::new(body, PACE_GRACE, PACE));
-    next.run(if is_read { request } else { request.map(paced) }).await
-}
-
 /// Middleware: the answer has to come in time. Streams of events begin at once and go on as long as they like.
 pub async fn in_time(request: Request, next: Next) -> Response {
     tokio::time::timeout(PATIENCE, next.run(request)).await.unwrap_or_else(|_| {
         Problem::new(ProblemType::Unavailable, "the answer took too long").retry_after(10).into_response()
     })
-}
-
-/// The body arrived below its pace.
-#[derive(Debug, thiserror::Error)]
-#[error("the body arrived too slowly: after {PACE_GRACE:?} it has to keep to {PACE} bytes per second")]
-pub struct TooSlow;
-
-/// A body that fails once it falls behind its pace.
-struct Paced {
-    body: BodyDataStream,
-    /// Bytes per second.
-    pace: f64,
-    deadline: Pin<Box<tokio::time::Sleep>>,
-}
-
-impl Paced {
-    fn new(body: Body, grace: Duration, pace: f64) -> Self {
-        Self { body: body.into_data_stream(), pace, deadline: Box::pin(tokio::time::sleep(grace)) }
-    }
-}
-
-impl Stream for Paced {
-    type Item = Result<Bytes, axum::BoxError>;
-
-    fn poll_next(mut self: Pin<&mut Self>, context: &mut Context<'_>) -> Poll<Option<Self::Item>> {
-        if let Poll::Ready(chunk) = Pin::new(&mut self.body).poll_next(context) {
-            if let Some(Ok(bytes)) = &chunk {
-                // Each byte that arrives moves the deadline.
-                let deadline = self.deadline.deadline() + Duration::from_secs_f64(bytes.len() as f64 / self.pace);
-                self.deadline.as_mut().reset(deadline);
-            }
-            return Poll::Ready(chunk.map(|chunk| chunk.map_err(Into::into)));
-        }
-        self.deadline.as_mut().poll(context).map(|()| Some(Err(TooSlow.into())))
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[tokio::test]
-    async fn a_trickle_is_ended_and_a_flow_is_not() {
-        async fn read(chunk: usize) -> Result<usize, axum::Error> {
-            let chunks = futures::stream::unfold(0, move |sent| async move {
-                tokio::time::sleep(Duration::from_millis(1)).await;
-                (sent < 50).then(|| (Ok::<_, std::io::Error>(vec![0_u8; chunk]), sent + 1))
-            });
-            let paced = Paced::new(Body::from_stream(chunks), Duration::from_millis(10), 10_000.0);
-            axum::body::to_bytes(Body::from_stream(paced), usize::MAX).await.map(|bytes| bytes.len())
-        }
-        assert!(read(1).await.is_err());
-        assert_eq!(read(10_000).await.expect("is fast enough"), 500_000);
-    }
 }

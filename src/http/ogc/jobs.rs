@@ -4,17 +4,19 @@ use std::convert::Infallible;
 use std::sync::Arc;
 use std::time::Duration;
 
-use axum::Json;
-use axum::extract::{RawQuery, State};
+use axum::extract::{RawQuery, Request, State};
 use axum::http::{HeaderMap, HeaderValue, StatusCode, header};
 use axum::response::sse::{Event, KeepAlive, Sse};
 use axum::response::{IntoResponse, Response};
-use futures::Stream;
+use axum::{Extension, Json};
+use futures::{Stream, StreamExt as _};
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 use utoipa::{IntoParams, ToSchema};
 
+use super::event_streams::EventStreams;
 use crate::app::{App, AppError, Caller, JobFilter, JobRecord, JobState};
+use crate::http::ClientAddress;
 use crate::http::docs::refusals::{Conflict, NotFound};
 use crate::http::extract::datetime::Datetime;
 use crate::http::extract::negotiation::Accept;
@@ -242,14 +244,21 @@ pub async fn events(
     caller: Caller,
     base: Base,
     Path(path): Path<JobPath>,
-    headers: HeaderMap,
+    Extension(streams): Extension<Arc<EventStreams>>,
+    request: Request,
 ) -> Result<Response, Problem> {
+    let headers = request.headers();
     let job = app.job(&caller, path.job_id.0).await?;
     let last = headers.get("last-event-id").and_then(|id| id.to_str().ok()?.parse::<i64>().ok());
     if job.state.is_final() && last.is_some_and(|last| last >= event_id(&job)) {
         return Ok(StatusCode::NO_CONTENT.into_response());
     }
-    let events = Sse::new(watch(app, caller, base, job, last));
+    let place = streams.take(ClientAddress::of(&request))?;
+    let events = watch(app, caller, base, job, last).inspect(move |_| {
+        // The stream has its place as long as it lives.
+        let _ = &place;
+    });
+    let events = Sse::new(events);
     // Proxies that buffer would hold the events back.
     let headers = [("x-accel-buffering", "no"), ("cache-control", "no-store")];
     Ok((headers, events.keep_alive(KeepAlive::new().interval(HEARTBEAT))).into_response())

@@ -2,6 +2,7 @@
 
 pub mod collections;
 pub mod conformance;
+pub mod event_streams;
 mod execution_body;
 mod feature_body;
 pub mod filter;

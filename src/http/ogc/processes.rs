@@ -3,10 +3,10 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use axum::Json;
 use axum::extract::State;
 use axum::http::{HeaderValue, StatusCode};
 use axum::response::{IntoResponse, Response};
+use axum::{Extension, Json};
 use serde::Deserialize;
 use serde_json::json;
 use utoipa::IntoParams;
@@ -19,6 +19,7 @@ use crate::http::docs::refusals::{NoSpace, NotFound};
 use crate::http::extract::negotiation::Accept;
 use crate::http::extract::prefer::Prefer;
 use crate::http::extract::{JsonBody, Path};
+use crate::http::guard::admission::Turn;
 use crate::http::links::{Base, GEO_JSON, HTML, JSON};
 use crate::http::page;
 use crate::http::problem::Problem;
@@ -105,6 +106,7 @@ pub async fn execute(
     base: Base,
     Path(path): Path<ProcessPath>,
     prefer: Prefer,
+    Extension(turn): Extension<Turn>,
     JsonBody(body): JsonBody<ExecuteBody>,
 ) -> Result<Response, Problem> {
     path.check()?;
@@ -121,7 +123,10 @@ pub async fn execute(
     })?;
     let job = match ticket {
         AnalysisTicket::Existing(record) => return Ok(answer(&base, record.map, record.id, &execution)),
-        AnalysisTicket::Job(job) => app.job_within(&caller, job.id, prefer.patience(PATIENCE)).await?,
+        AnalysisTicket::Job(job) => {
+            turn.end();
+            app.job_within(&caller, job.id, prefer.patience(PATIENCE)).await?
+        }
     };
     if let (JobState::Successful, Some(analysis)) = (job.state, job.analysis()) {
         return Ok(answer(&base, job.map, analysis, &execution));

@@ -79,6 +79,8 @@ problem_types! {
     Internal = "internal", INTERNAL_SERVER_ERROR, "The service failed";
     /// The queue is full.
     Busy = "busy", SERVICE_UNAVAILABLE, "The queue is full";
+    /// As many requests, uploads or streams as may be.
+    Overloaded = "overloaded", SERVICE_UNAVAILABLE, "The service has as much to do as it can";
     /// The store does not answer, or the answer took too long.
     Unavailable = "unavailable", SERVICE_UNAVAILABLE, "The service cannot answer now";
     /// The disk is full.

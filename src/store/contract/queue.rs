@@ -102,10 +102,12 @@ pub async fn a_waiting_job_is_dismissed_at_once_a_running_one_is_asked_to_stop(e
 pub async fn a_full_queue_takes_no_more(engine: &impl Engine) {
     let store = engine.store();
     upload(store, "first").await;
+    assert_eq!(store.waiting_jobs().await.unwrap(), 1);
     assert_eq!(try_upload(store, &local(), "second", None, 1).await, Upload::QueueFull);
     assert_eq!(counts(store).await, (1, 0, 1));
     claim(store, now()).await.unwrap();
     assert!(matches!(try_upload(store, &local(), "second", None, 1).await, Upload::New(_)), "running jobs do not wait");
+    assert_eq!(store.waiting_jobs().await.unwrap(), 1);
 }
 
 pub async fn a_result_may_be_a_document(engine: &impl Engine) {

@@ -73,6 +73,10 @@ impl Jobs for Sqlite {
         rows.iter().map(job_record).collect()
     }
 
+    async fn waiting_jobs(&self) -> Result<u64, StoreError> {
+        waiting_jobs(&mut *self.readers.acquire().await?).await
+    }
+
     async fn job_counts(&self) -> Result<Vec<(JobState, u64)>, StoreError> {
         let rows = sqlx::query("SELECT state, count(*) AS jobs FROM jobs WHERE tenant <> '' GROUP BY state")
             .fetch_all(&self.readers)
@@ -113,8 +117,12 @@ pub(super) async fn insert_job(
 
 /// Whether as many jobs wait as may.
 pub(super) async fn is_queue_full(connection: &mut SqliteConnection, max_queued: u64) -> Result<bool, StoreError> {
+    Ok(waiting_jobs(connection).await? >= max_queued)
+}
+
+async fn waiting_jobs(connection: &mut SqliteConnection) -> Result<u64, StoreError> {
     let row = sqlx::query("SELECT count(*) AS waiting FROM jobs WHERE state = 'accepted' AND tenant <> ''")
         .fetch_one(connection)
         .await?;
-    Ok(row.whole::<u64>("waiting")? >= max_queued)
+    row.whole("waiting")
 }

@@ -1,0 +1,179 @@
+//! The listening socket: connections with limits, and an orderly end.
+//!
+//! HTTP/1.1 only. A service behind a proxy needs no more, and detecting the version of a connection has no time limit in
+//! hyper-util, so a client that sends one byte would hold it for ever. `axum::serve` sets no timer, so hyper's own limit
+//! on the time of a request's head would be off (measured: none of 200 slow clients closed in 45 s).
+//!
+//! | file | what it holds |
+//! | --- | --- |
+//! | `places` | which connections are open, and which one makes room for a newcomer |
+//! | `waiting` | how long a connection has been waiting for its client |
+//! | `stream` | the bytes of a connection: the pace of clients that take answers |
+//! | `heads` | heads of requests that other programs may read differently |
+//! | `body` | bodies of requests, until they are there |
+//! | `refusal` | what a connection without a place is answered |
+//! | `open_files` | how many files and connections the process may have open |
+
+mod body;
+mod heads;
+pub mod open_files;
+mod places;
+mod refusal;
+mod stream;
+mod waiting;
+
+use std::convert::Infallible;
+use std::future::Future;
+use std::net::IpAddr;
+use std::pin::pin;
+use std::sync::Arc;
+use std::time::Duration;
+
+use axum::Router;
+use axum::body::Body;
+use axum::http::{HeaderValue, Request, Response, header};
+use futures::FutureExt;
+use hyper::body::{Body as _, Incoming};
+use hyper::server::conn::http1;
+use hyper::service::service_fn;
+use hyper_util::rt::{TokioIo, TokioTimer};
+use hyper_util::server::graceful::GracefulShutdown;
+use tokio::net::{TcpListener, TcpStream};
+use tokio::time::Instant;
+use tower::ServiceExt as _;
+
+use crate::app::App;
+use crate::http::{self, ClientAddress};
+use crate::pace::PaceLimits;
+
+use body::AwaitedBody;
+pub use places::ConnectionLimits;
+use places::{Place, Places};
+use refusal::Refusals;
+use stream::WatchedStream;
+use waiting::Waiting;
+
+/// How long a client may take to send the head of a request, or stay silent between two.
+const HEAD_TIMEOUT: Duration = Duration::from_secs(10);
+
+/// How long answers may still be written after the jobs have come to rest, at the end of the grace period.
+const LAST_ANSWERS: Duration = Duration::from_secs(2);
+
+/// A pause after a failed `accept`, which fails again at once when file descriptors have run out.
+const ACCEPT_PAUSE: Duration = Duration::from_millis(100);
+
+/// Serves until `stop` comes about, then: not ready any more, and answers close their connections, for the notice of the
+/// configuration; no new connections, running requests and jobs to their end within the grace period, the rest of the jobs put
+/// back.
+pub async fn serve(listener: TcpListener, app: Arc<App>, limits: ConnectionLimits, stop: impl Future<Output = ()>) {
+    let server = Server::new(Arc::clone(&app), limits);
+    server.accept_until(&listener, stop).await;
+    app.announce_stop();
+    server.accept_until(&listener, tokio::time::sleep(app.config().shutdown_notice)).await;
+    // The kernel has accepted these in our name.
+    while let Some((stream, address)) = accept(&listener).now_or_never() {
+        server.begin(stream, address);
+    }
+    drop(listener);
+    let deadline = Instant::now() + app.config().shutdown_grace;
+    let answers = tokio::spawn(server.connections.shutdown());
+    app.stop_jobs().await;
+    // Answers read the store, so it is closed after them.
+    let deadline = deadline.max(Instant::now() + LAST_ANSWERS);
+    if tokio::time::timeout_at(deadline, answers).await.is_err() {
+        tracing::warn!("some connections were cut off");
+    }
+    app.shutdown().await;
+}
+
+/// What connections are served with.
+struct Server {
+    app: Arc<App>,
+    router: Router,
+    protocol: http1::Builder,
+    connections: GracefulShutdown,
+    places: Arc<Places>,
+    refusals: Refusals,
+}
+
+impl Server {
+    fn new(app: Arc<App>, limits: ConnectionLimits) -> Self {
+        let mut protocol = http1::Builder::new();
+        protocol.timer(TokioTimer::new()).header_read_timeout(HEAD_TIMEOUT);
+        let router = http::router(Arc::clone(&app));
+        let (connections, places, refusals) = (GracefulShutdown::new(), Places::new(limits), Refusals::new());
+        Self { app, router, protocol, connections, places, refusals }
+    }
+
+    async fn accept_until(&self, listener: &TcpListener, end: impl Future<Output = ()>) {
+        let mut end = pin!(end);
+        loop {
+            tokio::select! {
+                (stream, address) = accept(listener) => self.begin(stream, address),
+                () = &mut end => return,
+            }
+        }
+    }
+
+    /// Serves a connection, or refuses it where all others are at work.
+    fn begin(&self, stream: TcpStream, address: IpAddr) {
+        let Some(place) = self.places.take(address) else { return self.refusals.refuse(stream) };
+        // Answers are written whole; waiting to fill a packet only delays them.
+        let _ = stream.set_nodelay(true);
+        let (app, router, waiting) = (Arc::clone(&self.app), self.router.clone(), Arc::clone(&place.waiting));
+        let stream = WatchedStream::new(stream, Arc::clone(&waiting), PaceLimits::default());
+        let answer = service_fn(move |request| {
+            answer(request, ClientAddress(address), router.clone(), Arc::clone(&app), Arc::clone(&waiting))
+        });
+        let connection = self.protocol.serve_connection(TokioIo::new(stream), answer);
+        tokio::spawn(see_to_its_end(self.connections.watch(connection), place));
+    }
+}
+
+async fn see_to_its_end(connection: impl Future<Output = hyper::Result<()>>, place: Place) {
+    tokio::select! {
+        ended = connection => {
+            if let Err(error) = ended {
+                tracing::debug!(%error, "connection ended early");
+            }
+        }
+        () = place.close.notified() => tracing::debug!("a connection that waited for its client made room"),
+    }
+}
+
+/// Answers a request, and tells who waits for whom meanwhile.
+async fn answer(
+    mut request: Request<Incoming>,
+    address: ClientAddress,
+    router: Router,
+    app: Arc<App>,
+    waiting: Arc<Waiting>,
+) -> Result<Response<Body>, Infallible> {
+    request.extensions_mut().insert(address);
+    let request = if request.body().is_end_stream() {
+        waiting.work();
+        request.map(Body::new)
+    } else {
+        waiting.begin();
+        request.map(|body| Body::new(AwaitedBody::new(body, Arc::clone(&waiting))))
+    };
+    let mut response = router.oneshot(request).await?;
+    waiting.begin();
+    if app.is_stopping() {
+        response.headers_mut().insert(header::CONNECTION, HeaderValue::from_static("close"));
+    }
+    Ok(response)
+}
+
+/// The next connection, and the address of its client.
+async fn accept(listener: &TcpListener) -> (TcpStream, IpAddr) {
+    loop {
+        match listener.accept().await {
+            Ok((stream, address)) => return (stream, address.ip().to_canonical()),
+            Err(error) => {
+                tracing::warn!(%error, "a connection could not be accepted");
+                tokio::time::sleep(ACCEPT_PAUSE).await;
+            }
+        }
+    }
+}
