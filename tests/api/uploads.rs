@@ -138,6 +138,14 @@ async fn what_is_no_map_is_refused_with_a_reason() {
 }
 
 #[tokio::test]
+async fn a_full_queue_refuses_before_the_map_is_read() {
+    let api = Api::with(|config| config.max_queued_jobs = 0).await;
+    let refused = api.send(upload(b"no picture", METADATA)).await;
+    refused.problem(503, "busy");
+    assert_eq!(refused.header("retry-after"), "10");
+}
+
+#[tokio::test]
 async fn forms_have_their_parts_once() {
     let api = Api::new().await;
     let hall = pgm(HALL);

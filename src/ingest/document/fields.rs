@@ -4,6 +4,7 @@ use stillage_core::analysis::Diagnostic;
 
 use super::node::Node;
 use super::numpy;
+use super::odd_numbers::notation;
 use crate::ingest::IngestError;
 
 /// The entries of a mapping, with their pointer.
@@ -76,6 +77,13 @@ pub(in crate::ingest) fn number(
     }
     match node {
         Node::Number(value) if value.is_finite() => Ok(*value),
+        Node::Text(text) if let Some(notation) = notation(text) => {
+            let message = format!(
+                "{name} is written as {} ({notation}), which not all readers take for the same number: write it as a decimal number",
+                node.brief()
+            );
+            Err(IngestError::invalid(pointer, message))
+        }
         Node::Text(text) => match text.trim().parse::<f64>() {
             Ok(value) if value.is_finite() => {
                 let message =

@@ -7,6 +7,7 @@ mod fields;
 mod node;
 mod notation;
 mod numpy;
+mod odd_numbers;
 
 pub(super) use fields::{Fields, number};
 pub(super) use node::Node;

@@ -6,6 +6,7 @@
 use serde_saphyr::Error;
 
 use super::node::Node;
+use super::odd_numbers::kept_as_written;
 use crate::ingest::IngestError;
 
 /// Largest metadata document, bytes. A `map_server` file has some 150.
@@ -88,11 +89,13 @@ fn parse_yaml(text: &str) -> Result<Node, String> {
             max_replay_stack_depth: 4,
         },
         with_snippet: false,
+        leading_zero_numbers_as_strings: true,
+        underscored_numbers_as_strings: true,
         ignore_binary_tag_for_string: true,
         duplicate_keys: serde_saphyr::options::DuplicateKeyPolicy::PassThrough,
         non_finite_float_policy: serde_saphyr::options::NonFiniteFloatPolicy::PassThrough,
     };
-    serde_saphyr::from_str_with_options(text, options).map_err(|error| reason(&error))
+    serde_saphyr::from_str_with_options(&kept_as_written(text), options).map_err(|error| reason(&error))
 }
 
 /// Why YAML is refused. The reader's own words name its settings, which nobody outside can change.

@@ -120,6 +120,12 @@ fn metadata_that_means_no_map_is_refused_with_a_remedy() {
             ("resolution .inf", resolution(".inf")),
             ("resolution 1e999", resolution("1e999")),
             ("resolution in words", resolution("5 cm")),
+            ("resolution hexadecimal", resolution("0x10")),
+            ("resolution hexadecimal, in a flow mapping", read(grey_png(), "{image: \"a.png\", resolution: 0x1}")),
+            ("resolution octal", resolution("010")),
+            ("resolution with underscores", resolution("1_0.5")),
+            ("resolution sexagesimal", resolution("1:30")),
+            ("origin binary", origin("[0b1, 0, 0]")),
             ("resolution twice", read(grey_png(), &format!("{USUAL}resolution: 0.1\n"))),
             ("origin of 2", origin("[0, 0]")),
             ("origin of 6", origin("[0, 0, 0, 0, 0, 0]")),
@@ -155,6 +161,12 @@ fn metadata_that_means_no_map_is_refused_with_a_remedy() {
             resolution .inf: Invalid /metadata/resolution: resolution must be a finite number, found inf
             resolution 1e999: Invalid /metadata/resolution: resolution must be a finite number, found inf
             resolution in words: Invalid /metadata/resolution: resolution must be a finite number, found "5 cm"
+            resolution hexadecimal: Invalid /metadata/resolution: resolution is written as "0x10" (hexadecimal), which not all readers take for the same number: write it as a decimal number
+            resolution hexadecimal, in a flow mapping: Invalid /metadata/resolution: resolution is written as "0x1" (hexadecimal), which not all readers take for the same number: write it as a decimal number
+            resolution octal: Invalid /metadata/resolution: resolution is written as "010" (octal, or a leading zero), which not all readers take for the same number: write it as a decimal number
+            resolution with underscores: Invalid /metadata/resolution: resolution is written as "1_0.5" (with underscores), which not all readers take for the same number: write it as a decimal number
+            resolution sexagesimal: Invalid /metadata/resolution: resolution is written as "1:30" (sexagesimal), which not all readers take for the same number: write it as a decimal number
+            origin binary: Invalid /metadata/origin/0: the origin's x is written as "0b1" (binary), which not all readers take for the same number: write it as a decimal number
             resolution twice: Invalid /metadata/resolution: `resolution` is given twice: keep one of them
             origin of 2: Invalid /metadata/origin: value of the 'origin' tag should have 3 elements, not 2: write [x, y, yaw] in metres and radians
             origin of 6: Invalid /metadata/origin: value of the 'origin' tag should have 3 elements, not 6: write [x, y, yaw] in metres and radians
