@@ -9,7 +9,7 @@ use uuid::Uuid;
 use super::service::RETRY_AFTER_S;
 use super::{AnalysisRecord, AnalysisTicket, App, AppError, Caller, JobFilter, JobRecord, JobState};
 use crate::jobs::processes::AnalysisProcess;
-use crate::store::{Request, now};
+use crate::store::{Request, Retry, now};
 
 /// How long the dismissal of a running job is waited for.
 const DISMISSAL: Duration = Duration::from_secs(1);
@@ -93,6 +93,25 @@ impl App {
         self.store.dismiss(caller.tenant(), id, now()).await?.ok_or_else(|| AppError::not_found("job", id))?;
         self.signals.changed();
         self.job_within(caller, id, DISMISSAL).await
+    }
+
+    /// Runs a job that failed or was dismissed once more.
+    pub async fn retry_job(&self, caller: &Caller, id: Uuid) -> Result<JobRecord, AppError> {
+        let retry = self.store.retry(caller.tenant(), id, self.config.max_queued_jobs, now()).await?;
+        match retry.ok_or_else(|| AppError::not_found("job", id))? {
+            Retry::Queued(job) => {
+                self.signals.queued();
+                Ok(*job)
+            }
+            Retry::NotOver(job) => Err(AppError::Conflict(format!(
+                "the job is {}: only a job that failed or was dismissed runs once more",
+                job.state.name()
+            ))),
+            Retry::Superseded => {
+                Err(AppError::Conflict("another job has made the same analysis, or is about to".to_owned()))
+            }
+            Retry::QueueFull => Err(AppError::Busy { retry_after_s: RETRY_AFTER_S }),
+        }
     }
 
     /// The job once it is over, or as it is after a time.

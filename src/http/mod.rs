@@ -152,6 +152,7 @@ fn reading_and_writing() -> OpenApiRouter<Arc<App>> {
         .routes(routes!(ogc::processes::of_job))
         .routes(routes!(ogc::jobs::list))
         .routes(routes!(ogc::jobs::get, ogc::jobs::dismiss))
+        .routes(routes!(ogc::jobs::retry))
         .routes(routes!(ogc::jobs::events))
         .routes(routes!(maps::rule_sets::list, maps::rule_sets::create))
         .routes(routes!(maps::cogency_matrix::get))
@@ -175,7 +176,8 @@ fn document<S: Clone + Send + Sync + 'static>(routes: OpenApiRouter<S>) -> (Rout
 /// From the outside in: id, log line and metrics of the request; answers that are given again; the last slash of the address;
 /// its route; headers for browsers; entity tags by coding, around the compression; the address that proxies tell; bodies of
 /// problems; what a deleted map answers; panics; checks of host and origin; pace and coding of bodies; formats; unknown
-/// parameters; `Accept`.
+/// parameters; `Accept`. Around each group of routes lies its entrance, which receives bodies and bounds what is under way, and
+/// the clock of its answers.
 pub fn router(app: Arc<App>) -> Router {
     let (router, document) = document(routes(app.config()));
     let known = Arc::new(guard::KnownParameters::of(&document));

@@ -25,6 +25,19 @@ pub struct NewJob {
     pub activates: bool,
 }
 
+/// What became of the wish to run a job once more.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Retry {
+    /// It waits again, as if it had never run.
+    Queued(Box<JobRecord>),
+    /// It waits, runs, or was successful.
+    NotOver(Box<JobRecord>),
+    /// Another job has made the same result, or is about to.
+    Superseded,
+    /// As many jobs wait as may.
+    QueueFull,
+}
+
 /// What is kept of jobs.
 #[async_trait]
 pub trait Jobs {
@@ -37,6 +50,15 @@ pub trait Jobs {
     /// Dismisses a job: one that waits at once, one that runs is asked to stop. A finished one stays as it is. `None`
     /// when there is no such job.
     async fn dismiss(&self, tenant: &Tenant, id: Uuid, now: Timestamp) -> Result<Option<JobRecord>, StoreError>;
+
+    /// Puts a job that failed or was dismissed back into the queue. `None` when there is no such job.
+    async fn retry(
+        &self,
+        tenant: &Tenant,
+        id: Uuid,
+        max_queued: u64,
+        now: Timestamp,
+    ) -> Result<Option<Retry>, StoreError>;
 
     /// How many jobs of all tenants wait.
     async fn waiting_jobs(&self) -> Result<u64, StoreError>;

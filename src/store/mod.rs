@@ -50,7 +50,7 @@ pub use blobs::{Blob, BlobId, Blobs, LocalBlobs, Stored};
 pub use engine::Store;
 pub use error::StoreError;
 pub use hidden_maps::{HiddenMap, HiddenMaps};
-pub use jobs::{Jobs, NewJob};
+pub use jobs::{Jobs, NewJob, Retry};
 pub use maps::{IdempotencyKey, Maps, NewMapRow, Upload};
 pub use queue::Queue;
 pub use registries::{Registries, SiteRegistry};

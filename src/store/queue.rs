@@ -86,11 +86,13 @@ pub enum JobResult {
 /// The queue.
 #[async_trait]
 pub trait Queue {
-    /// Ends the claims whose lease has run out, then takes the job that waits longest, if one is due.
+    /// Ends the claims whose lease has run out, then takes a job that is due, if there is one: of those with the fewest
+    /// attempts the one that waits longest, so that a job which kills its workers does not hold up the others.
     async fn claim(&self, terms: &Terms, now: Timestamp) -> Result<Option<Claim>, StoreError>;
 
-    /// Ends the claims of processes that are known to be dead, without waiting for their leases. Their attempts count.
-    /// An engine that other processes may use at the same time knows of none. Answers how many there were.
+    /// Ends the claims of processes that are known to be dead, without waiting for their leases. All that worked on the queue
+    /// died with them, so their attempts count only where a job died in the same stage as the time before; in all it may die
+    /// four times as often as it has attempts. An engine that other processes may use at the same time knows of none. Answers how many there were.
     async fn end_claims_of_dead_processes(&self, max_attempts: u32, now: Timestamp) -> Result<u64, StoreError>;
 
     /// Renews the lease and stores how far the job is. Answers whether it is to be cancelled.

@@ -154,6 +154,11 @@ pub async fn valid(site: &Site, operation: &str) -> (Sent, &'static [u16]) {
             let body = json!({"inputs": {"mapId": map.trim_start_matches("/v1/maps/")}});
             (Sent::new(Method::POST, "/v1/processes/semantic-map/execution").json(&body), &[200])
         }
+        "retryJob" => {
+            let job = site.job().await;
+            assert_eq!(Sent::new(Method::DELETE, format!("/v1/jobs/{job}")).to(&site.api).await.status, 200);
+            (Sent::new(Method::POST, format!("/v1/jobs/{job}/retry")), &[202])
+        }
         "dismissJob" => (Sent::new(Method::DELETE, format!("/v1/jobs/{}", site.job().await)), &[200]),
         "listMaps" => get("/v1/maps".into()),
         "createMap" => {
@@ -365,6 +370,7 @@ fn wrongs(site: &Site, operation: &str, good: &Sent) -> Vec<Sent> {
             vec![own(&format!("{}/collections/edges/items/1", site.map)), code("01-001", "01-003")]
         }
         "getRoute" => vec![own(&format!("{}/routes?from=face:1&to=face:9999", site.map))],
+        "retryJob" => vec![own(&format!("/v1/jobs/{}/retry", site.over))],
         "dismissJob" => vec![own(&format!("/v1/jobs/{}", site.over))],
         "createRuleSet" => vec![sent().json(&rule_set("office"))],
         "createMap" => vec![

@@ -214,6 +214,22 @@ pub async fn dismiss(
     Ok(Json(view(&base, app.dismiss_job(&caller, path.job_id.0).await?)))
 }
 
+/// Run a job once more
+///
+/// A job that failed or was dismissed waits again, with all its attempts. Any other stays as it is: 409.
+#[utoipa::path(post, path = "/v1/jobs/{jobId}/retry", tag = "jobs", operation_id = "retryJob", params(JobPath),
+    responses((status = 202, description = "It waits", body = JobView,
+            headers(("Location" = String, description = "The job"))),
+        NotFound, Conflict))]
+pub async fn retry(
+    State(app): State<Arc<App>>,
+    caller: Caller,
+    base: Base,
+    Path(path): Path<JobPath>,
+) -> Result<Response, Problem> {
+    Ok(accepted(&base, app.retry_job(&caller, path.job_id.0).await?))
+}
+
 /// One event of the stream, field by field.
 #[derive(Debug, ToSchema)]
 #[allow(dead_code, reason = "it describes the lines of the stream")]

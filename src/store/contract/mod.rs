@@ -67,6 +67,8 @@ macro_rules! contract {
                     an_attempt_given_back_does_not_give_its_token_back
                     a_heartbeat_keeps_the_lease_and_shows_the_progress
                     a_job_that_kills_its_process_fails_after_the_last_attempt
+                    a_job_that_was_cut_off_waits_behind_the_others
+                    a_job_that_failed_or_was_dismissed_runs_once_more
                     a_waiting_job_is_dismissed_at_once_a_running_one_is_asked_to_stop
                     a_full_queue_takes_no_more
                     a_result_may_be_a_document

@@ -1,6 +1,7 @@
 //! The queue: the worker's side of jobs.
 
 use super::*;
+use crate::store::Retry;
 use crate::store::queue::Progress;
 
 pub async fn a_job_is_claimed_once_however_many_ask(engine: &impl Engine) {
@@ -83,6 +84,40 @@ pub async fn a_job_that_kills_its_process_fails_after_the_last_attempt(engine: &
     assert_eq!((record.state, record.attempt), (JobState::Failed, 3));
     assert_eq!(record.message, "given up: the service died or stalled in each of 3 attempts");
     assert!(record.finished.is_some());
+}
+
+pub async fn a_job_that_was_cut_off_waits_behind_the_others(engine: &impl Engine) {
+    let store = engine.store();
+    let (first, second) = (upload(store, "first").await, upload(store, "second").await);
+    let cut_off = claim(store, now()).await.unwrap();
+    assert_eq!(cut_off.job, first.id);
+    store.requeue(&cut_off, cut_off.attempt, Duration::ZERO, "a fault", now()).await.unwrap();
+    assert_eq!(claim(store, now()).await.unwrap().job, second.id);
+    assert_eq!(claim(store, now()).await.unwrap().job, first.id);
+}
+
+pub async fn a_job_that_failed_or_was_dismissed_runs_once_more(engine: &impl Engine) {
+    let store = engine.store();
+    let job = upload(store, "map").await;
+    let retry = async |most| store.retry(&local(), job.id, most, now()).await.unwrap().expect("it is there");
+    assert!(matches!(retry(9).await, Retry::NotOver(_)));
+    for state in [JobState::Failed, JobState::Dismissed] {
+        let held = claim(store, now()).await.expect("it waits");
+        store.end(&held, state, "for a test", now()).await.unwrap();
+        assert_eq!(retry(0).await, Retry::QueueFull);
+        let Retry::Queued(again) = retry(9).await else { panic!("it is over") };
+        assert_eq!((again.state, again.attempt, again.message.as_str()), (JobState::Accepted, 0, ""));
+        assert_eq!((again.started, again.finished), (None, None));
+        assert!(matches!(finish(store, &held).await, Err(StoreError::ClaimLost)), "the token is not given back");
+    }
+    let held = claim(store, now()).await.expect("it waits");
+    store.dismiss(&local(), job.id, now()).await.unwrap();
+    store.end(&held, JobState::Dismissed, "dismissed", now()).await.unwrap();
+    assert!(matches!(retry(9).await, Retry::Queued(_)));
+    let held = claim(store, now()).await.expect("it waits");
+    finish(store, &held).await.expect("the wish to cancel is forgotten");
+    assert!(matches!(retry(9).await, Retry::NotOver(_)));
+    assert!(store.retry(&local(), Uuid::now_v7(), 9, now()).await.unwrap().is_none());
 }
 
 pub async fn a_waiting_job_is_dismissed_at_once_a_running_one_is_asked_to_stop(engine: &impl Engine) {

@@ -4,14 +4,14 @@ use std::time::Duration;
 
 use async_trait::async_trait;
 use jiff::Timestamp;
-use sqlx::SqliteConnection;
 use sqlx::sqlite::SqliteRow;
+use sqlx::{Row as _, SqliteConnection};
 use uuid::Uuid;
 
 use super::Sqlite;
 use super::rows::{Columns, job_record, json};
 use crate::records::{JobFilter, JobRecord, JobState, Tenant};
-use crate::store::{Jobs, NewJob, StoreError, now};
+use crate::store::{Jobs, NewJob, Retry, StoreError, now};
 
 #[async_trait]
 impl Jobs for Sqlite {
@@ -71,6 +71,48 @@ impl Jobs for Sqlite {
         .fetch_all(&self.readers)
         .await?;
         rows.iter().map(job_record).collect()
+    }
+
+    async fn retry(
+        &self,
+        tenant: &Tenant,
+        id: Uuid,
+        max_queued: u64,
+        now: Timestamp,
+    ) -> Result<Option<Retry>, StoreError> {
+        let mut transaction = self.write().await?;
+        let row = sqlx::query(
+            "SELECT *, EXISTS (SELECT 1 FROM analyses WHERE analyses.map = jobs.map AND analyses.address = jobs.address) \
+                 OR EXISTS (SELECT 1 FROM jobs AS other WHERE other.map = jobs.map AND other.address = jobs.address \
+                     AND other.id <> jobs.id AND other.state IN ('accepted', 'running')) AS superseded \
+             FROM jobs WHERE id = $1 AND tenant = $2",
+        )
+        .bind(id.to_string())
+        .bind(tenant.as_str())
+        .fetch_optional(&mut *transaction)
+        .await?;
+        let Some(row) = row else { return Ok(None) };
+        if !matches!(row.state()?, JobState::Failed | JobState::Dismissed) {
+            return Ok(Some(Retry::NotOver(Box::new(job_record(&row)?))));
+        }
+        if row.try_get("superseded")? {
+            return Ok(Some(Retry::Superseded));
+        }
+        if is_queue_full(&mut transaction, max_queued).await? {
+            return Ok(Some(Retry::QueueFull));
+        }
+        let row = sqlx::query(
+            "UPDATE jobs SET state = 'accepted', attempt = 0, cut_off_in = NULL, cut_offs = 0, cancel_requested = 0, run_at = 0, \
+                 message = '', progress = 0, stage = NULL, stages = '[]', started = NULL, finished = NULL, \
+                 updated = max(updated + 1, $2) \
+             WHERE id = $1 RETURNING *",
+        )
+        .bind(id.to_string())
+        .bind(now.as_microsecond())
+        .fetch_one(&mut *transaction)
+        .await?;
+        transaction.commit().await?;
+        Ok(Some(Retry::Queued(Box::new(job_record(&row)?))))
     }
 
     async fn waiting_jobs(&self) -> Result<u64, StoreError> {

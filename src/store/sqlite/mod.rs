@@ -73,6 +73,7 @@ static MIGRATIONS: LazyLock<Migrator> = LazyLock::new(|| {
         migration(7, "carried labels", include_str!("../../../migrations/sqlite/0007_carried_labels.sql")),
         migration(8, "hidden maps", include_str!("../../../migrations/sqlite/0008_hidden_maps.sql")),
         migration(9, "corrections", include_str!("../../../migrations/sqlite/0009_corrections.sql")),
+        migration(10, "jobs that were cut off", include_str!("../../../migrations/sqlite/0010_cut_off_jobs.sql")),
     ])
 });
 

@@ -16,6 +16,10 @@ use crate::records::{JobState, StageReport};
 use crate::store::queue::{Claim, JobResult, Progress, Queue, Terms};
 use crate::store::{Blobs, ResultAddress, StoreError};
 
+/// How often a job may be cut off in all, for each attempt that it has: poison that dies in one stage now and in another then
+/// comes to its end, too.
+const CUT_OFFS_PER_ATTEMPT: u32 = 4;
+
 #[async_trait]
 impl Queue for Sqlite {
     async fn claim(&self, terms: &Terms, now: Timestamp) -> Result<Option<Claim>, StoreError> {
@@ -24,7 +28,8 @@ impl Queue for Sqlite {
         let row = sqlx::query(
             "UPDATE jobs SET state = 'running', attempt = attempt + 1, claim = claim + 1, lease_until = $2, \
                  started = coalesce(started, $1), updated = max(updated + 1, $1), message = '', progress = 0, stage = NULL, stages = '[]' \
-             WHERE id = (SELECT id FROM jobs WHERE state = 'accepted' AND tenant <> '' AND run_at <= $1 ORDER BY id LIMIT 1) \
+             WHERE id = (SELECT id FROM jobs WHERE state = 'accepted' AND tenant <> '' AND run_at <= $1 \
+                 ORDER BY attempt, id LIMIT 1) \
              RETURNING *, (SELECT source FROM maps WHERE maps.id = jobs.map) AS source",
         )
         .bind(now.as_microsecond())
@@ -44,7 +49,7 @@ impl Queue for Sqlite {
         let mut transaction = self.write().await?;
         let rows = sqlx::query("SELECT * FROM jobs WHERE state = 'running'").fetch_all(&mut *transaction).await?;
         for row in &rows {
-            end_claim(&mut transaction, row, max_attempts, Duration::ZERO, now).await?;
+            end_claim(&mut transaction, row, attempts_after_death(row)?, max_attempts, Duration::ZERO, now).await?;
         }
         transaction.commit().await?;
         Ok(rows.len() as u64)
@@ -180,34 +185,50 @@ async fn end_expired_claims(
         .fetch_all(&mut *connection)
         .await?;
     for row in &rows {
-        let wait = (terms.backoff)(row.uuid("id")?, row.whole("attempt")?);
-        end_claim(connection, row, terms.max_attempts, wait, now).await?;
+        let attempts = row.whole("attempt")?;
+        let wait = (terms.backoff)(row.uuid("id")?, attempts);
+        end_claim(connection, row, attempts, terms.max_attempts, wait, now).await?;
     }
     Ok(())
 }
 
+/// The attempts of a job that count after its process died, and all others of the service with it: where the machine died, the
+/// job is innocent. A job that kills its process dies in the same stage each time, so only such deaths in a row count.
+fn attempts_after_death(row: &SqliteRow) -> Result<u32, StoreError> {
+    let is_same_stage = row.try_get::<Option<String>, _>("cut_off_in")?.is_none_or(|last| last == stage(row));
+    if is_same_stage { row.whole("attempt") } else { Ok(1) }
+}
+
+/// The stage of a job; empty before the first.
+fn stage(row: &SqliteRow) -> String {
+    row.try_get::<Option<String>, _>("stage").ok().flatten().unwrap_or_default()
+}
+
 /// Takes a running job from a worker that is gone: dismissed where that was asked for, failed after its last attempt,
-/// queued again otherwise.
+/// queued again otherwise. `attempt` is the number of attempts that count.
 async fn end_claim(
     connection: &mut SqliteConnection,
     row: &SqliteRow,
+    attempt: u32,
     max_attempts: u32,
     wait: Duration,
     now: Timestamp,
 ) -> Result<(), StoreError> {
-    let attempt: u32 = row.whole("attempt")?;
+    let cut_offs = row.whole::<u32>("cut_offs")? + 1;
     let (state, message) = if row.try_get("cancel_requested")? {
         (JobState::Dismissed, "dismissed".to_owned())
     } else if attempt >= max_attempts {
         let message = format!("given up: the service died or stalled in each of {attempt} attempts");
         (JobState::Failed, message)
+    } else if cut_offs >= max_attempts.saturating_mul(CUT_OFFS_PER_ATTEMPT) {
+        (JobState::Failed, format!("given up: the service died or stalled {cut_offs} times meanwhile"))
     } else {
         (JobState::Accepted, format!("attempt {attempt} of {max_attempts} was cut off"))
     };
     tracing::warn!(job = row.text("id")?, attempt, state = state.name(), "took a job from a worker that is gone");
     sqlx::query(
         "UPDATE jobs SET state = $2, message = $3, run_at = $4, lease_until = NULL, stage = NULL, updated = max(updated + 1, $5), \
-             finished = CASE WHEN $6 THEN $5 END \
+             finished = CASE WHEN $6 THEN $5 END, attempt = $7, cut_offs = $8, cut_off_in = $9 \
          WHERE id = $1",
     )
     .bind(row.text("id")?)
@@ -216,6 +237,9 @@ async fn end_claim(
     .bind(not_before(now, wait))
     .bind(now.as_microsecond())
     .bind(state.is_final())
+    .bind(attempt)
+    .bind(cut_offs)
+    .bind(stage(row))
     .execute(connection)
     .await?;
     Ok(())
