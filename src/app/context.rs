@@ -58,7 +58,8 @@ impl App {
         let geometry = if let Some(previous) = previous.as_ref().filter(|known| known.analysis_id == analysis.id) {
             previous.geometric_level()
         } else {
-            let (source, blob) = (self.store.blobs().get(&source).await?, self.store.blobs().get(&blob).await?);
+            let source = self.stored_upload(map, &source).await?;
+            let blob = self.stored_analysis(&source, &analysis, &blob).await?;
             let (limits, record) = (self.config.limits, analysis.clone());
             off_the_runtime(move || GeometricLevel::read(&source, &blob, &record, &limits)).await?
         };

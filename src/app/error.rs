@@ -77,6 +77,12 @@ pub enum AppError {
     /// The database is held by somebody else, or the service is about to stop.
     #[error("the store cannot be reached")]
     Unavailable,
+    /// What was stored is not what was written, and cannot be made again.
+    #[error("{0}")]
+    Damaged(String),
+    /// The same of what is being made again.
+    #[error("{0}")]
+    BeingMended(String),
     /// For the log, not for clients.
     #[error("internal error")]
     Internal(#[source] Box<dyn std::error::Error + Send + Sync>),

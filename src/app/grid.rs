@@ -12,6 +12,8 @@ use crate::store::{BlobId, Snapshot};
 /// Where the cells of a map are and how they are read. Equal sources are equal cells.
 #[derive(Debug, Clone)]
 pub struct GridSource {
+    /// The map.
+    map: Uuid,
     /// The upload, by its content.
     pub blob: BlobId,
     /// The thresholds of the analysis in force; those of the file before there is one.
@@ -25,7 +27,7 @@ impl App {
             self.store.snapshot(caller.tenant(), map).await?.ok_or_else(|| AppError::not_found("map", map))?;
         let Snapshot { source, analysis, .. } = snapshot;
         let options = analysis.map(|(analysis, _)| analysis.options.grid).unwrap_or_default();
-        Ok(GridSource { blob: source, options })
+        Ok(GridSource { map, blob: source, options })
     }
 
     /// Decodes the cells and makes something of them, beside the runtime's threads.
@@ -35,7 +37,7 @@ impl App {
         read: impl FnOnce(&OccupancyGrid) -> T + Send + 'static,
     ) -> Result<T, AppError> {
         let _permit = self.decoders.acquire().await.map_err(|_| AppError::Unavailable)?;
-        let (blob, limits) = (self.store.blobs().get(&source.blob).await?, self.config.limits);
+        let (blob, limits) = (self.stored_upload(source.map, &source.blob).await?, self.config.limits);
         let decode = move || Ok(read(&ingest::decode(&blob.decode::<MapSource>()?, &source.options, &limits)?.grid));
         off_the_runtime(decode).await
     }

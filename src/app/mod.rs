@@ -18,6 +18,7 @@
 //! | `comparisons` | what changed between two maps, or two versions of the semantics |
 //! | `grid` | the cells of a map, before any analysis |
 //! | `context`, `map_context`, `context_cache`, `map_states` | the analysed map in memory, with its collections |
+//! | `stored_blobs`, `mending` | its upload and its analysis from the store; what is damaged is made again |
 //! | `geometric_level` | its analysis, as made and as corrected |
 //! | `routers`, `latest` | its routers and navigation graphs, the latest kept |
 //! | `exports` | its files for other programs |
@@ -48,6 +49,7 @@ mod latest;
 mod map_context;
 mod map_states;
 mod maps;
+mod mending;
 mod name_import;
 mod names;
 mod proposals;
@@ -58,6 +60,7 @@ mod semantics;
 mod semantics_change;
 mod service;
 mod site_carrying;
+mod stored_blobs;
 #[cfg(test)]
 mod tests;
 

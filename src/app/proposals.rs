@@ -93,7 +93,8 @@ impl App {
         let source = self.store.map_source(caller.tenant(), record.map).await?;
         let source = source.ok_or_else(|| AppError::not_found("map", record.map))?;
         let blob = self.analysis_blob(caller, record.map, record.id).await?;
-        let (source, blob) = (self.store.blobs().get(&source).await?, self.store.blobs().get(&blob).await?);
+        let source = self.stored_upload(record.map, &source).await?;
+        let blob = self.stored_analysis(&source, &record, &blob).await?;
         let limits = self.config.limits;
         off_the_runtime(move || GeometricLevel::read(&source, &blob, &record, &limits)).await
     }

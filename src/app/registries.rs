@@ -107,7 +107,7 @@ impl App {
         let unknown = || AppError::invalid("/previous", format!("there is no map {previous}: GET /v1/maps lists them"));
         let earlier = self.store.map(caller.tenant(), previous).await?.ok_or_else(unknown)?;
         let source = self.store.map_source(caller.tenant(), previous).await?.ok_or_else(unknown)?;
-        let source = self.store.blobs().get(&source).await?;
+        let source = self.stored_upload(previous, &source).await?;
         let analyses = self.store.analyses(caller.tenant(), previous).await?;
         let options = analyses.into_iter().next().map_or(options, |analysis| analysis.options.grid);
         let (limits, permit) = (self.config.limits, self.decoders.acquire().await);

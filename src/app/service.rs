@@ -10,6 +10,7 @@ use super::context_cache::ContextCache;
 use super::error::AppError;
 use super::geometric_level::LastCorrected;
 use super::map_states::MapStates;
+use super::mending::Mending;
 use crate::config::Config;
 use crate::jobs::processes::{AnalysisProcess, Processes};
 use crate::jobs::{Signals, Worker};
@@ -31,6 +32,7 @@ pub struct App {
     pub(super) contexts: ContextCache,
     pub(super) states: MapStates,
     pub(super) last_corrected: LastCorrected,
+    pub(super) mending: Arc<Mending>,
     /// Bounds how many uploads and contexts are decoded at the same time, and with that their memory.
     pub(super) decoders: Semaphore,
     is_stopping: AtomicBool,
@@ -59,6 +61,7 @@ impl App {
             contexts,
             states: MapStates::default(),
             last_corrected: LastCorrected::default(),
+            mending: Mending::new(),
             decoders,
             is_stopping: AtomicBool::new(false),
         })

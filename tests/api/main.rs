@@ -11,6 +11,7 @@ mod bodies;
 mod client;
 mod clients;
 mod corrections;
+mod damage;
 mod dashboard;
 mod deletion;
 mod document;

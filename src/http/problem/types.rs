@@ -77,6 +77,8 @@ problem_types! {
     PreconditionRequired = "precondition-required", PRECONDITION_REQUIRED, "The write needs an If-Match header";
     /// Something is wrong in the service.
     Internal = "internal", INTERNAL_SERVER_ERROR, "The service failed";
+    /// A stored blob is not what was written.
+    Damaged = "damaged", INTERNAL_SERVER_ERROR, "Stored data is damaged";
     /// The queue is full.
     Busy = "busy", SERVICE_UNAVAILABLE, "The queue is full";
     /// As many requests, uploads or streams as may be.
