@@ -90,7 +90,7 @@ impl HeadWatch {
     fn end_line(&mut self) {
         let line = self.line.strip_suffix(b"\r").unwrap_or(&self.line);
         self.place = match self.place {
-            Place::Before if line.is_empty() => Place::Before,
+            Place::Before | Place::Trailer if line.is_empty() => Place::Before,
             Place::Before => Place::Head,
             Place::Head if line.is_empty() => match std::mem::take(&mut self.framing) {
                 Framing::None | Framing::Length(0) => Place::Before,
@@ -108,7 +108,6 @@ impl HeadWatch {
                 Some(bytes) => bytes.checked_add(2).map_or(Place::Lost, Place::Chunk),
                 None => Place::Lost,
             },
-            Place::Trailer if line.is_empty() => Place::Before,
             other => other,
         };
     }

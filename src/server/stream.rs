@@ -141,7 +141,7 @@ mod tests {
                 tokio::time::sleep(Duration::from_millis(10)).await;
             }
         });
-        let written = server.write_all(&[0; 20_000]).await;
+        let written = server.write_all(&vec![0; 20_000]).await;
         reader.abort();
         written
     }

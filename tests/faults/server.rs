@@ -84,7 +84,7 @@ impl Drop for Server {
 
 /// What is left to read of a connection; a reset ends it.
 pub fn rest(mut stream: TcpStream) -> String {
-    let (mut bytes, mut buffer) = (Vec::new(), [0; 65_536]);
+    let (mut bytes, mut buffer) = (Vec::new(), [0; 8_192]);
     while let Ok(read @ 1..) = stream.read(&mut buffer) {
         bytes.extend_from_slice(&buffer[..read]);
     }
@@ -94,7 +94,7 @@ pub fn rest(mut stream: TcpStream) -> String {
 /// Whether the other end has closed a connection, without waiting.
 pub fn is_closed(stream: &mut TcpStream) -> bool {
     stream.set_nonblocking(true).expect("can be set");
-    let mut buffer = [0; 65_536];
+    let mut buffer = [0; 8_192];
     loop {
         match stream.read(&mut buffer) {
             Ok(0) => return true,

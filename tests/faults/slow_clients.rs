@@ -11,16 +11,19 @@ use crate::server::{Server, is_closed, status};
 /// After this time a connection that waits for its client makes room for another.
 const MOMENT: Duration = Duration::from_millis(1_200);
 /// A newcomer is answered within this time, on a busy machine and by a debug build.
-const SOON: Duration = Duration::from_secs(2);
+const SOON: Duration = Duration::from_secs(5);
 /// Who stands still is closed by now: 15 s, and something for a busy machine.
 const STANDSTILL: Duration = Duration::from_secs(20);
 
+/// Each of some newcomers is answered soon, however often it has to come back.
 #[track_caller]
 fn newcomers_are_served(server: &Server) {
     for _ in 0..10 {
         let begin = Instant::now();
-        assert_eq!(status(&server.get("/health/live")), 200);
-        assert!(begin.elapsed() < SOON, "{:?}", begin.elapsed());
+        while status(&server.get("/health/live")) != 200 {
+            assert!(begin.elapsed() < SOON, "{:?}", begin.elapsed());
+            std::thread::sleep(Duration::from_millis(50));
+        }
     }
 }
 

@@ -220,9 +220,10 @@ impl From<AppError> for Problem {
             AppError::TooLarge(_) => Self::new(ProblemType::TooLarge, detail),
             AppError::Busy { retry_after_s } => Self::new(ProblemType::Busy, detail).retry_after(retry_after_s),
             AppError::NoSpace => Self::new(ProblemType::NoSpace, detail).retry_after(60),
-            AppError::Unavailable => Self::new(ProblemType::Unavailable, detail).retry_after(5),
+            AppError::Unavailable | AppError::BeingMended(_) => {
+                Self::new(ProblemType::Unavailable, detail).retry_after(5)
+            }
             AppError::Damaged(_) => Self::new(ProblemType::Damaged, detail),
-            AppError::BeingMended(_) => Self::new(ProblemType::Unavailable, detail).retry_after(5),
             AppError::Internal(source) => {
                 tracing::error!(error = &*source, "a request failed");
                 Self::new(ProblemType::Internal, "the service failed: its log says why, under this request's id")
