@@ -18,13 +18,10 @@ pub fn map(source: &ExportSource<'_>) -> Vec<u8> {
     let (width, height) = (source.grid.width(), source.grid.height());
     let mut bytes = format!("type octile\nheight {height}\nwidth {width}\nmap\n").into_bytes();
     for row in (0..height).rev() {
-        let faces = &source.cells.as_slice()[row * width..(row + 1) * width];
-        let passable = source.grid.row(row).iter().zip(faces);
-        bytes.extend(passable.map(
-            |(&cell, face)| {
-                if cell == Occupancy::Free && open[face.index()] { b'.' } else { b'@' }
-            },
-        ));
+        for (face, run) in source.cells.runs(row * width..(row + 1) * width) {
+            let is_passable = |cell: &Occupancy| *cell == Occupancy::Free && open[face.index()];
+            bytes.extend(source.grid.cells()[run].iter().map(|cell| if is_passable(cell) { b'.' } else { b'@' }));
+        }
         bytes.push(b'\n');
     }
     bytes

@@ -97,8 +97,10 @@ fn picture(source: &ExportSource<'_>, grey: impl Fn(Option<Ground>) -> u8) -> Ve
     let greys: Vec<u8> = Ground::of_faces(source).into_iter().map(grey).collect();
     let (width, height) = (source.grid.width(), source.grid.height());
     let mut bytes = format!("P5\n{width} {height}\n255\n").into_bytes();
-    for row in source.cells.as_slice().chunks_exact(width.max(1)).rev() {
-        bytes.extend(row.iter().map(|face| greys[face.index()]));
+    for row in (0..height).rev() {
+        for (face, run) in source.cells.runs(row * width..(row + 1) * width) {
+            bytes.extend(std::iter::repeat_n(greys[face.index()], run.len()));
+        }
     }
     bytes
 }

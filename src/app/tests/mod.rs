@@ -90,7 +90,7 @@ async fn an_uploaded_map_is_analysed_and_answers() {
     assert_eq!((record.width, record.height, record.name.as_str()), (20, 12, "hall 20"));
     let context = service.context(&me(), job.map).await.unwrap();
     assert_eq!(Some(context.analysis_id), record.analysis);
-    assert_eq!((context.grid.width(), context.cells.faces.as_slice().len()), (20, 240));
+    assert_eq!((context.grid.width(), context.cells.faces.len()), (20, 240));
     assert_eq!(context.semantics.origin, SemanticsOrigin::Suggested);
     let stages = &service.analyses(&me(), job.map).await.unwrap()[0].stages;
     assert_eq!(stages.len(), stillage_core::Stage::ALL.len());

@@ -22,7 +22,7 @@ fn a_keepout_mask_is_read_back_cell_for_cell() {
     let source = site.source();
     let mask = read_back(keepout(&source, KeepoutOptions::default()));
     assert_eq!(mask.frame(), site.grid.frame());
-    for (cell, &face) in mask.cells().iter().zip(site.cells.as_slice()) {
+    for (cell, face) in mask.cells().iter().zip(site.cells.iter()) {
         let expected = match source.semantic.label(face) {
             _ if face.0 == 0 => Occupancy::Occupied,
             label if label.is_drivable() => Occupancy::Free,
@@ -41,8 +41,9 @@ fn a_speed_mask_darkens_junctions() {
     let text = String::from_utf8(metadata.bytes).unwrap();
     assert!(text.contains("mode: scale") && text.contains("occupied_thresh: 1.0\nfree_thresh: 0.0"), "{text}");
     let cells = &image.bytes[image.bytes.len() - site.grid.cells().len()..];
-    let faces = site.cells.as_slice().chunks_exact(site.grid.width()).rev().flatten();
-    for (&grey, &face) in cells.iter().zip(faces) {
+    let (width, height) = (site.grid.width(), site.grid.height());
+    let faces = (0..height).rev().flat_map(|row| (0..width).map(move |column| site.cells.at(column, row)));
+    for (&grey, face) in cells.iter().zip(faces) {
         let is_junction = face.0 > 0 && source.semantic.label(face).id == "ju";
         assert_eq!(grey, if is_junction { 128 } else { 255 });
     }

@@ -58,15 +58,19 @@ impl CellFaces {
     /// have sides of `resolution` metres. O(cells of the other grid).
     #[must_use]
     pub fn seen_on(&self, resolution: f64, grid: &OccupancyGrid, motion: &RigidMotion) -> Self {
-        let height = self.faces.len() / self.width.max(1);
-        let width = grid.width();
-        let face = |index: usize| {
+        let (width, height) = (grid.width(), self.len() / self.width.max(1));
+        let known = |index: usize| {
             let center = motion.apply(grid.center(index % width, index / width));
             let [column, row] = [center.x, center.y].map(|along| (along / resolution).floor());
             let is_known = column >= 0.0 && row >= 0.0 && column < self.width as f64 && row < height as f64;
-            if is_known { self.at(column as usize, row as usize) } else { FaceId::OUTER }
+            is_known.then(|| row as usize * self.width + column as usize)
         };
-        Self { width, faces: (0..grid.cells().len()).into_par_iter().map(face).collect() }
+        let cells = (0..grid.cells().len()).into_par_iter().map(known);
+        let numbers = match &self.numbers {
+            Numbers::Narrow(faces) => Numbers::Narrow(cells.map(|cell| cell.map_or(0, |cell| faces[cell])).collect()),
+            Numbers::Wide(faces) => Numbers::Wide(cells.map(|cell| cell.map_or(0, |cell| faces[cell])).collect()),
+        };
+        Self { width, numbers }
     }
 
     /// Whether the four cells that are `reach` cells away along the axes lie in a face, too.
