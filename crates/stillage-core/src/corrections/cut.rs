@@ -15,7 +15,7 @@ const OVERSHOOT_M: f64 = 1.0;
 /// Cuts the faces that a line crosses.
 pub(super) fn split(draft: &mut MapDraft<'_>, line: &[Point], correction: u32) -> Result<(), Failure> {
     draft.settle()?;
-    let snap = Snap::near(draft.pieces(), line, draft.tolerance);
+    let snap = Snap::near(draft.pieces(), draft.bounds, line, draft.tolerance);
     let line: Vec<Point> = line.iter().map(|&point| snap.point(point)).collect();
     let cut = match cut_along(draft, &line)? {
         None => cut_along(draft, &drawn_on(draft, line))?,

@@ -8,7 +8,7 @@ use crate::watch::Stopped;
 
 /// Makes what lies inside a polygon one face. It is in no room: it stands in one, or is one itself.
 pub(super) fn draw(draft: &mut MapDraft<'_>, ring: &[Point], claim: FaceClaim) -> Result<(), Stopped> {
-    let ring = Snap::near(draft.pieces(), ring, draft.tolerance).ring(ring);
+    let ring = Snap::near(draft.pieces(), draft.bounds, ring, draft.tolerance).ring(ring);
     let outline: Vec<[Point; 2]> = closed(&ring).collect();
     draft.paint(&outline, &[], ring, FaceClaim { kind: Some(PlotKind::Other), ..claim })
 }
@@ -20,7 +20,7 @@ pub(super) fn row(
     [places, layers]: [u32; 2],
     claim: FaceClaim,
 ) -> Result<(), Stopped> {
-    let snap = Snap::near(draft.pieces(), rectangle, draft.tolerance);
+    let snap = Snap::near(draft.pieces(), draft.bounds, rectangle, draft.tolerance);
     let corners = snap.corners(rectangle);
     let at = |place: u32, layer: u32| {
         let (along, across) = (f64::from(place) / f64::from(places), f64::from(layer) / f64::from(layers));

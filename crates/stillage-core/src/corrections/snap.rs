@@ -3,8 +3,8 @@
 //! A point within a cell of a vertex becomes that vertex, else one within a cell of an edge moves onto it. The side of a
 //! polygon bends to the vertices within a cell of it. What is drawn keeps its shape: no corner joins another one, and no
 //! side turns by more than [`MOST_TURN`]. Where the corners of a polygon would, it moves as a whole, by what brings one of
-//! them onto what is there; where it would cross itself even so, it stays as it was drawn. Cost: O(points x edges near the
-//! drawing).
+//! them onto what is there; where it would cross itself even so, or leave the map, it stays as it was drawn. Cost: O(points x
+//! edges near the drawing).
 
 use super::check::check_ring;
 use crate::arrangement::Redrawing;
@@ -18,23 +18,26 @@ pub(super) const TOLERANCE_CELLS: f64 = 1.0;
 const MOST_TURN: f64 = std::f64::consts::PI / 18.0;
 /// Sides up to this length have no direction that could be seen, cells.
 const NO_DIRECTION_CELLS: f64 = 2.0;
+/// What a shift may round off, metres.
+const ROUNDING_M: f64 = 1e-9;
 
 /// What lies near a drawing.
 pub(super) struct Snap {
     vertices: Vec<Point>,
     edges: Vec<[Point; 2]>,
+    map: Bounds,
     /// Metres.
     tolerance: f64,
 }
 
 impl Snap {
-    /// Looks up what lies within `tolerance` metres of the box around some points.
-    pub fn near(pieces: &Redrawing, points: &[Point], tolerance: f64) -> Self {
+    /// Looks up what lies within `tolerance` metres of the box around some points of a map with these bounds.
+    pub fn near(pieces: &Redrawing, map: Bounds, points: &[Point], tolerance: f64) -> Self {
         let edges = pieces.near(&Bounds::around(points).grown(tolerance));
         let mut vertices: Vec<Point> = edges.iter().flatten().copied().collect();
         vertices.sort_unstable_by(|one, other| one.y.total_cmp(&other.y).then(one.x.total_cmp(&other.x)));
         vertices.dedup();
-        Self { vertices, edges, tolerance }
+        Self { vertices, edges, map: map.grown(ROUNDING_M), tolerance }
     }
 
     /// The vertex or the point of an edge that a point joins, or the point itself.
@@ -66,8 +69,9 @@ impl Snap {
         let shifts = ring.iter().zip(&each).map(|(corner, joined)| joined - corner).filter(|shift| shift.norm() > 0.0);
         let shift = shifts.min_by(|one, other| one.norm().total_cmp(&other.norm()));
         let whole = shift.map(|shift| ring.iter().map(|corner| corner + shift).collect());
+        let whole = whole.filter(|corners: &Vec<Point>| corners.iter().all(|&corner| self.map.contains(corner)));
         let candidates = [Some(each).filter(|each| self.keeps_shape(ring, each)), whole];
-        let sound = candidates.into_iter().flatten().find(|corners: &Vec<Point>| check_ring(corners, "").is_ok());
+        let sound = candidates.into_iter().flatten().find(|corners| check_ring(corners, "").is_ok());
         sound.unwrap_or_else(|| ring.to_vec())
     }
 

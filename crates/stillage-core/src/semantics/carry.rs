@@ -5,8 +5,8 @@
 //!
 //! - A person decided on a face by giving it a label of its own, or by giving its category another label than the one
 //!   suggested.
-//! - A category gets the label that the categories of most of its ground had. Ground that is unidentified because nothing
-//!   was suggested does not count, and a category without other ground has its suggested label.
+//! - A category gets the label that the categories of most of its ground had, and where no label had most of it, the
+//!   suggested one. Ground that is unidentified because nothing was suggested has no label.
 //! - A face gets a label of its own where a person decided that most of it has this label, if its category has another one,
 //!   or if the label was a face's own before.
 //! - A decision is kept where most of its ground has its label again, however that is cut now; otherwise it is lost.
@@ -137,19 +137,20 @@ fn category_labels(
     rule_set: &RuleSet,
 ) -> BTreeMap<u8, String> {
     let suggested = Assignment::suggested(&suggest(new, rule_set), rule_set).assignment;
-    let mut cells: BTreeMap<(u8, &str), u64> = BTreeMap::new();
-    for overlap in overlaps.iter().filter(|overlap| overlap.new != FaceId::OUTER && overlap.old != FaceId::OUTER) {
-        if let Some(label) = old.of_category(overlap.old) {
-            *cells.entry((new.faces[overlap.new.index()].category, label)).or_default() += overlap.cells;
-        }
+    let mut cells: BTreeMap<(u8, Option<&str>), u64> = BTreeMap::new();
+    let mut all: BTreeMap<u8, u64> = BTreeMap::new();
+    for overlap in overlaps.iter().filter(|overlap| overlap.new != FaceId::OUTER) {
+        let category = new.faces[overlap.new.index()].category;
+        let label = if overlap.old == FaceId::OUTER { None } else { old.of_category(overlap.old) };
+        *cells.entry((category, label)).or_default() += overlap.cells;
+        *all.entry(category).or_default() += overlap.cells;
     }
     let label = |(category, suggested): (u8, String)| {
-        let ground = cells.iter().filter(|((of, _), _)| *of == category);
-        // Of equals the suggested one, then the first by name.
-        let most = ground.rev().max_by_key(|((_, label), cells)| (**cells, *label == suggested));
-        (category, most.map_or(suggested, |((_, label), _)| (*label).to_owned()))
+        let most = cells.iter().find(|((of, _), part)| *of == category && is_most(**part, all[of]));
+        let label = most.and_then(|((_, label), _)| *label);
+        (category, label.map_or(suggested, str::to_owned))
     };
-    suggested.clone().into_iter().map(label).collect()
+    suggested.into_iter().map(label).collect()
 }
 
 /// The faces of the new analysis that have a label of their own.

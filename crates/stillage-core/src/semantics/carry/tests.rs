@@ -218,3 +218,32 @@ fn a_decision_on_ground_that_a_later_map_does_not_show_is_lost() {
     let subjects: Vec<LabelSubject> = carried.lost.iter().map(|lost| lost.subject).collect();
     assert_eq!((carried.kept, subjects), (0, vec![LabelSubject::Category(1), LabelSubject::Face(old.face_at(0, 4).0)]));
 }
+
+#[test]
+fn ground_that_had_no_label_is_not_labelled_by_the_little_that_had_one() {
+    let old = drawn(
+        "
+        cccccccc
+        cccccccc
+        cccccccc
+        cccccccc
+        ppxxxxxx
+        ppxxxxxx
+        ",
+    );
+    // The ground that was outside of all categories and a place beside it share a category now.
+    let new = drawn(
+        "
+        cccccccc
+        cccccccc
+        cccccccc
+        cccccccc
+        jjjjjjjj
+        jjjjjjjj
+        ",
+    );
+    let labels = changed(&old, &decision(&[(2, "pc")], &[]));
+    let rules = RuleSet::warehouse();
+    let suggested = Assignment::suggested(&suggest(&new.analysis, &rules), &rules);
+    assert_eq!(carried(&old, &labels, &new).assignment.assignment[&1], suggested.assignment[&1]);
+}
