@@ -145,7 +145,7 @@ export async function clickMap(page, point) {
 }
 
 /** The pictures of docs/dashboard.md. */
-const DOCUMENTED = ["maps", "look", "decide", "correct", "compare", "route"];
+const DOCUMENTED = ["maps", "look", "decide", "correct", "compare", "analyses", "route"];
 
 /** Keeps a picture of the page: for whoever looks at a failed run, and for the documentation where it is asked for. */
 export async function picture(page, name) {

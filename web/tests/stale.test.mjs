@@ -1,10 +1,10 @@
-/** Codes that wait for a person, and what the report on the navigation graph draws. */
+/** What came from an earlier scan: codes and labels; and what the report on the navigation graph draws. */
 
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 
 import { symmetricHall, uploadMessage, WALLS } from "./halls.mjs";
-import { clickMap, json, openMap, picture, startBrowser, startService } from "./service.mjs";
+import { changeLabels, clickMap, json, openMap, picture, startBrowser, startService } from "./service.mjs";
 
 let service;
 let browser;
@@ -68,6 +68,28 @@ test("the report draws lanes, dead ends, narrow passages and unreachable locatio
   await page.getByText(`Unreachable locations: ${counts[2]}`).waitFor();
   await page.waitForTimeout(500);
   await picture(page, "graph-lanes");
+});
+
+test("labels of an earlier scan come along, and one whose ground is gone is told where labels are decided", async () => {
+  const hall = symmetricHall(WALLS);
+  const first = await scan({ name: "Before" }, hall);
+  const { body } = await json(service.base, `/v1/maps/${first}/collections/locations/items?limit=1000&crs=EPSG:3857`);
+  const inOrder = body.features
+    .map(({ properties }) => properties)
+    .sort((one, other) => one.centre[0] - other.centre[0]);
+  const [left, right] = [inOrder[0], inOrder.at(-1)];
+  await changeLabels(service.base, first, { overrides: { [left.face]: "ro", [right.face]: "ro" } });
+  // The next scan does not show the left end of the hall.
+  const shown = hall.info.width * 0.3;
+  const data = hall.data.map((cell, index) => (index % hall.info.width < shown ? -1 : cell));
+  const second = await scan({ name: "After", previous: first }, { ...hall, data });
+  await openMap(page, service.base, second, "decide");
+  await page.getByText("come from an earlier scan of the site; 1 of them were kept").waitFor();
+  await page.getByText("Could not be kept: 1").waitFor();
+  await picture(page, "lost-labels");
+  const before = page.url();
+  await page.getByRole("button", { name: `Face ${left.face}: room` }).click();
+  await page.waitForFunction((before) => location.href !== before, before);
 });
 
 test("the page had nothing to complain about", () => assert.deepEqual(complaints, []));

@@ -9,7 +9,7 @@ import { rowOf } from "../../map/geojson";
 import type { Collections } from "../../map/collections";
 import type { MapCanvas } from "../../map/map_canvas";
 import { propertyTitles } from "../../map/property_titles";
-import type { TextName } from "../../texts/texts";
+import { addressOf, featureName } from "./feature_name";
 
 export function inspector(
   map: string,
@@ -67,8 +67,7 @@ function section(
   opened: () => void,
   question?: HTMLElement,
 ): HTMLElement {
-  const [collection = "", ...id] = String(feature.getId()).split("/");
-  const name = id.join("/");
+  const [collection, name] = addressOf(feature);
   const row = rowOf(feature);
   const heads = new Map<string, HTMLElement>();
   const line = ([key, value]: [string, unknown]): HTMLElement => {
@@ -82,7 +81,7 @@ function section(
   const details = h(
     "details",
     { open: isOpen },
-    h("summary", {}, [`${oneOf(collection)} ${name}`, row["labelName"], row["name"]].filter(Boolean).join(" · ")),
+    h("summary", {}, featureName(feature)),
     question,
     h("table", {}, ...Object.entries(row).filter(isSaid).map(line)),
     h(
@@ -102,23 +101,6 @@ function section(
     () => undefined,
   );
   return details;
-}
-
-/** What one thing of a collection is called. */
-const ONE = {
-  faces: "oneFace",
-  edges: "oneEdge",
-  locations: "oneLocation",
-  places: "onePlace",
-  doors: "oneDoor",
-  lines: "oneLine",
-  regions: "oneRegion",
-  nodes: "oneNode",
-  links: "oneLink",
-} as const satisfies Record<string, TextName>;
-
-function oneOf(collection: string): string {
-  return collection in ONE ? t(ONE[collection as keyof typeof ONE]) : collection;
 }
 
 function readable(value: unknown): string {

@@ -5,7 +5,7 @@ import type MapBrowserEvent from "ol/MapBrowserEvent";
 import { h, replace } from "../../dom";
 import { number } from "../../language";
 import type { Point } from "../../map/frame";
-import { rowOf } from "../../map/geojson";
+import { featureName } from "./feature_name";
 import type { OpenTool, Workspace } from "./workspace";
 
 export function pointer(workspace: Workspace, opened: () => OpenTool | undefined): () => void {
@@ -21,10 +21,12 @@ export function pointer(workspace: Workspace, opened: () => OpenTool | undefined
     canvas.hovered.clear(true);
     if (feature) canvas.hovered.addFeature(feature.clone());
     else canvas.hovered.changed();
-    const row = feature && rowOf(feature);
-    const name = row && [feature.getId(), row["labelName"], row["name"], row["cogency"]].filter(Boolean).join(" · ");
     note.hidden = false;
-    replace(note, `${number(point[0], 2)}, ${number(point[1], 2)} m`, name && h("strong", {}, ` ${name}`));
+    replace(
+      note,
+      `${number(point[0], 2)}, ${number(point[1], 2)} m`,
+      feature && h("strong", {}, ` ${featureName(feature)}`),
+    );
   };
   const click = (event: MapBrowserEvent): void => {
     const point = pointOf(event);

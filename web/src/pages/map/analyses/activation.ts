@@ -14,7 +14,7 @@ export function activation(workspace: Workspace, id: string, done: () => Promise
     const { wouldCarry } = await get<Analysis>(`v1/maps/${workspace.map.id}/analyses/${id}`);
     const lost = wouldCarry?.lost.length ?? 0;
     const meaning = `${t("activateMeaning")} ${lost > 0 ? t("activateLoses", { lost }) : t("activateKeeps")}`;
-    if (!(await confirm(t("activateQuestion"), meaning, t("activate"), lost > 0))) return;
+    if (!(await confirm(t("activateQuestion"), meaning, t("activate"), false))) return;
     await putInForce(workspace, id);
     await done();
   });
