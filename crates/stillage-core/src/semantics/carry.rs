@@ -201,8 +201,9 @@ fn outcome(
     };
     // By decision: its label, cells of its ground in all, and those that have the label again.
     let mut ground: BTreeMap<LabelSubject, (&str, [u64; 2])> = BTreeMap::new();
-    // What has no ground here is a decision, too.
-    for (subject, label) in old.analysis.subdivision.faces().filter_map(|face| old.decision(face)) {
+    // A category whose ground is not seen here is decided on, too; one that never had any is not.
+    let has_ground = |face: &FaceId| old.analysis.faces[face.index()].cells > 0;
+    for (subject, label) in old.analysis.subdivision.faces().filter(has_ground).filter_map(|face| old.decision(face)) {
         ground.insert(subject, (label, [0, 0]));
     }
     for (&face, label) in old.by_face {
