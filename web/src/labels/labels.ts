@@ -44,6 +44,16 @@ export class Labels implements Reading {
     return this.read.body;
   }
 
+  /** Whether a person decided something here that can be taken back: not what was suggested or carried over. */
+  get canUndo(): boolean {
+    return this.inForce.version > 0 && this.inForce.origin !== "carried";
+  }
+
+  /** Whether the version in force restores another one: only then something comes after it. */
+  get canRedo(): boolean {
+    return "restores" in this.inForce;
+  }
+
   /** The rule set whose labels are shown: the drafted one, else that in force. */
   get ruleSet(): Pick<RuleSet, "id" | "labels"> {
     const { rules } = this.draftNow;

@@ -68,9 +68,8 @@ export function correctBar(workspace: Workspace, corrections: Corrections, saved
     const changes = corrections.count;
     replace(count, changes === 0 ? t("version", { version: corrections.version }) : t("changes", { count: changes }));
     [save.disabled, discard.disabled] = [changes === 0, changes === 0];
-    // Before the first version there is nothing; only one that restores another has something after it.
-    undo.disabled = !corrections.canUndoDraft && (changes > 0 || corrections.version === 0);
-    redo.disabled = !corrections.canRedoDraft && (changes > 0 || !("restores" in labels.inForce));
+    undo.disabled = !corrections.canUndoDraft && (changes > 0 || !labels.canUndo);
+    redo.disabled = !corrections.canRedoDraft && (changes > 0 || !labels.canRedo);
   }
 
   // A draft that was kept in the browser can be older than what is in force.

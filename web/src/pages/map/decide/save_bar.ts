@@ -70,11 +70,7 @@ export function saveBar(
       changes === 0 ? t("version", { version: labels.inForce.version }) : t("changes", { count: changes }),
     );
     [save.disabled, discard.disabled] = [changes === 0, changes === 0];
-    // Only a version that restores another one has something after it.
-    [undo.disabled, redo.disabled] = [
-      changes > 0 || labels.inForce.version === 0,
-      changes > 0 || !("restores" in labels.inForce),
-    ];
+    [undo.disabled, redo.disabled] = [changes > 0 || !labels.canUndo, changes > 0 || !labels.canRedo];
   }
 
   // A draft that was kept in the browser can be older than what is in force.
