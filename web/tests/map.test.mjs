@@ -93,7 +93,7 @@ test("a category is decided: seen at once, saved as a version, undone, redone", 
   const before = (await semantics()).assignment[id];
   const other = before === "co" ? "ju" : "co";
   await category.getByRole("combobox").selectOption(other);
-  await page.getByText("Changes: 1").waitFor();
+  await page.getByText("Changes: 1", { exact: true }).waitFor();
   const faces = (await json(service.base, `/v1/maps/${map}/collections/faces/items?category=${id}&limit=1`)).body;
   await page.getByText(`Faces with another label: ${faces.numberMatched}`).waitFor();
   assert.equal((await semantics()).version, 0, "nothing is stored before it is saved");
@@ -119,13 +119,13 @@ test("a focused category takes its label by a key; a draft outlives the page and
   const other = (await select.inputValue()) === "ro" ? "1" : "4";
   await category.focus();
   await page.keyboard.press(other);
-  await page.getByText("Changes: 1").waitFor();
+  await page.getByText("Changes: 1", { exact: true }).waitFor();
   await page.reload();
-  await page.getByText("Changes: 1").waitFor();
+  await page.getByText("Changes: 1", { exact: true }).waitFor();
   await page.route("**/semantics", (route) => route.abort());
   await page.getByRole("button", { name: "Save" }).click();
   await page.locator(".problem", { hasText: "The service does not answer" }).waitFor();
-  await page.getByText("Changes: 1").waitFor();
+  await page.getByText("Changes: 1", { exact: true }).waitFor();
   await page.unroute("**/semantics");
   await page.getByRole("button", { name: "Save" }).click();
   await page.getByText("Version 5 is in force").waitFor();
@@ -158,7 +158,7 @@ test("where somebody else saved meanwhile, their change is shown and nothing is 
   await page.getByRole("button", { name: "Save" }).click();
   await page.getByText("Somebody else saved meanwhile").waitFor();
   await page.getByText(new RegExp(`Category ${first}: .* → unidentified`)).waitFor();
-  await page.getByText("Changes: 1").waitFor();
+  await page.getByText("Changes: 1", { exact: true }).waitFor();
   await picture(page, "conflict");
   await page.getByRole("button", { name: "Save" }).click();
   await page.getByText("Version 10 is in force").waitFor();
@@ -276,7 +276,7 @@ test("a service that ends and comes back loses no draft: its effect is told and 
   await service.interrupt();
   await select.selectOption(other);
   await page.getByText("It is asked again until it does").waitFor();
-  await page.getByText("Changes: 1").waitFor();
+  await page.getByText("Changes: 1", { exact: true }).waitFor();
   await picture(page, "gone");
   await service.resume();
   await page.getByText("It is asked again until it does").waitFor({ state: "detached" });
