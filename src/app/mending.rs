@@ -22,11 +22,11 @@ use crate::store::{Blob, BlobId, Store};
 pub(super) struct Mending {
     /// One at a time: the job slots have the cores.
     turn: Semaphore,
-    states: Mutex<HashMap<Uuid, State>>,
+    states: Mutex<HashMap<Uuid, MendingState>>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum State {
+enum MendingState {
     UnderWay,
     /// It came out otherwise, or not at all.
     Failed,
@@ -38,7 +38,7 @@ impl Mending {
         Arc::new(Self { turn: Semaphore::new(1), states: Mutex::default() })
     }
 
-    fn states(&self) -> MutexGuard<'_, HashMap<Uuid, State>> {
+    fn states(&self) -> MutexGuard<'_, HashMap<Uuid, MendingState>> {
         // Every statement on it leaves it whole.
         self.states.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -53,14 +53,14 @@ impl Mending {
     ) -> AppError {
         let damaged = format!("the stored analysis {} of map {} is damaged ({reason})", record.id, record.map);
         match self.states().entry(record.id) {
-            Entry::Occupied(state) if *state.get() == State::Failed => {
+            Entry::Occupied(state) if *state.get() == MendingState::Failed => {
                 return AppError::Damaged(format!(
                     "{damaged} and could not be made again as it was: analyse the map with another seed, and activate that"
                 ));
             }
             Entry::Occupied(_) => {}
             Entry::Vacant(state) => {
-                state.insert(State::UnderWay);
+                state.insert(MendingState::UnderWay);
                 tracing::warn!(map = %record.map, analysis = %record.id, reason, "a damaged analysis is made again");
                 let (mending, store, config) = (Arc::clone(self), Arc::clone(store), config.clone());
                 let (source, record, id) = (source.clone(), record.clone(), id.clone());
@@ -93,7 +93,7 @@ impl Mending {
         if is_mended {
             self.states().remove(&record.id);
         } else {
-            self.states().insert(record.id, State::Failed);
+            self.states().insert(record.id, MendingState::Failed);
         }
     }
 }

@@ -11,7 +11,7 @@ const LINE_BYTES: usize = 128;
 /// Follows the bytes of a connection.
 #[derive(Debug, Default)]
 pub(super) struct HeadWatch {
-    place: Place,
+    place: StreamPosition,
     /// The beginning of the line that is being read.
     line: Vec<u8>,
     /// The last byte of the line.
@@ -21,7 +21,7 @@ pub(super) struct HeadWatch {
 
 /// Where the next byte belongs.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
-enum Place {
+enum StreamPosition {
     /// To empty lines before a head.
     #[default]
     Before,
@@ -50,16 +50,16 @@ enum Framing {
 impl HeadWatch {
     /// Looks at the bytes that come next. O(bytes), of bodies O(1).
     pub(super) fn pass(&mut self, mut bytes: &mut [u8]) {
-        while !bytes.is_empty() && self.place != Place::Lost {
+        while !bytes.is_empty() && self.place != StreamPosition::Lost {
             let taken = match self.place {
-                Place::Body(left) | Place::Chunk(left) => {
+                StreamPosition::Body(left) | StreamPosition::Chunk(left) => {
                     let taken = usize::try_from(left).unwrap_or(usize::MAX).min(bytes.len());
                     let rest = left - taken as u64;
                     self.place = match self.place {
-                        Place::Chunk(_) if rest == 0 => Place::ChunkSize,
-                        Place::Chunk(_) => Place::Chunk(rest),
-                        _ if rest == 0 => Place::Before,
-                        _ => Place::Body(rest),
+                        StreamPosition::Chunk(_) if rest == 0 => StreamPosition::ChunkSize,
+                        StreamPosition::Chunk(_) => StreamPosition::Chunk(rest),
+                        _ if rest == 0 => StreamPosition::Before,
+                        _ => StreamPosition::Body(rest),
                     };
                     taken
                 }
@@ -80,7 +80,7 @@ impl HeadWatch {
             self.end_line();
         } else {
             bytes[end] = 0;
-            self.place = Place::Lost;
+            self.place = StreamPosition::Lost;
         }
         self.line.clear();
         self.last = 0;
@@ -90,23 +90,23 @@ impl HeadWatch {
     fn end_line(&mut self) {
         let line = self.line.strip_suffix(b"\r").unwrap_or(&self.line);
         self.place = match self.place {
-            Place::Before | Place::Trailer if line.is_empty() => Place::Before,
-            Place::Before => Place::Head,
-            Place::Head if line.is_empty() => match std::mem::take(&mut self.framing) {
-                Framing::None | Framing::Length(0) => Place::Before,
-                Framing::Length(bytes) => Place::Body(bytes),
-                Framing::Chunked => Place::ChunkSize,
-                Framing::Strange => Place::Lost,
+            StreamPosition::Before | StreamPosition::Trailer if line.is_empty() => StreamPosition::Before,
+            StreamPosition::Before => StreamPosition::Head,
+            StreamPosition::Head if line.is_empty() => match std::mem::take(&mut self.framing) {
+                Framing::None | Framing::Length(0) => StreamPosition::Before,
+                Framing::Length(bytes) => StreamPosition::Body(bytes),
+                Framing::Chunked => StreamPosition::ChunkSize,
+                Framing::Strange => StreamPosition::Lost,
             },
-            Place::Head => {
+            StreamPosition::Head => {
                 self.framing = self.framing.and(line);
-                Place::Head
+                StreamPosition::Head
             }
-            Place::ChunkSize => match chunk_size(line) {
-                Some(0) => Place::Trailer,
+            StreamPosition::ChunkSize => match chunk_size(line) {
+                Some(0) => StreamPosition::Trailer,
                 // The chunk ends with a line end of its own.
-                Some(bytes) => bytes.checked_add(2).map_or(Place::Lost, Place::Chunk),
-                None => Place::Lost,
+                Some(bytes) => bytes.checked_add(2).map_or(StreamPosition::Lost, StreamPosition::Chunk),
+                None => StreamPosition::Lost,
             },
             other => other,
         };

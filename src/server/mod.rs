@@ -48,7 +48,7 @@ use crate::pace::PaceLimits;
 
 use body::AwaitedBody;
 pub use places::ConnectionLimits;
-use places::{Place, Places};
+use places::{ConnectionPlace, ConnectionPlaces};
 use refusal::Refusals;
 use stream::WatchedStream;
 use waiting::Waiting;
@@ -66,7 +66,7 @@ const ACCEPT_PAUSE: Duration = Duration::from_millis(100);
 /// configuration; no new connections, running requests and jobs to their end within the grace period, the rest of the jobs put
 /// back.
 pub async fn serve(listener: TcpListener, app: Arc<App>, limits: ConnectionLimits, stop: impl Future<Output = ()>) {
-    let server = Server::new(Arc::clone(&app), limits);
+    let server = Acceptor::new(Arc::clone(&app), limits);
     server.accept_until(&listener, stop).await;
     app.announce_stop();
     server.accept_until(&listener, tokio::time::sleep(app.config().shutdown_notice)).await;
@@ -87,21 +87,21 @@ pub async fn serve(listener: TcpListener, app: Arc<App>, limits: ConnectionLimit
 }
 
 /// What connections are served with.
-struct Server {
+struct Acceptor {
     app: Arc<App>,
     router: Router,
     protocol: http1::Builder,
     connections: GracefulShutdown,
-    places: Arc<Places>,
+    places: Arc<ConnectionPlaces>,
     refusals: Refusals,
 }
 
-impl Server {
+impl Acceptor {
     fn new(app: Arc<App>, limits: ConnectionLimits) -> Self {
         let mut protocol = http1::Builder::new();
         protocol.timer(TokioTimer::new()).header_read_timeout(HEAD_TIMEOUT);
         let router = http::router(Arc::clone(&app));
-        let (connections, places, refusals) = (GracefulShutdown::new(), Places::new(limits), Refusals::new());
+        let (connections, places, refusals) = (GracefulShutdown::new(), ConnectionPlaces::new(limits), Refusals::new());
         Self { app, router, protocol, connections, places, refusals }
     }
 
@@ -130,7 +130,7 @@ impl Server {
     }
 }
 
-async fn see_to_its_end(connection: impl Future<Output = hyper::Result<()>>, place: Place) {
+async fn see_to_its_end(connection: impl Future<Output = hyper::Result<()>>, place: ConnectionPlace) {
     tokio::select! {
         ended = connection => {
             if let Err(error) = ended {

@@ -26,20 +26,20 @@ pub struct ConnectionLimits {
 /// There is always room for a newcomer: where there are as many as may be, the one that has been waiting for its client longest
 /// is closed. It is nobody's loss, or that of somebody who is slow. Only where all are at work the newcomer is refused.
 #[derive(Debug)]
-pub(super) struct Places {
+pub(super) struct ConnectionPlaces {
     limits: ConnectionLimits,
-    open: Mutex<Open>,
+    open: Mutex<OpenConnections>,
 }
 
 #[derive(Debug, Default)]
-struct Open {
-    connections: HashMap<u64, Connection>,
+struct OpenConnections {
+    connections: HashMap<u64, OpenConnection>,
     of_address: HashMap<IpAddr, usize>,
     next: u64,
 }
 
 #[derive(Debug)]
-struct Connection {
+struct OpenConnection {
     address: IpAddr,
     waiting: Arc<Waiting>,
     close: Arc<Notify>,
@@ -47,8 +47,8 @@ struct Connection {
 
 /// The place of a connection, free again when this is dropped.
 #[derive(Debug)]
-pub(super) struct Place {
-    places: Arc<Places>,
+pub(super) struct ConnectionPlace {
+    places: Arc<ConnectionPlaces>,
     id: u64,
     /// What the connection waits for.
     pub(super) waiting: Arc<Waiting>,
@@ -56,13 +56,13 @@ pub(super) struct Place {
     pub(super) close: Arc<Notify>,
 }
 
-impl Places {
+impl ConnectionPlaces {
     pub(super) fn new(limits: ConnectionLimits) -> Arc<Self> {
         Arc::new(Self { limits, open: Mutex::default() })
     }
 
     /// A place for a connection from an address; `None` where all others are at work.
-    pub(super) fn take(self: &Arc<Self>, address: IpAddr) -> Option<Place> {
+    pub(super) fn take(self: &Arc<Self>, address: IpAddr) -> Option<ConnectionPlace> {
         let mut open = self.open();
         let of_address = open.of_address.get(&address).copied().unwrap_or_default();
         if of_address >= self.limits.of_address {
@@ -74,21 +74,21 @@ impl Places {
         let id = open.next;
         open.next += 1;
         *open.of_address.entry(address).or_default() += 1;
-        let connection = Connection { address, waiting: Arc::clone(&waiting), close: Arc::clone(&close) };
+        let connection = OpenConnection { address, waiting: Arc::clone(&waiting), close: Arc::clone(&close) };
         open.connections.insert(id, connection);
         drop(open);
-        Some(Place { places: Arc::clone(self), id, waiting, close })
+        Some(ConnectionPlace { places: Arc::clone(self), id, waiting, close })
     }
 
-    fn open(&self) -> MutexGuard<'_, Open> {
+    fn open(&self) -> MutexGuard<'_, OpenConnections> {
         // Every call below leaves the counts whole.
         self.open.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
-impl Open {
+impl OpenConnections {
     /// Closes the connection of a kind that has been waiting for its client longest.
-    fn close_one(&mut self, kind: impl Fn(&Connection) -> bool) -> Option<()> {
+    fn close_one(&mut self, kind: impl Fn(&OpenConnection) -> bool) -> Option<()> {
         let waits = self.connections.iter().filter(|(_, connection)| kind(connection));
         let waits = waits.filter_map(|(&id, connection)| Some((connection.waiting.time()?, id)));
         let (_, id) = waits.max().filter(|(time, _)| *time >= LEAST_WAIT)?;
@@ -97,7 +97,7 @@ impl Open {
         Some(())
     }
 
-    fn remove(&mut self, id: u64) -> Option<Connection> {
+    fn remove(&mut self, id: u64) -> Option<OpenConnection> {
         let connection = self.connections.remove(&id)?;
         if let Some(count) = self.of_address.get_mut(&connection.address) {
             *count -= 1;
@@ -109,7 +109,7 @@ impl Open {
     }
 }
 
-impl Drop for Place {
+impl Drop for ConnectionPlace {
     fn drop(&mut self) {
         self.places.open().remove(self.id);
     }
@@ -125,7 +125,7 @@ mod tests {
 
     #[test]
     fn a_newcomer_takes_the_place_that_waited_longest_and_none_that_works() {
-        let places = Places::new(ConnectionLimits { in_all: 3, of_address: 3 });
+        let places = ConnectionPlaces::new(ConnectionLimits { in_all: 3, of_address: 3 });
         let [slow, working, late] = [1, 2, 3].map(|last| places.take(address(last)).expect("there is room"));
         assert!(places.take(address(4)).is_none(), "nobody has been waiting for long");
         working.waiting.work();
@@ -140,7 +140,7 @@ mod tests {
 
     #[test]
     fn an_address_makes_room_among_its_own_connections() {
-        let places = Places::new(ConnectionLimits { in_all: 3, of_address: 2 });
+        let places = ConnectionPlaces::new(ConnectionLimits { in_all: 3, of_address: 2 });
         let others = places.take(address(1)).expect("there is room");
         let first = places.take(address(2)).expect("there is room");
         let _second = places.take(address(2)).expect("there is room");

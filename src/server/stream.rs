@@ -21,12 +21,12 @@ pub(super) struct WatchedStream<S> {
     waiting: Arc<Waiting>,
     limits: PaceLimits,
     heads: HeadWatch,
-    blocked: Option<Blocked>,
+    blocked: Option<BlockedWrite>,
 }
 
 /// A client that does not take what is written.
 #[derive(Debug)]
-struct Blocked {
+struct BlockedWrite {
     pace: Pace,
     /// Whether the last write had to wait.
     is_waiting: bool,
@@ -62,7 +62,7 @@ impl<S> WatchedStream<S> {
         let limits = self.limits;
         let blocked = self.blocked.get_or_insert_with(|| {
             let pace = Pace::new(limits, Instant::now());
-            Blocked { pace, is_waiting: true, timer: Box::pin(tokio::time::sleep_until(pace.deadline())) }
+            BlockedWrite { pace, is_waiting: true, timer: Box::pin(tokio::time::sleep_until(pace.deadline())) }
         });
         blocked.is_waiting = true;
         if blocked.timer.deadline() != blocked.pace.deadline() {
