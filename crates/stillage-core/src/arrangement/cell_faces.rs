@@ -24,12 +24,12 @@ const BAND_ROWS: usize = 64;
 #[derive(Debug, Clone, PartialEq)]
 pub struct CellFaces {
     width: usize,
-    numbers: Numbers,
+    numbers: FaceNumbers,
 }
 
 /// The numbers of the faces, row-major, lowest row first.
 #[derive(Debug, Clone, PartialEq)]
-enum Numbers {
+enum FaceNumbers {
     Narrow(Vec<u16>),
     Wide(Vec<u32>),
 }
@@ -46,9 +46,9 @@ impl CellFaces {
     pub fn rasterize(subdivision: &Subdivision, width: usize, height: usize, resolution: f64) -> Self {
         let centers = Centers { width, height, resolution };
         let numbers = if subdivision.face_count() <= usize::from(u16::MAX) + 1 {
-            Numbers::Narrow(filled(subdivision, centers, |sides| sides as u16))
+            FaceNumbers::Narrow(filled(subdivision, centers, |sides| sides as u16))
         } else {
-            Numbers::Wide(filled(subdivision, centers, |sides| sides))
+            FaceNumbers::Wide(filled(subdivision, centers, |sides| sides))
         };
         Self { width, numbers }
     }
@@ -67,8 +67,12 @@ impl CellFaces {
         };
         let cells = (0..grid.cells().len()).into_par_iter().map(known);
         let numbers = match &self.numbers {
-            Numbers::Narrow(faces) => Numbers::Narrow(cells.map(|cell| cell.map_or(0, |cell| faces[cell])).collect()),
-            Numbers::Wide(faces) => Numbers::Wide(cells.map(|cell| cell.map_or(0, |cell| faces[cell])).collect()),
+            FaceNumbers::Narrow(faces) => {
+                FaceNumbers::Narrow(cells.map(|cell| cell.map_or(0, |cell| faces[cell])).collect())
+            }
+            FaceNumbers::Wide(faces) => {
+                FaceNumbers::Wide(cells.map(|cell| cell.map_or(0, |cell| faces[cell])).collect())
+            }
         };
         Self { width, numbers }
     }
@@ -97,8 +101,8 @@ impl CellFaces {
     #[inline]
     pub fn of_cell(&self, cell: usize) -> FaceId {
         match &self.numbers {
-            Numbers::Narrow(numbers) => FaceId(u32::from(numbers[cell])),
-            Numbers::Wide(numbers) => FaceId(numbers[cell]),
+            FaceNumbers::Narrow(numbers) => FaceId(u32::from(numbers[cell])),
+            FaceNumbers::Wide(numbers) => FaceId(numbers[cell]),
         }
     }
 
@@ -115,8 +119,8 @@ impl CellFaces {
             let first = start;
             (first < cells.end).then(|| {
                 start += match &self.numbers {
-                    Numbers::Narrow(numbers) => run_length(&numbers[first..cells.end]),
-                    Numbers::Wide(numbers) => run_length(&numbers[first..cells.end]),
+                    FaceNumbers::Narrow(numbers) => run_length(&numbers[first..cells.end]),
+                    FaceNumbers::Wide(numbers) => run_length(&numbers[first..cells.end]),
                 };
                 (self.of_cell(first), first..start)
             })
@@ -127,8 +131,8 @@ impl CellFaces {
     #[must_use]
     pub fn len(&self) -> usize {
         match &self.numbers {
-            Numbers::Narrow(numbers) => numbers.len(),
-            Numbers::Wide(numbers) => numbers.len(),
+            FaceNumbers::Narrow(numbers) => numbers.len(),
+            FaceNumbers::Wide(numbers) => numbers.len(),
         }
     }
 
