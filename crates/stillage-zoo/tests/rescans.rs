@@ -65,13 +65,19 @@ fn error(found: &SiteAlignment, new: &Sample, old: &Sample) -> f64 {
     offsets.iter().sum::<Vector>().norm() / offsets.len() as f64
 }
 
-fn seeds_and_kinds() -> (Range<u64>, &'static [Kind]) {
+/// Halls of every kind under the seeds wished for. Without a wish two halls, and one whose two ends look alike and which
+/// was taken for its other end.
+fn halls() -> Vec<(u64, Kind)> {
     let wished = std::env::var("RESCAN_SEEDS").ok();
     let bounds = wished.as_deref().and_then(|text| text.split_once(".."));
     match bounds.map(|(from, to)| (from.parse(), to.parse())) {
-        Some((Ok(from), Ok(to))) => (from..to, &Kind::ALL),
-        _ => (4..5, &[Kind::Selective, Kind::LShape]),
+        Some((Ok(from), Ok(to))) => of_every_kind(from..to),
+        _ => vec![(4, Kind::Selective), (4, Kind::LShape), (32, Kind::BlockStorage)],
     }
+}
+
+fn of_every_kind(seeds: Range<u64>) -> Vec<(u64, Kind)> {
+    seeds.flat_map(|seed| Kind::ALL.iter().map(move |&kind| (seed, kind))).collect()
 }
 
 #[test]
@@ -87,10 +93,9 @@ fn a_hall_is_found_to_the_centimetre_where_the_robot_knows_its_poses() {
 /// Finds halls again, and does not take one for another; `most` is how far off they may be, metres and degrees.
 #[allow(clippy::print_stdout, reason = "the figures of --nocapture")]
 fn find_again(exact_poses: bool, most: (f64, f64)) {
-    let (seeds, kinds) = seeds_and_kinds();
     let mut before: Option<OccupancyGrid> = None;
     let mut misses = Vec::new();
-    for (seed, &kind) in seeds.flat_map(|seed| kinds.iter().map(move |kind| (seed, kind))) {
+    for (seed, kind) in halls() {
         let turn = 47.3 + 37.0 * seed as f64;
         let made = |rotation_deg, boxes, resolution| {
             let (rotation_deg, boxes) = (Some(rotation_deg), Some(boxes));
@@ -106,7 +111,8 @@ fn find_again(exact_poses: bool, most: (f64, f64)) {
                 let metres = error(&found, &new, &old);
                 let turned = (found.motion.turn.to_degrees() - turn + 180.0).rem_euclid(360.0) - 180.0;
                 println!("    {metres:.3} m, {turned:.3} degrees off");
-                if metres > most.0 || turned.abs() > most.1 {
+                // A hall that looks alike from both ends may be taken for its other end, but never without a word.
+                if !found.ambiguous && (metres > most.0 || turned.abs() > most.1) {
                     misses.push(format!("{kind} {seed}: {metres:.3} m, {turned:.3} degrees off"));
                 }
             }
@@ -171,9 +177,8 @@ fn kept_told_and_renamed(old: &Sample, new: &Sample) -> [usize; 4] {
 
 #[test]
 fn codes_stay_with_their_places() {
-    let (seeds, kinds) = seeds_and_kinds();
     let mut total = [0; 4];
-    for (seed, &kind) in seeds.flat_map(|seed| kinds.iter().map(move |kind| (seed, kind))) {
+    for (seed, kind) in halls() {
         let made = |rotation_deg, boxes| {
             let (rotation_deg, boxes) = (Some(rotation_deg), Some(boxes));
             generate(kind, seed, &Options { rotation_deg, boxes, ..Options::default() })

@@ -83,22 +83,25 @@ impl Tally {
 
     fn one_way(from: &Surfaces<'_>, to: &Surfaces<'_>, points: &[usize], motion: &RigidMotion) -> Self {
         let touch = touch([from, to]);
-        let tally = |&index: &usize| {
-            let moved = motion.apply(from.points[index]);
-            let found = contact(to, moved, motion.turned(from.normals[index])).filter(|found| found.distance <= touch);
-            let is_known = || {
-                let cell = to.grid.cell_at(moved);
-                cell.is_some_and(|(column, row)| to.grid.at(column as i64, row as i64) != Occupancy::Unknown)
-            };
-            match found {
-                Some(found) => Self { touching: 1.0, squares: found.offset.powi(2), ..Self::default() },
-                None if is_known() => Self { missing: 1.0, ..Self::default() },
-                None => Self { outside: 1.0, ..Self::default() },
-            }
-        };
+        let tally = |&index: &usize| Self::of_point(from, to, index, motion, touch);
         // Collected in order: a sum in any other would depend on the threads.
         let tallies: Vec<Self> = points.par_iter().map(tally).collect();
         tallies.into_iter().fold(Self::default(), Self::plus)
+    }
+
+    /// Counts one point of `from`, given by index; `touch` in metres.
+    pub fn of_point(from: &Surfaces<'_>, to: &Surfaces<'_>, index: usize, motion: &RigidMotion, touch: f64) -> Self {
+        let moved = motion.apply(from.points[index]);
+        let found = contact(to, moved, motion.turned(from.normals[index])).filter(|found| found.distance <= touch);
+        let is_known = || {
+            let cell = to.grid.cell_at(moved);
+            cell.is_some_and(|(column, row)| to.grid.at(column as i64, row as i64) != Occupancy::Unknown)
+        };
+        match found {
+            Some(found) => Self { touching: 1.0, squares: found.offset.powi(2), ..Self::default() },
+            None if is_known() => Self { missing: 1.0, ..Self::default() },
+            None => Self { outside: 1.0, ..Self::default() },
+        }
     }
 
     fn plus(self, other: Self) -> Self {

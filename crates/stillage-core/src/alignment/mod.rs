@@ -6,6 +6,7 @@
 //! | turns | correlation of the radiogram energies over the angle | `turns` |
 //! | shifts | cross-correlation of coarse maps by Fourier transforms | `overview`, `shifts` |
 //! | fit | closest points along the normals, robust against moved goods | `refine` |
+//! | choice | what one motion explains and another does not | `rivals` |
 //! | verdict | share of surfaces that touch, against that of the next best motion | `agreement`, `site_alignment` |
 //!
 //! Source: our own combination of known parts. The author of the paper aligns maps by their decompositions
@@ -18,6 +19,7 @@
 mod agreement;
 mod overview;
 mod refine;
+mod rivals;
 mod shifts;
 mod site_alignment;
 mod surfaces;
@@ -66,12 +68,14 @@ pub fn align(
     let starts = shifts::candidates(&Overview::of(&from, cell), &Overview::of(&to, cell), &turns, watch)?;
     let finalists = best_of([&from, &to], &starts, FEW_POINTS, FINALISTS, watch)?;
     let starts: Vec<RigidMotion> = finalists.into_iter().map(|(motion, _)| motion).collect();
-    let ranked = best_of([&from, &to], &starts, MANY_POINTS, FINALISTS, watch)?;
+    let mut ranked = best_of([&from, &to], &starts, MANY_POINTS, FINALISTS, watch)?;
+    let samples = [&from, &to].map(|map| map.sample(MANY_POINTS));
+    let advantage = rivals::settle([&from, &to], [&samples[0], &samples[1]], &mut ranked);
     let to_map_frames = |motion: RigidMotion| new.frame().motion().inverse().then(&motion).then(&old.frame().motion());
     let samples = [&from, &to].map(|map| map.sample(FEW_POINTS));
     let turn = ranked.first().map_or(0.0, |(motion, _)| motion.turn);
     let chance = agreement::chance([&from, &to], [&samples[0], &samples[1]], turn);
-    Ok(site_alignment::verdict(&ranked, chance, to_map_frames))
+    Ok(site_alignment::verdict(&ranked, advantage, chance, to_map_frames))
 }
 
 /// Refines motions on a sample of the points, and keeps the best that differ.
