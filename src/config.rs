@@ -1,16 +1,32 @@
 //! Everything that can be configured, read once at the start.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use crate::allowed_hosts::AllowedHosts;
 use crate::ingest::Limits;
+pub use crate::storage_address::{BlobAddress, DatabaseAddress};
+
+/// What a process does.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+pub enum Role {
+    /// Answers requests and works on jobs.
+    All,
+    /// Answers requests; the jobs are for other processes.
+    Api,
+    /// Works on jobs; of requests it answers those for its health and metrics alone.
+    Worker,
+}
 
 /// Configuration of a running service.
 #[derive(Debug, Clone)]
 pub struct Config {
-    /// Folder of the database and the blobs.
-    pub data: PathBuf,
+    /// Where the rows are.
+    pub database: DatabaseAddress,
+    /// Where the blobs are.
+    pub blobs: BlobAddress,
+    /// What this process does.
+    pub role: Role,
     /// Limits on uploaded maps.
     pub limits: Limits,
     /// Jobs that run at the same time.
@@ -58,12 +74,15 @@ pub struct Config {
 }
 
 impl Config {
-    /// The defaults, with the data in a folder.
+    /// The defaults, with SQLite and the blobs in a data folder.
     #[must_use]
     pub fn new(data: impl Into<PathBuf>) -> Self {
+        let data = data.into();
         let cores = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
         Self {
-            data: data.into(),
+            blobs: BlobAddress::Folder(data.join("blobs")),
+            database: DatabaseAddress::Sqlite(data),
+            role: Role::All,
             limits: Limits::default(),
             job_slots: 1,
             compute_threads: cores,
@@ -88,5 +107,12 @@ impl Config {
             shutdown_notice: Duration::from_secs(1),
             shutdown_grace: Duration::from_secs(25),
         }
+    }
+    /// The folder for requests that are being received: that of the rows or the blobs, or where neither is on this machine, that
+    /// of temporary files.
+    #[must_use]
+    pub fn upload_folder(&self) -> PathBuf {
+        let own = self.database.folder().or_else(|| self.blobs.folder());
+        own.map_or_else(std::env::temp_dir, Path::to_owned)
     }
 }

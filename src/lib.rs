@@ -24,6 +24,7 @@ mod did_you_mean;
 mod fail_point;
 mod pace;
 
+mod storage_address;
 pub mod store;
 
 pub mod jobs;

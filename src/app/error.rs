@@ -123,7 +123,7 @@ impl From<StoreError> for AppError {
     fn from(error: StoreError) -> Self {
         match error {
             StoreError::NoSpace => Self::NoSpace,
-            StoreError::Busy => Self::Unavailable,
+            StoreError::Busy | StoreError::Blob(_) => Self::Unavailable,
             unreadable @ StoreError::Format { .. } => Self::Conflict(unreadable.to_string()),
             other => Self::Internal(Box::new(other)),
         }

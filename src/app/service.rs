@@ -5,6 +5,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 use tokio::sync::{Semaphore, watch};
+use tokio::task::JoinSet;
 
 use super::context_cache::ContextCache;
 use super::error::AppError;
@@ -36,6 +37,8 @@ pub struct App {
     /// Bounds how many uploads and contexts are decoded at the same time, and with that their memory.
     pub(super) decoders: Semaphore,
     is_stopping: AtomicBool,
+    /// Ends with the service.
+    _changes_elsewhere: JoinSet<()>,
 }
 
 impl App {
@@ -51,6 +54,10 @@ impl App {
     pub(super) fn start(config: Config, store: Arc<dyn Store>, processes: Processes) -> Arc<Self> {
         let signals = Arc::new(Signals::default());
         let worker = Worker::start(&config, Arc::clone(&store), processes, Arc::clone(&signals));
+        let mut changes = JoinSet::new();
+        if store.is_shared() {
+            changes.spawn(pass_on_changes(Arc::clone(&store), Arc::clone(&signals)));
+        }
         let contexts = ContextCache::new(config.cached_maps);
         let decoders = Semaphore::new(config.compute_threads.max(1));
         Arc::new(Self {
@@ -64,6 +71,7 @@ impl App {
             mending: Mending::new(),
             decoders,
             is_stopping: AtomicBool::new(false),
+            _changes_elsewhere: changes,
         })
     }
 
@@ -115,6 +123,14 @@ impl App {
     #[must_use]
     pub fn job_changes(&self) -> watch::Receiver<u64> {
         self.signals.changes()
+    }
+}
+
+/// Tells those who wait in this process that another one may have queued or changed a job.
+async fn pass_on_changes(store: Arc<dyn Store>, signals: Arc<Signals>) {
+    loop {
+        store.job_changed_elsewhere().await;
+        signals.queued();
     }
 }
 

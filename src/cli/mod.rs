@@ -21,6 +21,7 @@ mod input;
 mod output;
 mod progress;
 mod server;
+mod storage;
 
 use std::ffi::OsString;
 use std::process::ExitCode;
@@ -55,7 +56,7 @@ enum Command {
     Demo(demo::DemoArgs),
     /// Prints the OpenAPI 3.1 document of the service.
     Openapi(openapi::OpenapiArgs),
-    /// Brings the database of a data folder up to date (`serve` does so by itself).
+    /// Brings the database up to date (`serve` does so by itself), or moves a deployment from one storage to another.
     Migrate(migrate::MigrateArgs),
 }
 

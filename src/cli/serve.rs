@@ -2,7 +2,6 @@
 
 use std::io::{self, Write};
 use std::net::SocketAddr;
-use std::path::PathBuf;
 use std::time::Duration;
 
 use clap::{Args, ValueEnum};
@@ -13,9 +12,10 @@ use tracing_subscriber::filter::Targets;
 use tracing_subscriber::layer::SubscriberExt as _;
 use tracing_subscriber::util::SubscriberInitExt as _;
 
+use super::storage::{BlobsNotShared, StorageArgs};
 use crate::allowed_hosts::HostPattern;
 use crate::app::{App, AppError};
-use crate::config::Config;
+use crate::config::{Config, DatabaseAddress, Role};
 use crate::ingest::Limits;
 use crate::server::{self, ConnectionLimits, open_files};
 
@@ -28,9 +28,14 @@ pub(super) struct ServeArgs {
     /// Listen on an address that others can reach. Everybody who reaches it may read, change and delete every map.
     #[arg(long, env = "STILLAGE_ALLOW_PUBLIC")]
     pub(super) allow_public: bool,
-    /// Folder of the database and the uploads; made where it is missing. One process at a time.
-    #[arg(long, env = "STILLAGE_DATA", default_value = "data", value_name = "FOLDER")]
-    pub(super) data: PathBuf,
+    #[command(flatten)]
+    pub(super) storage: StorageArgs,
+    /// What this process does. Several processes share a database of `--database postgres://...`.
+    #[arg(long, env = "STILLAGE_ROLE", default_value = "all", value_name = "ROLE")]
+    pub(super) role: Role,
+    /// How long a job stays with a process that no longer says it works on it, seconds.
+    #[arg(long, env = "STILLAGE_LEASE_S", default_value_t = 30, value_name = "S", value_parser = clap::value_parser!(u64).range(1..))]
+    pub(super) lease_s: u64,
     /// Jobs that run at the same time.
     #[arg(long, env = "STILLAGE_JOB_SLOTS", default_value_t = 1, value_name = "N")]
     pub(super) job_slots: usize,
@@ -128,6 +133,12 @@ pub(super) enum ServeError {
         that knows its users, or pass --allow-public"
     )]
     Public(SocketAddr),
+    /// A database of several processes with the blobs of one.
+    #[error(transparent)]
+    Storage(#[from] BlobsNotShared),
+    /// A part of a service on a database that no other part can use.
+    #[error("{0} is of one process, which has to do everything: choose --role all, or --database postgres://...")]
+    OneProcess(DatabaseAddress),
     /// The port is taken, or the address is not of this machine.
     #[error("cannot listen on {address}: {source}")]
     Listen {
@@ -157,16 +168,23 @@ fn root(error: &AppError) -> &dyn std::fmt::Display {
 
 impl ServeArgs {
     /// The configuration that the arguments mean.
-    #[must_use]
-    pub fn config(&self) -> Config {
-        let defaults = Config::new(&self.data);
-        Config {
+    ///
+    /// # Errors
+    /// When they contradict one another.
+    pub fn config(&self) -> Result<Config, ServeError> {
+        let defaults = self.storage.config()?;
+        if self.role != Role::All && !defaults.database.is_shared() {
+            return Err(ServeError::OneProcess(defaults.database));
+        }
+        Ok(Config {
+            role: self.role,
+            lease: Duration::from_secs(self.lease_s),
             limits: Limits {
                 max_bytes: self.max_upload_mib.saturating_mul(1 << 20),
                 max_cells: self.max_cells,
                 ..defaults.limits
             },
-            job_slots: self.job_slots,
+            job_slots: if self.role == Role::Api { 0 } else { self.job_slots },
             compute_threads: self.compute_threads.unwrap_or(defaults.compute_threads),
             max_attempts: self.max_attempts,
             max_queued_jobs: self.max_queued_jobs,
@@ -186,7 +204,7 @@ impl ServeArgs {
             shutdown_notice: Duration::from_secs(self.shutdown_notice_s),
             shutdown_grace: Duration::from_secs(self.shutdown_grace_s),
             ..defaults
-        }
+        })
     }
 }
 
@@ -212,7 +230,7 @@ async fn serve(args: &ServeArgs) -> Result<(), ServeError> {
     let address = args.listen;
     let listener = TcpListener::bind(address).await.map_err(|source| ServeError::Listen { address, source })?;
     let mut signals = StopSignals::listen()?;
-    let app = App::open(args.config()).await?;
+    let app = App::open(args.config()?).await?;
     // Whoever started the service may not listen any more.
     let _ = writeln!(io::stdout(), "listening on http://{}", listener.local_addr()?);
     let stop = async {
@@ -275,7 +293,24 @@ mod tests {
     #[test]
     fn the_defaults_of_the_command_line_are_those_of_the_configuration() {
         let args = Line::parse_from(["stillage"]).serve;
-        assert_eq!(format!("{:?}", args.config()), format!("{:?}", Config::new("data")));
+        assert_eq!(format!("{:?}", args.config().unwrap()), format!("{:?}", Config::new("data")));
+    }
+
+    #[test]
+    fn what_processes_share_must_be_shared_whole() {
+        let refusal = |arguments: &[&str]| {
+            let args = Line::parse_from(["stillage"].iter().chain(arguments)).serve;
+            args.config().expect_err("it contradicts itself").to_string()
+        };
+        assert!(refusal(&["--role", "worker"]).starts_with("sqlite:data is of one process"));
+        #[cfg(feature = "postgres")]
+        {
+            let refusal = refusal(&["--database", "postgres://me:secret@host/maps"]);
+            assert!(
+                refusal.starts_with("postgres://host/maps is shared by processes, and its blobs must be"),
+                "{refusal}"
+            );
+        }
     }
 
     #[test]

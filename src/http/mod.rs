@@ -40,7 +40,7 @@ pub use client_address::ClientAddress;
 pub use docs::Texts as OpenApiTexts;
 
 use crate::app::App;
-use crate::config::Config;
+use crate::config::{Config, Role};
 
 /// Bytes that a body may have where nothing else is said: overrides for a hundred thousand faces.
 const BODY_BYTES: usize = 8 << 20;
@@ -179,6 +179,22 @@ fn document<S: Clone + Send + Sync + 'static>(routes: OpenApiRouter<S>) -> (Rout
 /// parameters; `Accept`. Around each group of routes lies its entrance, which receives bodies and bounds what is under way, and
 /// the clock of its answers.
 pub fn router(app: Arc<App>) -> Router {
+    if app.config().role == Role::Worker { of_worker(app) } else { of_service(app) }
+}
+
+/// The routes of a process that works on jobs: its health and its metrics.
+fn of_worker(app: Arc<App>) -> Router {
+    let metrics = Arc::new(guard::observe::Metrics::new());
+    Router::new()
+        .route("/health/live", axum::routing::get(admin::health::live))
+        .route("/health/ready", axum::routing::get(admin::health::ready))
+        .route("/metrics", axum::routing::get(guard::observe::metrics))
+        .layer(from_fn(problem::render))
+        .layer(Extension(metrics))
+        .with_state(app)
+}
+
+fn of_service(app: Arc<App>) -> Router {
     let (router, document) = document(routes(app.config()));
     let known = Arc::new(guard::KnownParameters::of(&document));
     let metrics = Arc::new(guard::observe::Metrics::new());

@@ -14,7 +14,7 @@ use crate::fail_point;
 use crate::records::JobState;
 use crate::stage_clock::StageClock;
 use crate::store::queue::{Claim, JobResult, Progress};
-use crate::store::{Blob, StoreError, now};
+use crate::store::{Blob, StoreError};
 
 /// How long a computation may take to notice its stop flag when the service ends.
 const LAST_MOMENTS: Duration = Duration::from_secs(1);
@@ -108,7 +108,7 @@ impl<'a> Running<'a> {
         };
         let is_due = progress != self.written || self.renewed.elapsed() >= lease / 3;
         let answer = if is_due {
-            self.shared.store.heartbeat(&self.claim, &progress, lease, now()).await
+            self.renew(&progress, lease).await
         } else {
             self.shared.store.is_cancel_requested(&self.claim).await
         };
@@ -133,6 +133,11 @@ impl<'a> Running<'a> {
         }
     }
 
+    async fn renew(&self, progress: &Progress, lease: Duration) -> Result<bool, StoreError> {
+        let store = &self.shared.store;
+        store.heartbeat(&self.claim, progress, lease, store.clock().await?).await
+    }
+
     /// Waits until the computation has let go of the pool, but not beyond the end of the service.
     async fn drain(&self, result: oneshot::Receiver<Result<JobResult, ComputeError>>) {
         self.stop.raise();
@@ -147,7 +152,8 @@ impl<'a> Running<'a> {
 
     /// Stores the blob, then commits the result with the end of the job.
     async fn store_result(&self, made: &JobResult) -> Result<(), StoreError> {
-        self.shared.store.finish(&self.claim, made, &self.clock.reports(), now()).await?;
+        let store = &self.shared.store;
+        store.finish(&self.claim, made, &self.clock.reports(), store.clock().await?).await?;
         tracing::info!(job = %self.claim.job, map = %self.claim.map, process = self.claim.process, "job finished");
         self.shared.signals.changed();
         Ok(())
@@ -170,15 +176,19 @@ impl<'a> Running<'a> {
         let wait = (terms.backoff)(self.claim.job, attempt);
         let message = format!("attempt {attempt} of {} failed: {error}", terms.max_attempts);
         tracing::warn!(job = %self.claim.job, attempt, ?wait, %error, "job will be tried again");
-        let requeued = self.shared.store.requeue(&self.claim, attempt, wait, &message, now()).await;
-        self.settled(requeued)
+        self.requeue(attempt, wait, &message).await
     }
 
     /// Puts the job back as if this attempt had not been: the service was asked to stop.
     async fn give_back(&self) -> Result<(), StoreError> {
         let attempt = self.claim.attempt.saturating_sub(1);
         let message = "put back because the service was stopped";
-        let requeued = self.shared.store.requeue(&self.claim, attempt, Duration::ZERO, message, now()).await;
+        self.requeue(attempt, Duration::ZERO, message).await
+    }
+
+    async fn requeue(&self, attempt: u32, wait: Duration, message: &str) -> Result<(), StoreError> {
+        let store = &self.shared.store;
+        let requeued = store.requeue(&self.claim, attempt, wait, message, store.clock().await?).await;
         self.settled(requeued)
     }
 
@@ -188,7 +198,8 @@ impl<'a> Running<'a> {
 
     async fn end(&self, state: JobState, message: &str) -> Result<(), StoreError> {
         tracing::info!(job = %self.claim.job, state = state.name(), message, "job ended");
-        let ended = self.shared.store.end(&self.claim, state, message, now()).await;
+        let store = &self.shared.store;
+        let ended = store.end(&self.claim, state, message, store.clock().await?).await;
         self.settled(ended)
     }
 

@@ -153,7 +153,7 @@ async fn a_damaged_upload_is_never_computed_on() {
     let service = service(&fixture, 0).await;
     let job = upload(&service.store, "fine").await;
     let source = service.store.map_source(&local(), job.map).await.unwrap().unwrap();
-    let file = fixture.config.data.join("blobs").join(&source.as_str()[..2]).join(source.as_str());
+    let file = fixture.blob_file(&source);
     std::fs::write(file, "something else").unwrap();
     service.worker.run_until_empty().await.unwrap();
     let job = service.job(job.id).await;
@@ -241,14 +241,15 @@ async fn a_fault_of_the_disk_is_tried_again_later() {
     let job = upload(&service.store, "fine").await;
     // The result cannot be written: a file stands where its folder should be.
     let blob = Blob::new("fine".as_bytes());
-    let folder = fixture.config.data.join("blobs").join(&blob.id().as_str()[..2]);
-    std::fs::write(&folder, "in the way").unwrap();
+    let file = fixture.blob_file(blob.id());
+    let folder = file.parent().unwrap();
+    std::fs::write(folder, "in the way").unwrap();
     service.worker.run_until_empty().await.unwrap();
     let waiting = service.job(job.id).await;
     assert_eq!((waiting.state, waiting.attempt), (JobState::Accepted, 1));
     assert!(waiting.message.starts_with("attempt 1 of 5 failed: blob storage: "), "{}", waiting.message);
 
-    std::fs::remove_file(&folder).unwrap();
+    std::fs::remove_file(folder).unwrap();
     let due = now() + jiff::SignedDuration::from_secs(7);
     let again = service.store.claim(&TERMS, due).await.unwrap().expect("it is due within seven seconds");
     assert_eq!((again.job, again.attempt), (job.id, 2));

@@ -14,7 +14,7 @@ use super::shared::{Settings, Shared};
 use super::signals::Signals;
 use crate::config::Config;
 use crate::store::queue::Terms;
-use crate::store::{Store, StoreError, now};
+use crate::store::{Store, StoreError};
 
 /// A slot looks at the queue at least this often, whatever it is told: a signal is only a hint.
 const POLL: Duration = Duration::from_secs(1);
@@ -90,7 +90,7 @@ impl Worker {
             tracing::warn!(%error, "no job is begun");
             return Ok(false);
         }
-        let Some(claim) = store.claim(&settings.terms, now()).await? else { return Ok(false) };
+        let Some(claim) = store.claim(&settings.terms, store.clock().await?).await? else { return Ok(false) };
         tracing::info!(job = %claim.job, process = claim.process, map = %claim.map, attempt = claim.attempt, "job begun");
         signals.changed();
         Running::new(&self.shared, claim).run(pool).await?;

@@ -4,6 +4,7 @@ use std::fmt;
 use std::time::Duration;
 
 use async_trait::async_trait;
+use jiff::Timestamp;
 
 use super::{Analyses, Blobs, HiddenMaps, Jobs, Maps, Queue, Registries, RuleSets, SemanticsVersions, StoreError};
 
@@ -26,6 +27,9 @@ pub trait Store:
     /// The blobs.
     fn blobs(&self) -> &dyn Blobs;
 
+    /// Whether other processes may use the database at the same time.
+    fn is_shared(&self) -> bool;
+
     /// How many writes there were, where none is under way: what was read of the database between two calls that answer the
     /// same number is as it was. `None` while somebody writes.
     fn writes(&self) -> Option<u64>;
@@ -44,6 +48,16 @@ pub trait Store:
 
     /// The schema version of the database.
     async fn schema_version(&self) -> Result<i64, StoreError>;
+
+    /// The time by the clock of the database, by which leases run: processes that share one share its clock.
+    ///
+    /// # Errors
+    /// When the database does not answer.
+    async fn clock(&self) -> Result<Timestamp, StoreError>;
+
+    /// Returns when another process may have queued or changed a job: a hint, at least once a second. Where no other process
+    /// can, it never returns.
+    async fn job_changed_elsewhere(&self);
 
     /// Removes blobs without a row that are older than `age`, and what is left of interrupted writes. Answers how many
     /// blobs were removed.

@@ -26,16 +26,24 @@ pub enum StoreError {
         source: io::Error,
     },
     /// The database knows migrations that this program does not.
-    #[error("the database {} was written by a newer stillage (schema {found}, this program knows up to {known}): \
-        run the newer program, or restore the backup made before the upgrade", .database.display())]
+    #[error(
+        "the database {database} was written by a newer stillage (schema {found}, this program knows up to {known}): \
+        run the newer program, or restore the backup made before the upgrade"
+    )]
     NewerDatabase {
-        /// The database file.
-        database: PathBuf,
+        /// The database file, or the address of the server.
+        database: String,
         /// A migration that was applied to it.
         found: i64,
         /// The last migration of this program.
         known: i64,
     },
+    /// An address that a database cannot have.
+    #[error("the address of the database makes no sense: {0}")]
+    Address(String),
+    /// The server of the database does not let the program in.
+    #[error("the database {0} cannot be reached: {1}")]
+    Unreachable(String, #[source] sqlx::Error),
     /// A migration failed.
     #[error("the database could not be brought up to date: {0}")]
     Migration(#[source] sqlx::migrate::MigrateError),

@@ -11,7 +11,8 @@
 //! | `registries` | the codes and names of a site's places |
 //! | `rule_sets` | rule sets that people wrote |
 //! | `blobs` | bytes by their hash, and the formats of stored values |
-//! | `sqlite` | the engine: all SQL |
+//! | `sql` | the store: all SQL, for both databases |
+//! | `sqlite`, `postgres` | how each database is opened, and what only it has |
 //! | `contract` | the tests that every engine must pass |
 //!
 //! What every engine keeps, whatever dies and when:
@@ -21,32 +22,39 @@
 //! - The queue hands a job to one worker at a time, and only the newest claim can finish it (see [`queue`]).
 //! - Whatever is asked under a [`Tenant`](crate::records::Tenant) reads and writes rows of that tenant only: the id of
 //!   another tenant's row is an id without a row.
-//! - No call reads the clock: the caller passes the time.
+//! - No call reads a clock but [`Store::clock`]: the caller passes the time.
 
 mod analyses;
 mod blobs;
+mod clock;
 #[cfg(test)]
 pub(crate) mod contract;
+mod database_faults;
 mod engine;
 mod error;
+mod free_space;
 mod hidden_maps;
 mod jobs;
 mod maps;
+mod migrations;
+#[cfg(feature = "postgres")]
+mod postgres;
 pub mod queue;
 mod registries;
 mod result_address;
 mod rule_sets;
 mod semantics;
+mod sql;
 mod sqlite;
 
 use std::sync::Arc;
 
-use jiff::Timestamp;
-
 use crate::config::Config;
+use sql::SqlStore;
 
 pub use analyses::{Analyses, MapState, NewAnalysis, Outdated, Request, Snapshot};
 pub use blobs::{Blob, BlobId, Blobs, LocalBlobs, Stored};
+pub use clock::now;
 pub use engine::Store;
 pub use error::StoreError;
 pub use hidden_maps::{HiddenMap, HiddenMaps};
@@ -57,7 +65,7 @@ pub use registries::{Registries, SiteRegistry};
 pub use result_address::ResultAddress;
 pub use rule_sets::RuleSets;
 pub use semantics::{NewCorrections, NewSemanticsRow, SemanticsVersions};
-pub use sqlite::Sqlite;
+pub use sql::Moved;
 
 /// Opens the configured store and brings its database up to date.
 ///
@@ -65,12 +73,18 @@ pub use sqlite::Sqlite;
 /// [`StoreError::FolderInUse`] when another process has the data folder, [`StoreError::NewerDatabase`] when a newer
 /// program wrote it, and whatever the disk answers.
 pub async fn open(config: &Config) -> Result<Arc<dyn Store>, StoreError> {
-    Ok(Arc::new(Sqlite::open(config).await?))
+    Ok(Arc::new(SqlStore::open(config).await?))
 }
 
-/// The time, to the microsecond that databases keep.
-#[must_use]
-pub fn now() -> Timestamp {
-    let now = Timestamp::now();
-    Timestamp::from_microsecond(now.as_microsecond()).unwrap_or(now)
+/// Moves everything from one configured storage to another, of which nobody makes use meanwhile. After each map `tell` is
+/// told how far it is.
+///
+/// # Errors
+/// What stands against it; the same call goes on afterwards.
+pub async fn move_all(from: &Config, to: &Config, tell: impl Fn(&Moved)) -> Result<Moved, StoreError> {
+    let (from, to) = (SqlStore::open(from).await?, SqlStore::open(to).await?);
+    let moved = sql::move_all(&from, &to, tell).await?;
+    from.close().await;
+    to.close().await;
+    Ok(moved)
 }

@@ -10,7 +10,7 @@ use crate::client::{Api, HALL, METADATA, pgm, upload};
 fn blobs(api: &Api) -> BTreeSet<PathBuf> {
     let files =
         |folder: PathBuf| std::fs::read_dir(folder).expect("a folder").map(|entry| entry.expect("a file").path());
-    files(api.app.config().data.join("blobs")).flat_map(files).collect()
+    files(api.app.config().blobs.folder().expect("files").to_owned()).flat_map(files).collect()
 }
 
 /// Uploads a map and analyses it: its path, the blobs of its upload and of its analysis.

@@ -112,7 +112,10 @@ async fn where_deleted_maps_are_not_kept_they_are_gone_at_once() {
 
     // On a disk that is short, deleting makes room.
     let folder = tempfile::tempdir().expect("a temporary folder");
-    let in_folder = |config: &mut Config| config.data = folder.path().to_owned();
+    let in_folder = |config: &mut Config| {
+        let Config { database, blobs, .. } = Config::new(folder.path());
+        (config.database, config.blobs) = (database, blobs);
+    };
     let roomy = Api::with(in_folder).await;
     let map = roomy.hall().await;
     roomy.app.shutdown().await;

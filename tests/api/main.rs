@@ -28,10 +28,15 @@ mod nearest;
 mod ogc_formats;
 mod ogc_part_1;
 mod ogc_part_2;
+#[path = "../servers/postgres.rs"]
+#[cfg(feature = "postgres")]
+mod postgres;
 mod processes;
 mod protocol;
 mod routes;
 mod semantics;
 mod semantics_changes;
+#[cfg(feature = "postgres")]
+mod shared_database;
 mod sites;
 mod uploads;

@@ -39,7 +39,7 @@ impl Entrances {
     /// The entrances of a configuration, for bodies of these lengths.
     #[must_use]
     pub fn new(config: &Config, body_bytes: usize, upload_bytes: usize) -> Self {
-        let bodies = BodyRoom::new(config.data.clone(), config.max_uploading_bytes);
+        let bodies = BodyRoom::new(config.upload_folder(), config.max_uploading_bytes);
         let cores = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
         let entrance = |turns: usize, places: usize, body_bytes| {
             let gate = Arc::new(Gate::new(turns, places.max(turns)));

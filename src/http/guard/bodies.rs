@@ -1,6 +1,6 @@
 //! Bodies of requests, received whole before anybody works with them.
 //!
-//! What is small is held in memory; what is longer goes to a file without a name in the data folder, which the system removes
+//! What is small is held in memory; what is longer goes to a file without a name in the folder of the rows or the blobs, which the system removes
 //! however the process ends. So a client that stands still costs little, whatever it has sent. All that is held counts against
 //! one budget.
 

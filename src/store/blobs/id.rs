@@ -19,6 +19,12 @@ impl BlobId {
         Self(blake3::hash(bytes).to_hex().to_string())
     }
 
+    /// The address that a name is, if it is one.
+    pub(super) fn find(name: &str) -> Option<Self> {
+        let is_address = name.len() == 64 && name.bytes().all(|byte| byte.is_ascii_hexdigit());
+        is_address.then(|| Self(name.to_owned()))
+    }
+
     /// The address with these digits, which the store wrote earlier.
     pub(in crate::store) const fn from_digits(digits: String) -> Self {
         Self(digits)

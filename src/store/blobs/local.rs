@@ -7,6 +7,7 @@ use async_trait::async_trait;
 use object_store::local::LocalFileSystem;
 use object_store::{ObjectStore, ObjectStoreExt, PutMode, PutOptions, PutPayload};
 
+use super::reading::{location, read_whole};
 use super::{Blob, BlobId, Blobs};
 use crate::blocking::off_the_runtime;
 use crate::store::StoreError;
@@ -19,11 +20,12 @@ pub struct LocalBlobs {
 }
 
 impl LocalBlobs {
-    /// Opens an existing folder.
+    /// Opens a folder; makes it where it is missing.
     ///
     /// # Errors
-    /// When it is not there.
+    /// When it cannot be made or read.
     pub fn open(folder: &Path) -> Result<Self, StoreError> {
+        std::fs::create_dir_all(folder).map_err(|error| StoreError::folder(folder, error))?;
         // Without fsync, which is off by default, a committed row could name a file lost in a power cut.
         let files = LocalFileSystem::new_with_prefix(folder)?.with_fsync(true);
         Ok(Self { folder: folder.to_owned(), files })
@@ -46,29 +48,22 @@ impl Blobs for LocalBlobs {
     async fn put(&self, blob: &Blob) -> Result<(), StoreError> {
         let payload = || PutPayload::from_bytes(blob.bytes().clone());
         let create = PutOptions { mode: PutMode::Create, ..PutOptions::default() };
-        match self.files.put_opts(&location(blob.id()), payload(), create).await {
+        match self.files.put_opts(&location("", blob.id()), payload(), create).await {
             Ok(_) => Ok(()),
             Err(object_store::Error::AlreadyExists { .. }) => match self.get(blob.id()).await {
                 Ok(_) => Ok(()),
-                Err(_) => Ok(self.files.put(&location(blob.id()), payload()).await.map(drop)?),
+                Err(_) => Ok(self.files.put(&location("", blob.id()), payload()).await.map(drop)?),
             },
             Err(error) => Err(error.into()),
         }
     }
 
     async fn get(&self, id: &BlobId) -> Result<Blob, StoreError> {
-        let damaged = |reason: &str| StoreError::Damaged { blob: id.clone(), reason: reason.to_owned() };
-        let bytes = match self.files.get(&location(id)).await {
-            Ok(file) => file.bytes().await?,
-            Err(object_store::Error::NotFound { .. }) => return Err(damaged("it is missing")),
-            Err(error) => return Err(error.into()),
-        };
-        let blob = off_the_runtime(move || Blob::new(bytes)).await;
-        if blob.id() == id { Ok(blob) } else { Err(damaged("its bytes do not have its hash")) }
+        read_whole(&self.files, &location("", id), id).await
     }
 
     async fn remove(&self, id: &BlobId) -> Result<(), StoreError> {
-        match self.files.delete(&location(id)).await {
+        match self.files.delete(&location("", id)).await {
             Ok(()) | Err(object_store::Error::NotFound { .. }) => Ok(()),
             Err(error) => Err(error.into()),
         }
@@ -99,17 +94,12 @@ struct File {
 impl File {
     /// Whether it is a whole blob; staging files have a suffix.
     fn is_blob(&self) -> bool {
-        self.name.len() == 64 && self.name.bytes().all(|byte| byte.is_ascii_hexdigit())
+        BlobId::find(&self.name).is_some()
     }
 
     fn is_older_than(&self, age: Duration) -> bool {
         age.is_zero() || SystemTime::now().duration_since(self.modified).is_ok_and(|elapsed| elapsed >= age)
     }
-}
-
-fn location(id: &BlobId) -> object_store::path::Path {
-    let folder = id.as_str().get(..2).unwrap_or_default();
-    object_store::path::Path::from_iter([folder, id.as_str()])
 }
 
 fn list_into(folder: &Path, files: &mut Vec<File>) -> std::io::Result<()> {

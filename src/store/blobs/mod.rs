@@ -3,12 +3,19 @@
 //! So a blob never changes, writing it twice is writing it once, and reading it can tell whether the disk kept it.
 
 mod blob;
+#[cfg(feature = "s3")]
+mod bucket;
 mod format;
 mod id;
 mod local;
+mod reading;
 mod storage;
+#[cfg(feature = "s3")]
+mod transport;
 
 pub use blob::Blob;
+#[cfg(feature = "s3")]
+pub use bucket::BucketBlobs;
 pub use format::Stored;
 pub use id::BlobId;
 pub use local::LocalBlobs;

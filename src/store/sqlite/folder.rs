@@ -4,7 +4,7 @@ use std::fs::{self, File, OpenOptions};
 use std::io::{self, Read, Seek, Write};
 use std::path::{Path, PathBuf};
 
-use rustix::fs::{FlockOperation, flock, statvfs};
+use rustix::fs::{FlockOperation, flock};
 
 use crate::store::StoreError;
 
@@ -28,9 +28,7 @@ impl DataFolder {
         fs::create_dir_all(path).map_err(|error| StoreError::folder(path, error))?;
         let path = fs::canonicalize(path).map_err(|error| StoreError::folder(path, error))?;
         let lock = take_lock(&path)?;
-        let folder = Self { path, _lock: lock };
-        fs::create_dir_all(folder.blobs()).map_err(|error| StoreError::folder(&folder.blobs(), error))?;
-        Ok(folder)
+        Ok(Self { path, _lock: lock })
     }
 
     /// The database file.
@@ -39,19 +37,10 @@ impl DataFolder {
         self.path.join("stillage.sqlite3")
     }
 
-    /// The folder of the blobs.
+    /// The folder itself.
     #[must_use]
-    pub fn blobs(&self) -> PathBuf {
-        self.path.join("blobs")
-    }
-
-    /// Bytes that this user may still write.
-    ///
-    /// # Errors
-    /// When the file system does not answer.
-    pub fn free_bytes(&self) -> Result<u64, StoreError> {
-        let status = statvfs(&self.path).map_err(|error| StoreError::folder(&self.path, error.into()))?;
-        Ok(status.f_bavail.saturating_mul(status.f_frsize))
+    pub fn path(&self) -> &Path {
+        &self.path
     }
 
     /// Gives up the space set aside, so that a full disk lets something be deleted. Answers whether there was any.

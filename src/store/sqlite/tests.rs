@@ -1,5 +1,6 @@
 //! What only the embedded engine has: one process, one folder, SQLite's own faults.
 
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use jiff::SignedDuration;
@@ -7,26 +8,33 @@ use tempfile::TempDir;
 use uuid::Uuid;
 
 use super::*;
+use crate::config::Config;
 use crate::records::{JobFilter, JobRecord, JobState};
 use crate::store::contract::{Engine, TERMS, draft, local, upload};
 use crate::store::queue::Progress;
-use crate::store::{Jobs, Queue, RuleSets, now};
+use crate::store::sql::{Database, SqlStore};
+use crate::store::{BlobId, Jobs, Queue, RuleSets, Store, now};
 
 /// An open store that lives in its own folder.
 pub struct Fixture {
     pub config: Config,
-    _folder: TempDir,
+    folder: TempDir,
 }
 
 impl Fixture {
     pub fn new() -> Self {
         let folder = tempfile::tempdir().expect("a temporary folder");
         let config = Config { min_free_bytes: 0, job_slots: 0, ..Config::new(folder.path().join("data")) };
-        Self { config, _folder: folder }
+        Self { config, folder }
     }
 
-    pub async fn open(&self) -> Arc<Sqlite> {
-        Arc::new(Sqlite::open(&self.config).await.expect("the store opens"))
+    pub async fn open(&self) -> Arc<SqlStore> {
+        Arc::new(SqlStore::open(&self.config).await.expect("the store opens"))
+    }
+
+    /// The file of a blob.
+    pub fn blob_file(&self, blob: &BlobId) -> PathBuf {
+        self.folder.path().join("data/blobs").join(&blob.as_str()[..2]).join(blob.as_str())
     }
 }
 
@@ -37,20 +45,28 @@ pub struct Embedded {
 }
 
 impl Engine for Embedded {
-    async fn empty() -> Self {
+    async fn empty() -> Option<Self> {
         let fixture = Fixture::new();
-        Self { store: fixture.open().await, fixture }
+        Some(Self { store: fixture.open().await, fixture })
     }
 
     fn store(&self) -> &Arc<dyn Store> {
         &self.store
     }
 
-    fn damage(&self, blob: &BlobId, bytes: Option<&str>) {
-        let file = self.fixture.config.data.join("blobs").join(&blob.as_str()[..2]).join(blob.as_str());
-        bytes
-            .map_or_else(|| std::fs::remove_file(&file), |bytes| std::fs::write(&file, bytes))
-            .expect("it can be done");
+    fn blob_file(&self, blob: &BlobId) -> PathBuf {
+        self.fixture.blob_file(blob)
+    }
+}
+
+impl SqlStore {
+    /// The engine of a store in a folder.
+    pub fn engine(&self) -> &Sqlite {
+        match &self.database {
+            Database::Sqlite(engine) => engine,
+            #[cfg(feature = "postgres")]
+            Database::Postgres(_) => panic!("not in a folder"),
+        }
     }
 }
 
@@ -117,8 +133,8 @@ async fn poison_is_given_up_and_lets_the_others_through_before() {
     assert_eq!(deaths, 12);
 }
 
-async fn upload_to(store: &Arc<Sqlite>, content: &str) -> JobRecord {
-    let store: Arc<dyn Store> = Arc::<Sqlite>::clone(store);
+async fn upload_to(store: &Arc<SqlStore>, content: &str) -> JobRecord {
+    let store: Arc<dyn Store> = Arc::<SqlStore>::clone(store);
     upload(&store, content).await
 }
 
@@ -127,7 +143,8 @@ async fn the_bundled_sqlite_is_free_of_the_wal_reset_bug() {
     // https://sqlite.org/wal.html#walresetbug: 3.7.0 to 3.51.2 may corrupt a database.
     let store = Fixture::new();
     let store = store.open().await;
-    let version: String = sqlx::query_scalar("SELECT sqlite_version()").fetch_one(&store.readers).await.unwrap();
+    let version: String =
+        sqlx::query_scalar("SELECT sqlite_version()").fetch_one(&store.engine().readers).await.unwrap();
     let version: Vec<u32> = version.split('.').map(|part| part.parse().unwrap()).collect();
     assert!(version >= vec![3, 51, 3], "SQLite {version:?}");
 }
@@ -136,7 +153,7 @@ async fn the_bundled_sqlite_is_free_of_the_wal_reset_bug() {
 async fn every_connection_syncs_and_checks_keys() {
     let fixture = Fixture::new();
     let store = fixture.open().await;
-    for pool in [&store.writer, &store.readers] {
+    for pool in [&store.engine().writer, &store.engine().readers] {
         let journal: String = sqlx::query_scalar("PRAGMA journal_mode").fetch_one(pool).await.unwrap();
         let synchronous: i64 = sqlx::query_scalar("PRAGMA synchronous").fetch_one(pool).await.unwrap();
         let foreign_keys: i64 = sqlx::query_scalar("PRAGMA foreign_keys").fetch_one(pool).await.unwrap();
@@ -148,7 +165,7 @@ async fn every_connection_syncs_and_checks_keys() {
 async fn a_data_folder_has_one_owner() {
     let fixture = Fixture::new();
     let store = fixture.open().await;
-    let refusal = Sqlite::open(&fixture.config).await.expect_err("the folder is taken").to_string();
+    let refusal = SqlStore::open(&fixture.config).await.expect_err("the folder is taken").to_string();
     assert!(refusal.contains("is in use by another process (pid "), "{refusal}");
     store.close().await;
     drop(store);
@@ -163,12 +180,12 @@ async fn a_newer_database_is_refused() {
         "INSERT INTO _sqlx_migrations (version, description, success, checksum, execution_time) \
          VALUES (9999, 'of the future', 1, x'00', 1)",
     )
-    .execute(&store.writer)
+    .execute(&store.engine().writer)
     .await
     .unwrap();
     store.close().await;
     drop(store);
-    let refusal = Sqlite::open(&fixture.config).await.expect_err("it is newer").to_string();
+    let refusal = SqlStore::open(&fixture.config).await.expect_err("it is newer").to_string();
     assert!(
         refusal.contains("was written by a newer stillage (schema 9999, this program knows up to 10)"),
         "{refusal}"
@@ -181,7 +198,7 @@ async fn a_full_database_keeps_what_was_acknowledged_and_recovers() {
     let store = fixture.open().await;
     let kept = upload_to(&store, "kept").await;
     // The same error as a full disk, SQLITE_FULL: no page may be added.
-    let pages: i64 = sqlx::query_scalar("PRAGMA page_count").fetch_one(&store.writer).await.unwrap();
+    let pages: i64 = sqlx::query_scalar("PRAGMA page_count").fetch_one(&store.engine().writer).await.unwrap();
     set_max_pages(&store, pages).await;
     let long = "x".repeat(100_000);
     let refused = store.create_rule_set(&local(), &long, &draft()).await;
@@ -195,7 +212,11 @@ async fn a_full_database_keeps_what_was_acknowledged_and_recovers() {
 async fn a_database_that_another_process_holds_is_busy_not_broken() {
     let fixture = Fixture::new();
     let store = fixture.open().await;
-    let other = SqlitePoolOptions::new().max_connections(1).connect_with(connect_options(&store.folder)).await.unwrap();
+    let other = SqlitePoolOptions::new()
+        .max_connections(1)
+        .connect_with(connect_options(&store.engine().folder))
+        .await
+        .unwrap();
     let held = other.begin_with("BEGIN IMMEDIATE").await.unwrap();
     let begun = std::time::Instant::now();
     let refused = store.dismiss(&local(), Uuid::now_v7(), now()).await;
@@ -213,7 +234,7 @@ async fn below_the_floor_there_is_no_space() {
     store.check_space().unwrap();
     store.close().await;
     drop(store);
-    let store = Sqlite::open(&Config { min_free_bytes: u64::MAX, ..fixture.config.clone() }).await.unwrap();
+    let store = SqlStore::open(&Config { min_free_bytes: u64::MAX, ..fixture.config.clone() }).await.unwrap();
     assert!(matches!(store.check().await, Err(StoreError::NoSpace)));
 }
 
@@ -222,7 +243,7 @@ async fn a_transaction_that_ended_behind_the_driver_does_not_block_the_writer() 
     // What SQLite does by itself on some errors of the disk: https://sqlite.org/lang_transaction.html, section 3.
     let fixture = Fixture::new();
     let store = fixture.open().await;
-    let mut transaction = store.write().await.unwrap();
+    let mut transaction = store.engine().write().await.unwrap();
     sqlx::query("ROLLBACK").execute(&mut *transaction).await.unwrap();
     assert!(transaction.commit().await.is_err());
     upload_to(&store, "map").await;
@@ -240,7 +261,7 @@ async fn a_write_is_counted_and_while_it_lasts_nothing_read_is_known_to_stay() {
         store.writes()
     };
     let before = idle().await.expect("nobody writes");
-    let transaction = store.write().await.unwrap();
+    let transaction = store.engine().write().await.unwrap();
     assert_eq!(store.writes(), None);
     drop(transaction);
     assert_eq!(idle().await, Some(before + 1));
@@ -250,7 +271,7 @@ async fn a_write_is_counted_and_while_it_lasts_nothing_read_is_known_to_stay() {
 async fn what_an_interrupted_write_left_goes_at_the_next_start() {
     let fixture = Fixture::new();
     let store = fixture.open().await;
-    let staging = fixture.config.data.join("blobs").join("ab#1");
+    let staging = fixture.folder.path().join("data/blobs/ab#1");
     std::fs::write(&staging, "half of").unwrap();
     assert_eq!(store.sweep_blobs(Duration::from_hours(24)).await.unwrap(), 0);
     assert!(!staging.exists());
@@ -280,7 +301,7 @@ async fn a_clock_set_back_holds_no_job_up() {
     store.claim(&TERMS, yesterday - day).await.unwrap().expect("due whatever the clock says");
 }
 
-async fn set_max_pages(store: &Sqlite, pages: i64) {
+async fn set_max_pages(store: &SqlStore, pages: i64) {
     let sql = sqlx::AssertSqlSafe(format!("PRAGMA max_page_count = {pages}"));
-    sqlx::query(sql).execute(&store.writer).await.unwrap();
+    sqlx::query(sql).execute(&store.engine().writer).await.unwrap();
 }

@@ -5,36 +5,39 @@ use std::time::Duration;
 use async_trait::async_trait;
 use jiff::{SignedDuration, Timestamp};
 use serde_json::json as object;
-use sqlx::sqlite::SqliteRow;
-use sqlx::{Row, SqliteConnection};
 
-use super::Sqlite;
 use super::analyses::insert_analysis;
-use super::rows::{Columns, json};
+use super::columns::SqlRow;
+use super::database::Transaction;
+use super::rows::json;
+use super::statement::{of_free_rows, query};
+use super::store::SqlStore;
 use crate::fail_point;
 use crate::records::{JobState, StageReport};
 use crate::store::queue::{Claim, JobResult, Progress, Queue, Terms};
-use crate::store::{Blobs, ResultAddress, StoreError};
+use crate::store::{ResultAddress, StoreError};
 
 /// How often a job may be cut off in all, for each attempt that it has: poison that dies in one stage now and in another then
 /// comes to its end, too.
 const CUT_OFFS_PER_ATTEMPT: u32 = 4;
 
 #[async_trait]
-impl Queue for Sqlite {
+impl Queue for SqlStore {
     async fn claim(&self, terms: &Terms, now: Timestamp) -> Result<Option<Claim>, StoreError> {
-        let mut transaction = self.write().await?;
+        let mut transaction = self.database.write().await?;
         end_expired_claims(&mut transaction, terms, now).await?;
-        let row = sqlx::query(
+        let row = query(of_free_rows!(
+            transaction,
             "UPDATE jobs SET state = 'running', attempt = attempt + 1, claim = claim + 1, lease_until = $2, \
-                 started = coalesce(started, $1), updated = max(updated + 1, $1), message = '', progress = 0, stage = NULL, stages = '[]' \
+                 started = coalesce(started, $1), updated = CASE WHEN updated < $1 THEN $1 ELSE updated + 1 END, \
+                 message = '', progress = 0, stage = NULL, stages = '[]' \
              WHERE id = (SELECT id FROM jobs WHERE state = 'accepted' AND tenant <> '' AND run_at <= $1 \
-                 ORDER BY attempt, id LIMIT 1) \
-             RETURNING *, (SELECT source FROM maps WHERE maps.id = jobs.map) AS source",
-        )
+                 ORDER BY attempt, id LIMIT 1",
+            ") RETURNING *, (SELECT source FROM maps WHERE maps.id = jobs.map) AS source"
+        ))
         .bind(now.as_microsecond())
         .bind(after(now, terms.lease))
-        .fetch_optional(&mut *transaction)
+        .fetch_optional(&mut transaction)
         .await?;
         transaction.commit().await?;
         if row.is_some() {
@@ -44,10 +47,13 @@ impl Queue for Sqlite {
     }
 
     /// The process that made these claims held the lock on the data folder. This process holds it now, so that one is
-    /// dead, and its leases need not be waited for.
+    /// dead, and its leases need not be waited for. Of a database that processes share nobody knows that.
     async fn end_claims_of_dead_processes(&self, max_attempts: u32, now: Timestamp) -> Result<u64, StoreError> {
-        let mut transaction = self.write().await?;
-        let rows = sqlx::query("SELECT * FROM jobs WHERE state = 'running'").fetch_all(&mut *transaction).await?;
+        if self.database.is_shared() {
+            return Ok(0);
+        }
+        let mut transaction = self.database.write().await?;
+        let rows = query("SELECT * FROM jobs WHERE state = 'running'").fetch_all(&mut transaction).await?;
         for row in &rows {
             end_claim(&mut transaction, row, attempts_after_death(row)?, max_attempts, Duration::ZERO, now).await?;
         }
@@ -62,9 +68,10 @@ impl Queue for Sqlite {
         lease: Duration,
         now: Timestamp,
     ) -> Result<bool, StoreError> {
-        let mut transaction = self.write().await?;
-        let row = sqlx::query(
-            "UPDATE jobs SET lease_until = $3, progress = $4, stage = $5, stages = $6, updated = max(updated + 1, $7) \
+        let mut transaction = self.database.write().await?;
+        let row = query(
+            "UPDATE jobs SET lease_until = $3, progress = $4, stage = $5, stages = $6, \
+                 updated = CASE WHEN updated < $7 THEN $7 ELSE updated + 1 END \
              WHERE id = $1 AND claim = $2 AND state = 'running' RETURNING cancel_requested",
         )
         .bind(claim.job.to_string())
@@ -74,17 +81,17 @@ impl Queue for Sqlite {
         .bind(&progress.stage)
         .bind(json(&progress.stages))
         .bind(now.as_microsecond())
-        .fetch_optional(&mut *transaction)
+        .fetch_optional(&mut transaction)
         .await?;
         transaction.commit().await?;
         cancel_requested(row)
     }
 
     async fn is_cancel_requested(&self, claim: &Claim) -> Result<bool, StoreError> {
-        let row = sqlx::query("SELECT cancel_requested FROM jobs WHERE id = $1 AND claim = $2 AND state = 'running'")
+        let row = query("SELECT cancel_requested FROM jobs WHERE id = $1 AND claim = $2 AND state = 'running'")
             .bind(claim.job.to_string())
             .bind(claim.token)
-            .fetch_optional(&self.readers)
+            .fetch_optional(&self.database)
             .await?;
         cancel_requested(row)
     }
@@ -96,29 +103,26 @@ impl Queue for Sqlite {
         stages: &[StageReport],
         now: Timestamp,
     ) -> Result<(), StoreError> {
-        let _gate = self.blob_gate.read().await;
-        let outputs = match result {
-            JobResult::Analysis(analysis, blob) => {
-                self.blobs.put(blob).await?;
-                object!({"analysis": analysis.id.to_string()})
-            }
-            JobResult::Document(outputs) => outputs.clone(),
+        let (outputs, blob) = match result {
+            JobResult::Analysis(analysis, blob) => (object!({"analysis": analysis.id.to_string()}), Some(blob)),
+            JobResult::Document(outputs) => (outputs.clone(), None),
         };
+        let mut transaction = self.write_with(blob).await?;
         fail_point::pass("after-blob");
-        let mut transaction = self.write().await?;
-        let ended = sqlx::query(
+        transaction.alone_on_site_of(claim.map).await?;
+        let ended = query(
             "UPDATE jobs SET state = 'successful', progress = 100, stage = NULL, stages = $3, outputs = $4, \
-                 lease_until = NULL, finished = $5, updated = max(updated + 1, $5) \
-             WHERE id = $1 AND claim = $2 AND state = 'running' AND cancel_requested = 0",
+                 lease_until = NULL, finished = $5, updated = CASE WHEN updated < $5 THEN $5 ELSE updated + 1 END \
+             WHERE id = $1 AND claim = $2 AND state = 'running' AND NOT cancel_requested",
         )
         .bind(claim.job.to_string())
         .bind(claim.token)
         .bind(json(&stages))
         .bind(json(&outputs))
         .bind(now.as_microsecond())
-        .execute(&mut *transaction)
+        .execute(&mut transaction)
         .await?;
-        if ended.rows_affected() != 1 {
+        if ended != 1 {
             return Err(StoreError::ClaimLost);
         }
         if let JobResult::Analysis(analysis, blob) = result {
@@ -131,9 +135,10 @@ impl Queue for Sqlite {
     }
 
     async fn end(&self, claim: &Claim, state: JobState, message: &str, now: Timestamp) -> Result<(), StoreError> {
-        let mut transaction = self.write().await?;
-        let ended = sqlx::query(
-            "UPDATE jobs SET state = $3, message = $4, stage = NULL, lease_until = NULL, finished = $5, updated = max(updated + 1, $5) \
+        let mut transaction = self.database.write().await?;
+        let ended = query(
+            "UPDATE jobs SET state = $3, message = $4, stage = NULL, lease_until = NULL, finished = $5, \
+                 updated = CASE WHEN updated < $5 THEN $5 ELSE updated + 1 END \
              WHERE id = $1 AND claim = $2 AND state = 'running'",
         )
         .bind(claim.job.to_string())
@@ -141,10 +146,10 @@ impl Queue for Sqlite {
         .bind(state.name())
         .bind(message)
         .bind(now.as_microsecond())
-        .execute(&mut *transaction)
+        .execute(&mut transaction)
         .await?;
         transaction.commit().await?;
-        if ended.rows_affected() == 1 { Ok(()) } else { Err(StoreError::ClaimLost) }
+        if ended == 1 { Ok(()) } else { Err(StoreError::ClaimLost) }
     }
 
     async fn requeue(
@@ -155,10 +160,10 @@ impl Queue for Sqlite {
         message: &str,
         now: Timestamp,
     ) -> Result<(), StoreError> {
-        let mut transaction = self.write().await?;
-        let requeued = sqlx::query(
+        let mut transaction = self.database.write().await?;
+        let requeued = query(
             "UPDATE jobs SET state = 'accepted', attempt = $3, run_at = $4, message = $5, progress = 0, stage = NULL, \
-                 stages = '[]', lease_until = NULL, updated = max(updated + 1, $6) \
+                 stages = '[]', lease_until = NULL, updated = CASE WHEN updated < $6 THEN $6 ELSE updated + 1 END \
              WHERE id = $1 AND claim = $2 AND state = 'running'",
         )
         .bind(claim.job.to_string())
@@ -167,55 +172,52 @@ impl Queue for Sqlite {
         .bind(not_before(now, wait))
         .bind(message)
         .bind(now.as_microsecond())
-        .execute(&mut *transaction)
+        .execute(&mut transaction)
         .await?;
         transaction.commit().await?;
-        if requeued.rows_affected() == 1 { Ok(()) } else { Err(StoreError::ClaimLost) }
+        if requeued == 1 { Ok(()) } else { Err(StoreError::ClaimLost) }
     }
 }
 
 /// Ends the claims whose lease has run out.
-async fn end_expired_claims(
-    connection: &mut SqliteConnection,
-    terms: &Terms,
-    now: Timestamp,
-) -> Result<(), StoreError> {
-    let rows = sqlx::query("SELECT * FROM jobs WHERE state = 'running' AND lease_until < $1")
+async fn end_expired_claims(transaction: &mut Transaction, terms: &Terms, now: Timestamp) -> Result<(), StoreError> {
+    let rows = query(of_free_rows!(transaction, "SELECT * FROM jobs WHERE state = 'running' AND lease_until < $1", ""))
         .bind(now.as_microsecond())
-        .fetch_all(&mut *connection)
+        .fetch_all(&mut *transaction)
         .await?;
     for row in &rows {
         let attempts = row.whole("attempt")?;
         let wait = (terms.backoff)(row.uuid("id")?, attempts);
-        end_claim(connection, row, attempts, terms.max_attempts, wait, now).await?;
+        end_claim(transaction, row, attempts, terms.max_attempts, wait, now).await?;
     }
     Ok(())
 }
 
 /// The attempts of a job that count after its process died, and all others of the service with it: where the machine died, the
 /// job is innocent. A job that kills its process dies in the same stage each time, so only such deaths in a row count.
-fn attempts_after_death(row: &SqliteRow) -> Result<u32, StoreError> {
-    let is_same_stage = row.try_get::<Option<String>, _>("cut_off_in")?.is_none_or(|last| last == stage(row));
+fn attempts_after_death(row: &SqlRow) -> Result<u32, StoreError> {
+    let stage = stage(row)?;
+    let is_same_stage = row.text_if("cut_off_in")?.is_none_or(|last| last == stage);
     if is_same_stage { row.whole("attempt") } else { Ok(1) }
 }
 
 /// The stage of a job; empty before the first.
-fn stage(row: &SqliteRow) -> String {
-    row.try_get::<Option<String>, _>("stage").ok().flatten().unwrap_or_default()
+fn stage(row: &SqlRow) -> Result<String, StoreError> {
+    Ok(row.text_if("stage")?.unwrap_or_default())
 }
 
 /// Takes a running job from a worker that is gone: dismissed where that was asked for, failed after its last attempt,
 /// queued again otherwise. `attempt` is the number of attempts that count.
 async fn end_claim(
-    connection: &mut SqliteConnection,
-    row: &SqliteRow,
+    transaction: &mut Transaction,
+    row: &SqlRow,
     attempt: u32,
     max_attempts: u32,
     wait: Duration,
     now: Timestamp,
 ) -> Result<(), StoreError> {
     let cut_offs = row.whole::<u32>("cut_offs")? + 1;
-    let (state, message) = if row.try_get("cancel_requested")? {
+    let (state, message) = if row.flag("cancel_requested")? {
         (JobState::Dismissed, "dismissed".to_owned())
     } else if attempt >= max_attempts {
         let message = format!("given up: the service died or stalled in each of {attempt} attempts");
@@ -226,8 +228,9 @@ async fn end_claim(
         (JobState::Accepted, format!("attempt {attempt} of {max_attempts} was cut off"))
     };
     tracing::warn!(job = row.text("id")?, attempt, state = state.name(), "took a job from a worker that is gone");
-    sqlx::query(
-        "UPDATE jobs SET state = $2, message = $3, run_at = $4, lease_until = NULL, stage = NULL, updated = max(updated + 1, $5), \
+    query(
+        "UPDATE jobs SET state = $2, message = $3, run_at = $4, lease_until = NULL, stage = NULL, \
+             updated = CASE WHEN updated < $5 THEN $5 ELSE updated + 1 END, \
              finished = CASE WHEN $6 THEN $5 END, attempt = $7, cut_offs = $8, cut_off_in = $9 \
          WHERE id = $1",
     )
@@ -239,18 +242,18 @@ async fn end_claim(
     .bind(state.is_final())
     .bind(attempt)
     .bind(cut_offs)
-    .bind(stage(row))
-    .execute(connection)
+    .bind(stage(row)?)
+    .execute(&mut *transaction)
     .await?;
     Ok(())
 }
 
-fn claim_of(row: &SqliteRow) -> Result<Claim, StoreError> {
+fn claim_of(row: &SqlRow) -> Result<Claim, StoreError> {
     Ok(Claim {
         job: row.uuid("id")?,
         tenant: row.tenant()?,
         map: row.uuid("map")?,
-        token: row.try_get("claim")?,
+        token: row.whole("claim")?,
         attempt: row.whole("attempt")?,
         process: row.text("process")?,
         inputs: row.json("inputs")?,
@@ -259,8 +262,8 @@ fn claim_of(row: &SqliteRow) -> Result<Claim, StoreError> {
     })
 }
 
-fn cancel_requested(row: Option<SqliteRow>) -> Result<bool, StoreError> {
-    Ok(row.ok_or(StoreError::ClaimLost)?.try_get("cancel_requested")?)
+fn cancel_requested(row: Option<SqlRow>) -> Result<bool, StoreError> {
+    row.ok_or(StoreError::ClaimLost)?.flag("cancel_requested")
 }
 
 /// The earliest time of the next attempt. Without a wait it is 0, so that a clock set back holds nothing up.

@@ -4,54 +4,49 @@ use std::time::Duration;
 
 use async_trait::async_trait;
 use jiff::Timestamp;
-use sqlx::sqlite::SqliteRow;
-use sqlx::{Row as _, SqliteConnection};
 use uuid::Uuid;
 
-use super::Sqlite;
-use super::rows::{Columns, job_record, json};
+use super::columns::SqlRow;
+use super::database::Transaction;
+use super::rows::{job_record, json};
+use super::statement::{RunsOn, query};
+use super::store::SqlStore;
 use crate::records::{JobFilter, JobRecord, JobState, Tenant};
 use crate::store::{Jobs, NewJob, Retry, StoreError, now};
 
 #[async_trait]
-impl Jobs for Sqlite {
+impl Jobs for SqlStore {
     async fn dismiss(&self, tenant: &Tenant, id: Uuid, now: Timestamp) -> Result<Option<JobRecord>, StoreError> {
-        let mut transaction = self.write().await?;
-        sqlx::query(
-            "UPDATE jobs SET state = 'dismissed', message = 'dismissed before it began', finished = $2, updated = max(updated + 1, $2) \
-             WHERE id = $1 AND tenant = $3 AND state = 'accepted'",
+        let mut transaction = self.database.write().await?;
+        query(
+            "UPDATE jobs SET cancel_requested = (state = 'running'), \
+                 state = CASE WHEN state = 'accepted' THEN 'dismissed' ELSE state END, \
+                 message = CASE WHEN state = 'accepted' THEN 'dismissed before it began' ELSE message END, \
+                 finished = CASE WHEN state = 'accepted' THEN $2 END, \
+                 updated = CASE WHEN updated < $2 THEN $2 ELSE updated + 1 END \
+             WHERE id = $1 AND tenant = $3 AND state IN ('accepted', 'running')",
         )
         .bind(id.to_string())
         .bind(now.as_microsecond())
         .bind(tenant.as_str())
-        .execute(&mut *transaction)
+        .execute(&mut transaction)
         .await?;
-        sqlx::query(
-            "UPDATE jobs SET cancel_requested = 1, updated = max(updated + 1, $2) WHERE id = $1 AND tenant = $3 AND state = 'running'",
-        )
-        .bind(id.to_string())
-        .bind(now.as_microsecond())
-        .bind(tenant.as_str())
-        .execute(&mut *transaction)
-        .await?;
-        let row =
-            sqlx::query("SELECT * FROM jobs WHERE id = $1 AND tenant = $2").bind(id.to_string()).bind(tenant.as_str());
-        let row = row.fetch_optional(&mut *transaction).await?;
+        let row = query("SELECT * FROM jobs WHERE id = $1 AND tenant = $2").bind(id.to_string()).bind(tenant.as_str());
+        let row = row.fetch_optional(&mut transaction).await?;
         transaction.commit().await?;
         row.as_ref().map(job_record).transpose()
     }
 
     async fn job(&self, tenant: &Tenant, id: Uuid) -> Result<Option<JobRecord>, StoreError> {
-        let row =
-            sqlx::query("SELECT * FROM jobs WHERE id = $1 AND tenant = $2").bind(id.to_string()).bind(tenant.as_str());
-        row.fetch_optional(&self.readers).await?.as_ref().map(job_record).transpose()
+        let row = query("SELECT * FROM jobs WHERE id = $1 AND tenant = $2").bind(id.to_string()).bind(tenant.as_str());
+        row.fetch_optional(&self.database).await?.as_ref().map(job_record).transpose()
     }
 
     async fn jobs(&self, tenant: &Tenant, filter: &JobFilter) -> Result<Vec<JobRecord>, StoreError> {
-        let rows = sqlx::query(
+        let rows = query(
             "SELECT * FROM jobs WHERE tenant = $5 AND ($1 IS NULL OR id < $1) AND ($2 IS NULL OR map = $2) \
-                 AND ($3 = '[]' OR state IN (SELECT value FROM json_each($3))) \
-                 AND ($6 = '[]' OR process IN (SELECT value FROM json_each($6))) \
+                 AND ($3 = '' OR $3 LIKE '% ' || state || ' %') \
+                 AND ($6 = '' OR $6 LIKE '% ' || process || ' %') \
                  AND ($7 IS NULL OR created >= $7) AND ($8 IS NULL OR created <= $8) \
                  AND ($9 IS NULL OR coalesce(finished, $11) - started >= $9) \
                  AND ($10 IS NULL OR coalesce(finished, $11) - started <= $10) \
@@ -59,16 +54,16 @@ impl Jobs for Sqlite {
         )
         .bind(filter.after.map(|id| id.to_string()))
         .bind(filter.map.map(|id| id.to_string()))
-        .bind(json(&filter.states))
+        .bind(words(filter.states.iter().map(|state| state.name())))
         .bind(filter.limit)
         .bind(tenant.as_str())
-        .bind(json(&filter.processes))
+        .bind(words(filter.processes.iter().map(String::as_str)))
         .bind(filter.created_from.map(Timestamp::as_microsecond))
         .bind(filter.created_to.map(Timestamp::as_microsecond))
         .bind(filter.min_duration.map(microseconds))
         .bind(filter.max_duration.map(microseconds))
         .bind(now().as_microsecond())
-        .fetch_all(&self.readers)
+        .fetch_all(&self.database)
         .await?;
         rows.iter().map(job_record).collect()
     }
@@ -80,8 +75,8 @@ impl Jobs for Sqlite {
         max_queued: u64,
         now: Timestamp,
     ) -> Result<Option<Retry>, StoreError> {
-        let mut transaction = self.write().await?;
-        let row = sqlx::query(
+        let mut transaction = self.database.write().await?;
+        let row = query(
             "SELECT *, EXISTS (SELECT 1 FROM analyses WHERE analyses.map = jobs.map AND analyses.address = jobs.address) \
                  OR EXISTS (SELECT 1 FROM jobs AS other WHERE other.map = jobs.map AND other.address = jobs.address \
                      AND other.id <> jobs.id AND other.state IN ('accepted', 'running')) AS superseded \
@@ -89,43 +84,49 @@ impl Jobs for Sqlite {
         )
         .bind(id.to_string())
         .bind(tenant.as_str())
-        .fetch_optional(&mut *transaction)
+        .fetch_optional(&mut transaction)
         .await?;
         let Some(row) = row else { return Ok(None) };
         if !matches!(row.state()?, JobState::Failed | JobState::Dismissed) {
             return Ok(Some(Retry::NotOver(Box::new(job_record(&row)?))));
         }
-        if row.try_get("superseded")? {
+        if row.flag("superseded")? {
             return Ok(Some(Retry::Superseded));
         }
         if is_queue_full(&mut transaction, max_queued).await? {
             return Ok(Some(Retry::QueueFull));
         }
-        let row = sqlx::query(
-            "UPDATE jobs SET state = 'accepted', attempt = 0, cut_off_in = NULL, cut_offs = 0, cancel_requested = 0, run_at = 0, \
-                 message = '', progress = 0, stage = NULL, stages = '[]', started = NULL, finished = NULL, \
-                 updated = max(updated + 1, $2) \
+        let row = query(
+            "UPDATE jobs SET state = 'accepted', attempt = 0, cut_off_in = NULL, cut_offs = 0, cancel_requested = FALSE, \
+                 run_at = 0, message = '', progress = 0, stage = NULL, stages = '[]', started = NULL, finished = NULL, \
+                 updated = CASE WHEN updated < $2 THEN $2 ELSE updated + 1 END \
              WHERE id = $1 RETURNING *",
         )
         .bind(id.to_string())
         .bind(now.as_microsecond())
-        .fetch_one(&mut *transaction)
+        .fetch_one(&mut transaction)
         .await?;
         transaction.commit().await?;
         Ok(Some(Retry::Queued(Box::new(job_record(&row)?))))
     }
 
     async fn waiting_jobs(&self) -> Result<u64, StoreError> {
-        waiting_jobs(&mut *self.readers.acquire().await?).await
+        waiting_jobs(&self.database).await
     }
 
     async fn job_counts(&self) -> Result<Vec<(JobState, u64)>, StoreError> {
-        let rows = sqlx::query("SELECT state, count(*) AS jobs FROM jobs WHERE tenant <> '' GROUP BY state")
-            .fetch_all(&self.readers)
+        let rows = query("SELECT state, count(*) AS jobs FROM jobs WHERE tenant <> '' GROUP BY state")
+            .fetch_all(&self.database)
             .await?;
-        let count = |row: &SqliteRow| Ok((row.state()?, row.whole("jobs")?));
+        let count = |row: &SqlRow| Ok((row.state()?, row.whole("jobs")?));
         rows.iter().map(count).collect()
     }
+}
+
+/// Words between spaces, among which a pattern finds a whole one; no text for none.
+fn words<'a>(words: impl Iterator<Item = &'a str>) -> String {
+    let all: String = words.map(|word| format!("{word} ")).collect();
+    if all.is_empty() { all } else { format!(" {all}") }
 }
 
 /// Microseconds, as the columns of times count.
@@ -135,12 +136,12 @@ fn microseconds(duration: Duration) -> i64 {
 
 /// Queues a job.
 pub(super) async fn insert_job(
-    connection: &mut SqliteConnection,
+    transaction: &mut Transaction,
     tenant: &Tenant,
     job: &NewJob,
     now: Timestamp,
 ) -> Result<JobRecord, StoreError> {
-    let row = sqlx::query(
+    let row = query(
         "INSERT INTO jobs (id, tenant, map, process, inputs, state, address, activates, created, updated) \
          VALUES ($1, $2, $3, $4, $5, 'accepted', $6, $7, $8, $8) RETURNING *",
     )
@@ -152,19 +153,19 @@ pub(super) async fn insert_job(
     .bind(job.address.as_str())
     .bind(job.activates)
     .bind(now.as_microsecond())
-    .fetch_one(connection)
+    .fetch_one(&mut *transaction)
     .await?;
     job_record(&row)
 }
 
 /// Whether as many jobs wait as may.
-pub(super) async fn is_queue_full(connection: &mut SqliteConnection, max_queued: u64) -> Result<bool, StoreError> {
-    Ok(waiting_jobs(connection).await? >= max_queued)
+pub(super) async fn is_queue_full(transaction: &mut Transaction, max_queued: u64) -> Result<bool, StoreError> {
+    Ok(waiting_jobs(transaction).await? >= max_queued)
 }
 
-async fn waiting_jobs(connection: &mut SqliteConnection) -> Result<u64, StoreError> {
-    let row = sqlx::query("SELECT count(*) AS waiting FROM jobs WHERE state = 'accepted' AND tenant <> ''")
-        .fetch_one(connection)
+async fn waiting_jobs<'a>(place: impl Into<RunsOn<'a>>) -> Result<u64, StoreError> {
+    let row = query("SELECT count(*) AS waiting FROM jobs WHERE state = 'accepted' AND tenant <> ''")
+        .fetch_one(place)
         .await?;
     row.whole("waiting")
 }

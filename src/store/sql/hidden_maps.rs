@@ -2,16 +2,17 @@
 
 use async_trait::async_trait;
 use jiff::Timestamp;
-use sqlx::SqliteConnection;
 use uuid::Uuid;
 
-use super::Sqlite;
-use super::rows::{Columns, map_record};
+use super::database::Transaction;
+use super::rows::map_record;
+use super::statement::query;
+use super::store::SqlStore;
 use crate::records::{MapRecord, Tenant};
 use crate::store::{HiddenMap, HiddenMaps, Maps, StoreError};
 
 #[async_trait]
-impl HiddenMaps for Sqlite {
+impl HiddenMaps for SqlStore {
     async fn hide_map(
         &self,
         tenant: &Tenant,
@@ -19,8 +20,9 @@ impl HiddenMaps for Sqlite {
         if_match: Option<u64>,
         now: Timestamp,
     ) -> Result<bool, StoreError> {
-        let mut transaction = self.write().await?;
-        let hidden = sqlx::query(
+        let mut transaction = self.database.write().await?;
+        transaction.alone_on_site_of(id).await?;
+        let hidden = query(
             "UPDATE maps SET hidden = $4, hidden_from = tenant, tenant = '' \
              WHERE tenant = $1 AND id = $2 AND version = coalesce($3, version)",
         )
@@ -28,9 +30,9 @@ impl HiddenMaps for Sqlite {
         .bind(id.to_string())
         .bind(if_match.map(u64::cast_signed))
         .bind(now.as_microsecond())
-        .execute(&mut *transaction)
+        .execute(&mut transaction)
         .await?;
-        if hidden.rows_affected() == 0 {
+        if hidden == 0 {
             return Ok(false);
         }
         put_jobs_back(&mut transaction, id, now).await?;
@@ -39,10 +41,10 @@ impl HiddenMaps for Sqlite {
     }
 
     async fn hidden_since(&self, tenant: &Tenant, id: Uuid) -> Result<Option<Timestamp>, StoreError> {
-        let row = sqlx::query("SELECT hidden FROM maps WHERE hidden_from = $1 AND id = $2")
+        let row = query("SELECT hidden FROM maps WHERE hidden_from = $1 AND id = $2")
             .bind(tenant.as_str())
             .bind(id.to_string())
-            .fetch_optional(&self.readers)
+            .fetch_optional(&self.database)
             .await?;
         row.map(|row| row.time("hidden")).transpose()
     }
@@ -54,7 +56,7 @@ impl HiddenMaps for Sqlite {
         limit: u32,
         after: Option<Uuid>,
     ) -> Result<Vec<HiddenMap>, StoreError> {
-        let rows = sqlx::query(
+        let rows = query(
             "SELECT * FROM maps WHERE hidden_from = $1 AND hidden > $2 AND ($3 IS NULL OR id < $3) \
              ORDER BY id DESC LIMIT $4",
         )
@@ -62,7 +64,7 @@ impl HiddenMaps for Sqlite {
         .bind(hidden_after.as_microsecond())
         .bind(after.map(|id| id.to_string()))
         .bind(limit)
-        .fetch_all(&self.readers)
+        .fetch_all(&self.database)
         .await?;
         rows.iter().map(|row| Ok(HiddenMap { map: map_record(row)?, hidden: row.time("hidden")? })).collect()
     }
@@ -74,31 +76,34 @@ impl HiddenMaps for Sqlite {
         hidden_after: Timestamp,
         now: Timestamp,
     ) -> Result<Option<MapRecord>, StoreError> {
-        let mut transaction = self.write().await?;
-        let row = sqlx::query(
+        let mut transaction = self.database.write().await?;
+        transaction.alone_on_site_of(id).await?;
+        let row = query(
             "UPDATE maps SET tenant = hidden_from, hidden = NULL, hidden_from = NULL \
              WHERE hidden_from = $1 AND id = $2 AND hidden > $3 RETURNING *",
         )
         .bind(tenant.as_str())
         .bind(id.to_string())
         .bind(hidden_after.as_microsecond())
-        .fetch_optional(&mut *transaction)
+        .fetch_optional(&mut transaction)
         .await?;
         let Some(row) = row else { return Ok(None) };
-        sqlx::query("UPDATE jobs SET tenant = $2, updated = max(updated + 1, $3) WHERE map = $1")
-            .bind(id.to_string())
-            .bind(tenant.as_str())
-            .bind(now.as_microsecond())
-            .execute(&mut *transaction)
-            .await?;
+        query(
+            "UPDATE jobs SET tenant = $2, updated = CASE WHEN updated < $3 THEN $3 ELSE updated + 1 END WHERE map = $1",
+        )
+        .bind(id.to_string())
+        .bind(tenant.as_str())
+        .bind(now.as_microsecond())
+        .execute(&mut transaction)
+        .await?;
         transaction.commit().await?;
         Ok(Some(map_record(&row)?))
     }
 
     async fn delete_hidden(&self, hidden_until: Timestamp) -> Result<usize, StoreError> {
-        let rows = sqlx::query("SELECT id FROM maps WHERE hidden <= $1")
+        let rows = query("SELECT id FROM maps WHERE hidden <= $1")
             .bind(hidden_until.as_microsecond())
-            .fetch_all(&self.readers)
+            .fetch_all(&self.database)
             .await?;
         let mut deleted = 0;
         for row in rows {
@@ -110,12 +115,12 @@ impl HiddenMaps for Sqlite {
 }
 
 /// Takes the jobs of a map out of the hands of workers and of everybody. One that was to be cancelled is.
-async fn put_jobs_back(connection: &mut SqliteConnection, map: Uuid, now: Timestamp) -> Result<(), StoreError> {
-    sqlx::query("DELETE FROM idempotency_keys WHERE job IN (SELECT id FROM jobs WHERE map = $1)")
+async fn put_jobs_back(transaction: &mut Transaction, map: Uuid, now: Timestamp) -> Result<(), StoreError> {
+    query("DELETE FROM idempotency_keys WHERE job IN (SELECT id FROM jobs WHERE map = $1)")
         .bind(map.to_string())
-        .execute(&mut *connection)
+        .execute(&mut *transaction)
         .await?;
-    sqlx::query(
+    query(
         "UPDATE jobs SET state = CASE WHEN cancel_requested THEN 'dismissed' ELSE 'accepted' END, \
              finished = CASE WHEN cancel_requested THEN $2 END, message = 'put back because the map was deleted', \
              attempt = attempt - 1, progress = 0, stage = NULL, stages = '[]', lease_until = NULL, run_at = 0 \
@@ -123,12 +128,12 @@ async fn put_jobs_back(connection: &mut SqliteConnection, map: Uuid, now: Timest
     )
     .bind(map.to_string())
     .bind(now.as_microsecond())
-    .execute(&mut *connection)
+    .execute(&mut *transaction)
     .await?;
-    sqlx::query("UPDATE jobs SET tenant = '', updated = max(updated + 1, $2) WHERE map = $1")
+    query("UPDATE jobs SET tenant = '', updated = CASE WHEN updated < $2 THEN $2 ELSE updated + 1 END WHERE map = $1")
         .bind(map.to_string())
         .bind(now.as_microsecond())
-        .execute(&mut *connection)
+        .execute(&mut *transaction)
         .await?;
     Ok(())
 }

@@ -1,19 +1,19 @@
 //! Rows of registries.
 
 use async_trait::async_trait;
-use sqlx::Row;
 use stillage_core::registry::Registry;
 use uuid::Uuid;
 
-use super::Sqlite;
-use super::rows::{Columns, json};
+use super::rows::json;
+use super::statement::query;
+use super::store::SqlStore;
 use crate::records::Tenant;
 use crate::store::{Registries, SiteRegistry, StoreError};
 
 #[async_trait]
-impl Registries for Sqlite {
+impl Registries for SqlStore {
     async fn registry(&self, tenant: &Tenant, map: Uuid) -> Result<Option<SiteRegistry>, StoreError> {
-        let row = sqlx::query(
+        let row = query(
             "SELECT maps.site, registries.places, coalesce(registries.version, 0) AS version, \
                  NOT EXISTS (SELECT 1 FROM maps AS newer \
                      WHERE newer.site = maps.site AND newer.tenant = maps.tenant AND newer.id > maps.id AND newer.analysis IS NOT NULL) AS is_newest \
@@ -21,14 +21,14 @@ impl Registries for Sqlite {
         )
         .bind(tenant.as_str())
         .bind(map.to_string())
-        .fetch_optional(&self.readers)
+        .fetch_optional(&self.database)
         .await?;
         let Some(row) = row else { return Ok(None) };
         Ok(Some(SiteRegistry {
             site: row.uuid("site")?,
             registry: row.json_if("places")?.unwrap_or_default(),
             version: row.whole("version")?,
-            is_newest: row.try_get("is_newest")?,
+            is_newest: row.flag("is_newest")?,
         }))
     }
 
@@ -40,8 +40,9 @@ impl Registries for Sqlite {
         replaces: u64,
         decided: bool,
     ) -> Result<bool, StoreError> {
-        let mut transaction = self.write().await?;
-        let written = sqlx::query(
+        let mut transaction = self.database.write().await?;
+        transaction.alone_on_site_of(map).await?;
+        let written = query(
             "INSERT INTO registries (site, places, version) \
              SELECT site, $3, $4 + 1 FROM maps WHERE tenant = $1 AND id = $2 \
                  AND $4 = coalesce((SELECT version FROM registries WHERE registries.site = maps.site), 0) \
@@ -51,15 +52,15 @@ impl Registries for Sqlite {
         .bind(map.to_string())
         .bind(json(registry))
         .bind(replaces as i64)
-        .execute(&mut *transaction)
+        .execute(&mut transaction)
         .await?;
-        if written.rows_affected() == 0 {
+        if written == 0 {
             return Ok(false);
         }
         if decided {
-            sqlx::query("UPDATE maps SET version = version + 1 WHERE site = (SELECT site FROM maps WHERE id = $1)")
+            query("UPDATE maps SET version = version + 1 WHERE site = (SELECT site FROM maps WHERE id = $1)")
                 .bind(map.to_string())
-                .execute(&mut *transaction)
+                .execute(&mut transaction)
                 .await?;
         }
         transaction.commit().await?;

@@ -1,0 +1,96 @@
+//! The database of a store, of one engine or the other, and its transactions.
+
+use tokio::sync::OwnedRwLockReadGuard;
+
+use crate::store::StoreError;
+#[cfg(feature = "postgres")]
+use crate::store::postgres::Postgres;
+use crate::store::sqlite::Sqlite;
+
+/// An open database.
+#[derive(Debug)]
+pub enum Database {
+    /// A file of this process.
+    Sqlite(Sqlite),
+    /// A server that processes share.
+    #[cfg(feature = "postgres")]
+    Postgres(Postgres),
+}
+
+/// A transaction, rolled back when it is dropped.
+#[derive(Debug)]
+pub enum Transaction {
+    /// In SQLite, where one that writes is alone.
+    Sqlite {
+        /// The driver's own.
+        transaction: sqlx::Transaction<'static, sqlx::Sqlite>,
+        /// Keeps blobs from being removed until it ends.
+        gate: Option<OwnedRwLockReadGuard<()>>,
+    },
+    /// In PostgreSQL.
+    #[cfg(feature = "postgres")]
+    Postgres(sqlx::Transaction<'static, sqlx::Postgres>),
+}
+
+impl Database {
+    /// Begins a write.
+    pub async fn write(&self) -> Result<Transaction, StoreError> {
+        Ok(match self {
+            Self::Sqlite(engine) => Transaction::Sqlite { transaction: engine.write().await?, gate: None },
+            #[cfg(feature = "postgres")]
+            Self::Postgres(engine) => Transaction::Postgres(engine.pool.begin().await?),
+        })
+    }
+
+    /// Begins a read of one committed state.
+    pub async fn snapshot(&self) -> Result<Transaction, StoreError> {
+        Ok(match self {
+            Self::Sqlite(engine) => Transaction::Sqlite { transaction: engine.readers.begin().await?, gate: None },
+            #[cfg(feature = "postgres")]
+            Self::Postgres(engine) => Transaction::Postgres(engine.snapshot().await?),
+        })
+    }
+
+    /// Whether other processes may use it at the same time.
+    pub const fn is_shared(&self) -> bool {
+        !matches!(self, Self::Sqlite(_))
+    }
+
+    /// Gives up space that was set aside for a full disk. Answers whether there was any.
+    pub fn release_reserve(&self) -> bool {
+        match self {
+            Self::Sqlite(engine) => engine.folder.release_reserve(),
+            #[cfg(feature = "postgres")]
+            Self::Postgres(_) => false,
+        }
+    }
+
+    /// Sets space aside again, where there is enough.
+    pub fn restore_reserve(&self) {
+        match self {
+            Self::Sqlite(engine) => drop(engine.folder.restore_reserve()),
+            #[cfg(feature = "postgres")]
+            Self::Postgres(_) => {}
+        }
+    }
+}
+
+impl Transaction {
+    /// Makes all of it last.
+    pub async fn commit(self) -> Result<(), StoreError> {
+        match self {
+            Self::Sqlite { transaction, gate } => {
+                transaction.commit().await?;
+                drop(gate);
+            }
+            #[cfg(feature = "postgres")]
+            Self::Postgres(transaction) => transaction.commit().await?,
+        }
+        Ok(())
+    }
+
+    /// Whether no other transaction writes.
+    pub const fn is_alone(&self) -> bool {
+        matches!(self, Self::Sqlite { .. })
+    }
+}

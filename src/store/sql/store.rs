@@ -1,0 +1,123 @@
+//! The open store as a whole.
+
+use std::path::PathBuf;
+use std::time::Duration;
+
+use async_trait::async_trait;
+use jiff::Timestamp;
+
+use super::database::Database;
+use super::statement::query;
+use crate::config::{BlobAddress, Config, DatabaseAddress};
+#[cfg(feature = "s3")]
+use crate::store::blobs::BucketBlobs;
+use crate::store::blobs::LocalBlobs;
+use crate::store::free_space::free_bytes;
+#[cfg(feature = "postgres")]
+use crate::store::postgres::Postgres;
+use crate::store::sqlite::Sqlite;
+use crate::store::{Blobs, Store, StoreError, now};
+
+/// Rows in a database, blobs beside them.
+#[derive(Debug)]
+pub struct SqlStore {
+    pub(in crate::store) database: Database,
+    pub(super) blobs: Box<dyn Blobs>,
+    /// The folder whose disk must have room; `None` where nothing is written to disks of this machine.
+    space_in: Option<PathBuf>,
+    min_free_bytes: u64,
+}
+
+impl SqlStore {
+    /// Opens the configured database and blobs, and brings the database up to date.
+    ///
+    /// # Errors
+    /// What stands against it, for whoever configured it.
+    pub async fn open(config: &Config) -> Result<Self, StoreError> {
+        let database = match &config.database {
+            DatabaseAddress::Sqlite(folder) => Database::Sqlite(Sqlite::open(folder).await?),
+            #[cfg(feature = "postgres")]
+            DatabaseAddress::Postgres(address) => Database::Postgres(Postgres::open(address).await?),
+        };
+        let blobs: Box<dyn Blobs> = match &config.blobs {
+            BlobAddress::Folder(folder) => Box::new(LocalBlobs::open(folder)?),
+            #[cfg(feature = "s3")]
+            BlobAddress::Bucket(address) => Box::new(BucketBlobs::open(address)?),
+        };
+        let space_in = match (&database, &config.blobs) {
+            (Database::Sqlite(engine), _) => Some(engine.folder.path().to_owned()),
+            #[cfg(feature = "postgres")]
+            (Database::Postgres(_), BlobAddress::Folder(folder)) => Some(folder.clone()),
+            #[cfg(all(feature = "postgres", feature = "s3"))]
+            (Database::Postgres(_), BlobAddress::Bucket(_)) => None,
+        };
+        Ok(Self { database, blobs, space_in, min_free_bytes: config.min_free_bytes })
+    }
+}
+
+#[async_trait]
+impl Store for SqlStore {
+    fn blobs(&self) -> &dyn Blobs {
+        &*self.blobs
+    }
+
+    fn is_shared(&self) -> bool {
+        self.database.is_shared()
+    }
+
+    fn writes(&self) -> Option<u64> {
+        match &self.database {
+            Database::Sqlite(engine) => engine.writes(),
+            // Other processes write, too.
+            #[cfg(feature = "postgres")]
+            Database::Postgres(_) => None,
+        }
+    }
+
+    fn check_space(&self) -> Result<(), StoreError> {
+        match &self.space_in {
+            Some(folder) if free_bytes(folder)? < self.min_free_bytes => Err(StoreError::NoSpace),
+            _ => Ok(()),
+        }
+    }
+
+    async fn check(&self) -> Result<(), StoreError> {
+        query("SELECT count(*) FROM maps WHERE id = ''").fetch_one(&self.database).await?;
+        self.check_space()
+    }
+
+    async fn schema_version(&self) -> Result<i64, StoreError> {
+        let row = query("SELECT max(version) AS version FROM _sqlx_migrations").fetch_one(&self.database).await?;
+        row.whole("version")
+    }
+
+    async fn clock(&self) -> Result<Timestamp, StoreError> {
+        if !self.database.is_shared() {
+            return Ok(now());
+        }
+        query("SELECT CAST(extract(epoch FROM clock_timestamp()) * 1000000 AS bigint) AS now")
+            .fetch_one(&self.database)
+            .await?
+            .time("now")
+    }
+
+    async fn job_changed_elsewhere(&self) {
+        match &self.database {
+            Database::Sqlite(_) => std::future::pending().await,
+            #[cfg(feature = "postgres")]
+            Database::Postgres(engine) => engine.job_changed().await,
+        }
+    }
+
+    async fn sweep_blobs(&self, age: Duration) -> Result<usize, StoreError> {
+        self.remove_orphans(age).await
+    }
+
+    async fn close(&self) {
+        match &self.database {
+            Database::Sqlite(engine) => engine.close().await,
+            #[cfg(feature = "postgres")]
+            Database::Postgres(engine) => engine.close().await,
+        }
+    }
+}
