@@ -108,6 +108,7 @@ impl Config {
             shutdown_grace: Duration::from_secs(25),
         }
     }
+
     /// The folder for requests that are being received: that of the rows or the blobs, or where neither is on this machine, that
     /// of temporary files.
     #[must_use]
