@@ -6,7 +6,7 @@ use uuid::Uuid;
 use super::maps::MAX_PAGE;
 use super::{App, AppError, Caller, MapRecord};
 use crate::jobs::{delete_hidden, kept_since};
-use crate::store::{HiddenMap, StoreError, now};
+use crate::store::{HiddenMap, StoreError};
 
 /// A map that was deleted and can still be restored.
 #[derive(Debug, Clone, PartialEq)]
@@ -27,7 +27,7 @@ impl App {
         let is_done = if self.config.keep_deleted.is_zero() {
             self.store.delete_map(tenant, id, if_match).await?
         } else {
-            match self.store.hide_map(tenant, id, if_match, now()).await {
+            match self.store.hide_map(tenant, id, if_match, self.store.clock().await?).await {
                 // On a full disk nothing more can be written, and deleting makes room.
                 Err(StoreError::NoSpace) => self.store.delete_map(tenant, id, if_match).await?,
                 hidden => hidden?,
@@ -45,8 +45,9 @@ impl App {
 
     /// Brings a deleted map back, with its analyses, labels and jobs. One that is there stays as it is.
     pub async fn restore_map(&self, caller: &Caller, id: Uuid) -> Result<MapRecord, AppError> {
-        let hidden_after = kept_since(self.config.keep_deleted);
-        match self.store.restore_map(caller.tenant(), id, hidden_after, now()).await? {
+        let now = self.store.clock().await?;
+        let hidden_after = kept_since(self.config.keep_deleted, now);
+        match self.store.restore_map(caller.tenant(), id, hidden_after, now).await? {
             Some(record) => {
                 self.signals.queued();
                 self.signals.changed();
@@ -63,7 +64,7 @@ impl App {
         limit: u32,
         after: Option<Uuid>,
     ) -> Result<Vec<DeletedMap>, AppError> {
-        let hidden_after = kept_since(self.config.keep_deleted);
+        let hidden_after = kept_since(self.config.keep_deleted, self.store.clock().await?);
         let maps = self.store.hidden_maps(caller.tenant(), hidden_after, limit.min(MAX_PAGE), after).await?;
         let deleted = |HiddenMap { map, hidden }| DeletedMap {
             map,
@@ -77,7 +78,7 @@ impl App {
     pub async fn restorable_until(&self, caller: &Caller, id: Uuid) -> Result<Option<Timestamp>, AppError> {
         let Some(deleted) = self.store.hidden_since(caller.tenant(), id).await? else { return Ok(None) };
         let until = self.end_of_keeping(deleted);
-        Ok((until > now()).then_some(until))
+        Ok((until > self.store.clock().await?).then_some(until))
     }
 
     fn end_of_keeping(&self, deleted: Timestamp) -> Timestamp {

@@ -11,6 +11,7 @@
 //! - A request to stop lets running jobs go on for the grace period, then puts them back without counting the attempt.
 
 mod compute;
+mod contact;
 mod housekeeping;
 pub mod processes;
 mod retry;

@@ -9,6 +9,7 @@ use tokio::time::MissedTickBehavior;
 
 use super::compute::{ComputePool, Task};
 use super::processes::{ComputeError, Process};
+use super::retry::backoff;
 use super::shared::Shared;
 use crate::fail_point;
 use crate::records::JobState;
@@ -100,7 +101,7 @@ impl<'a> Running<'a> {
     /// Tells the store where the job is, when that changed or the lease wants renewing; otherwise only asks whether it
     /// is to be cancelled. An error means that the claim is lost.
     async fn heartbeat(&mut self) -> Result<bool, StoreError> {
-        let lease = self.shared.settings.terms.lease;
+        let lease = self.shared.settings.lease;
         let progress = Progress {
             percent: self.clock.percent(),
             stage: self.clock.stage().map(|stage| stage.name().to_owned()),
@@ -134,8 +135,8 @@ impl<'a> Running<'a> {
     }
 
     async fn renew(&self, progress: &Progress, lease: Duration) -> Result<bool, StoreError> {
-        let store = &self.shared.store;
-        store.heartbeat(&self.claim, progress, lease, store.clock().await?).await
+        let (now, _) = self.shared.now().await?;
+        self.shared.store.heartbeat(&self.claim, progress, lease, now).await
     }
 
     /// Waits until the computation has let go of the pool, but not beyond the end of the service.
@@ -165,16 +166,16 @@ impl<'a> Running<'a> {
 
     /// After a fault that may pass, the job waits and is tried again; any other, or the last attempt, ends it.
     async fn end_with_fault(&self, error: StoreError) -> Result<(), StoreError> {
-        let terms = &self.shared.settings.terms;
+        let most = self.shared.settings.max_attempts;
         let attempt = self.claim.attempt;
         if !error.is_transient() {
             return self.end(JobState::Failed, &error.to_string()).await;
         }
-        if attempt >= terms.max_attempts {
+        if attempt >= most {
             return self.end(JobState::Failed, &format!("given up after {attempt} attempts: {error}")).await;
         }
-        let wait = (terms.backoff)(self.claim.job, attempt);
-        let message = format!("attempt {attempt} of {} failed: {error}", terms.max_attempts);
+        let wait = backoff(self.claim.job, attempt);
+        let message = format!("attempt {attempt} of {most} failed: {error}");
         tracing::warn!(job = %self.claim.job, attempt, ?wait, %error, "job will be tried again");
         self.requeue(attempt, wait, &message).await
     }

@@ -3,18 +3,27 @@
 use std::sync::Arc;
 use std::time::Duration;
 
+use jiff::Timestamp;
 use tokio::sync::watch;
 use tokio::time::Instant;
 
+use super::contact::Contact;
 use super::processes::Processes;
+use super::retry::backoff;
 use super::signals::Signals;
-use crate::store::Store;
 use crate::store::queue::Terms;
+use crate::store::{Store, StoreError};
+
+/// A slot looks at the queue at least this often, whatever it is told: a signal is only a hint.
+pub(super) const POLL: Duration = Duration::from_secs(1);
 
 /// What the worker is configured with.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Settings {
-    pub(super) terms: Terms,
+    /// How long a claim lasts without a heartbeat.
+    pub(super) lease: Duration,
+    /// How often a job is tried in all.
+    pub(super) max_attempts: u32,
     pub(super) heartbeat: Duration,
     /// How long deleted maps are kept.
     pub(super) keep_deleted: Duration,
@@ -27,13 +36,23 @@ pub(super) struct Shared {
     pub(super) processes: Processes,
     pub(super) signals: Arc<Signals>,
     pub(super) settings: Settings,
+    contact: Contact,
     /// Set once: from when on running jobs are put back.
     stop_at: watch::Sender<Option<Instant>>,
 }
 
 impl Shared {
     pub(super) fn new(store: Arc<dyn Store>, processes: Processes, signals: Arc<Signals>, settings: Settings) -> Self {
-        Self { store, processes, signals, settings, stop_at: watch::Sender::new(None) }
+        // Claims are renewed after a third of their lease, and idle slots ask once in a while.
+        let contact = Contact::new((settings.lease / 2).max(3 * POLL));
+        Self { store, processes, signals, settings, contact, stop_at: watch::Sender::new(None) }
+    }
+
+    /// The time by the clock of the store, and the terms of a claim at this time.
+    pub(super) async fn now(&self) -> Result<(Timestamp, Terms), StoreError> {
+        let now = self.store.clock().await?;
+        let Settings { lease, max_attempts, .. } = self.settings;
+        Ok((now, Terms { lease, max_attempts, backoff, in_touch_since: self.contact.answered(now) }))
     }
 
     /// Asks the slots to stop; jobs that run are put back after a grace period. Only the first call counts.

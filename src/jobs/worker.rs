@@ -8,16 +8,11 @@ use tokio::task::JoinHandle;
 use super::compute::ComputePool;
 use super::housekeeping::delete_hidden;
 use super::processes::Processes;
-use super::retry::backoff;
 use super::running::Running;
-use super::shared::{Settings, Shared};
+use super::shared::{POLL, Settings, Shared};
 use super::signals::Signals;
 use crate::config::Config;
-use crate::store::queue::Terms;
 use crate::store::{Store, StoreError};
-
-/// A slot looks at the queue at least this often, whatever it is told: a signal is only a hint.
-const POLL: Duration = Duration::from_secs(1);
 
 /// Works on the queue of a store.
 #[derive(Debug)]
@@ -32,7 +27,8 @@ impl Worker {
     #[must_use]
     pub fn start(config: &Config, store: Arc<dyn Store>, processes: Processes, signals: Arc<Signals>) -> Arc<Self> {
         let settings = Settings {
-            terms: Terms { lease: config.lease, max_attempts: config.max_attempts, backoff },
+            lease: config.lease,
+            max_attempts: config.max_attempts,
             heartbeat: config.heartbeat,
             keep_deleted: config.keep_deleted,
         };
@@ -85,12 +81,13 @@ impl Worker {
 
     /// Takes a job and sees it to its end; `false` when none is due, or there is no room for a result.
     async fn work(&self, pool: &ComputePool) -> Result<bool, StoreError> {
-        let Shared { store, settings, signals, .. } = &self.shared;
+        let Shared { store, signals, .. } = &self.shared;
         if let Err(error) = store.check_space() {
             tracing::warn!(%error, "no job is begun");
             return Ok(false);
         }
-        let Some(claim) = store.claim(&settings.terms, store.clock().await?).await? else { return Ok(false) };
+        let (now, terms) = self.shared.now().await?;
+        let Some(claim) = store.claim(&terms, now).await? else { return Ok(false) };
         tracing::info!(job = %claim.job, process = claim.process, map = %claim.map, attempt = claim.attempt, "job begun");
         signals.changed();
         Running::new(&self.shared, claim).run(pool).await?;

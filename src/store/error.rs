@@ -44,6 +44,14 @@ pub enum StoreError {
     /// The server of the database does not let the program in.
     #[error("the database {0} cannot be reached: {1}")]
     Unreachable(String, #[source] sqlx::Error),
+    /// The file of the authorities that sign the certificates of the object store.
+    #[error("the authorities in {} (AWS_CA_BUNDLE) cannot be used: {reason}", .path.display())]
+    Authorities {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        reason: String,
+    },
     /// A migration failed.
     #[error("the database could not be brought up to date: {0}")]
     Migration(#[source] sqlx::migrate::MigrateError),

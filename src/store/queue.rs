@@ -59,6 +59,8 @@ pub struct Terms {
     pub max_attempts: u32,
     /// The wait after the n-th attempt (from 1) of a job.
     pub backoff: fn(Uuid, u32) -> Duration,
+    /// Since when the worker that asks has been in touch with the database without a break, by the clock of the database.
+    pub in_touch_since: Timestamp,
 }
 
 /// Where a running job is.
@@ -88,11 +90,16 @@ pub enum JobResult {
 pub trait Queue {
     /// Ends the claims whose lease has run out, then takes a job that is due, if there is one: of those with the fewest
     /// attempts the one that waits longest, so that a job which kills its workers does not hold up the others.
+    ///
+    /// Where the asking worker was in touch with the database ([`Terms::in_touch_since`]) from the last sign of life of a claim
+    /// until its lease ran out, that worker alone was gone, and the attempt counts. Otherwise all may have been, with the machine
+    /// or with the database: then it counts as [`Self::end_claims_of_dead_processes`] says.
     async fn claim(&self, terms: &Terms, now: Timestamp) -> Result<Option<Claim>, StoreError>;
 
     /// Ends the claims of processes that are known to be dead, without waiting for their leases. All that worked on the queue
     /// died with them, so their attempts count only where a job died in the same stage as the time before; in all it may die
-    /// four times as often as it has attempts. An engine that other processes may use at the same time knows of none. Answers how many there were.
+    /// four times as often as it has attempts. An engine that other processes may use at the same time knows of none. Answers
+    /// how many there were.
     async fn end_claims_of_dead_processes(&self, max_attempts: u32, now: Timestamp) -> Result<u64, StoreError>;
 
     /// Renews the lease and stores how far the job is. Answers whether it is to be cancelled.

@@ -92,7 +92,7 @@ async fn whole(deployment: &Deployment) -> BTreeMap<String, (String, i64)> {
         assert_eq!(database.texts(sql, 1).await, [["0"]], "{question}");
     }
     for row in database.texts("SELECT source FROM maps UNION SELECT blob FROM analyses", 1).await {
-        let bytes = std::fs::read(deployment.blob_file(&row[0])).expect("every blob of a row is there");
+        let bytes = deployment.blob(&row[0]).expect("every blob of a row is there");
         assert_eq!(blake3::hash(&bytes).to_hex().as_str(), row[0], "and is what was written");
     }
     let jobs = database.texts("SELECT id, state, CAST(attempt AS TEXT) FROM jobs", 3).await;

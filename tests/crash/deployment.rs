@@ -1,34 +1,68 @@
 //! Where the servers under test keep what they store.
 
+use std::net::SocketAddr;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use tempfile::TempDir;
 
 use crate::object_store::ObjectStore;
 use crate::postgres;
 
-/// A folder, and a database on a server where several processes share it.
+/// A folder, and a database on a server where several processes share it. A clone is the same deployment.
+#[derive(Clone)]
 pub struct Deployment {
-    folder: TempDir,
+    folder: Arc<TempDir>,
     database: Option<String>,
-    bucket: Option<ObjectStore>,
+    bucket: Option<Arc<ObjectStore>>,
+    lease_s: u64,
 }
 
 impl Deployment {
     /// SQLite and files in a folder, for one process.
     pub fn embedded() -> Self {
-        Self { folder: tempfile::tempdir().expect("a temporary folder"), database: None, bucket: None }
+        let folder = Arc::new(tempfile::tempdir().expect("a temporary folder"));
+        // Jobs of a process that was killed come back soon.
+        Self { folder, database: None, bucket: None, lease_s: 2 }
     }
 
     /// PostgreSQL and files in a folder, for several processes; `None` where there is no PostgreSQL.
     pub fn shared() -> Option<Self> {
-        let database = Some(postgres::new_database()?);
-        Some(Self { database, ..Self::embedded() })
+        Some(Self::on(postgres::new_database()?))
+    }
+
+    /// The same with the database at an address.
+    pub fn on(database: String) -> Self {
+        Self { database: Some(database), ..Self::embedded() }
     }
 
     /// The same with blobs in a bucket.
     pub fn with_bucket(self, bucket: ObjectStore) -> Self {
-        Self { bucket: Some(bucket), ..self }
+        Self { bucket: Some(Arc::new(bucket)), ..self }
+    }
+
+    /// The same with a lease of so many seconds.
+    pub fn with_lease(self, lease_s: u64) -> Self {
+        Self { lease_s, ..self }
+    }
+
+    /// The same deployment with its database seen through a proxy.
+    pub fn through(&self, proxy: SocketAddr) -> Self {
+        let (user, _, name) = self.parts_of_address();
+        Self { database: Some(format!("{user}@{proxy}/{name}")), ..self.clone() }
+    }
+
+    /// Where the server of the database listens.
+    pub fn database_server(&self) -> SocketAddr {
+        self.parts_of_address().1.parse().expect("tests use loopback")
+    }
+
+    /// User, server and name.
+    fn parts_of_address(&self) -> (&str, &str, &str) {
+        let address = self.database.as_deref().expect("it has a server");
+        let (user, place) = address.split_once('@').expect("an address has a user");
+        let (server, name) = place.split_once('/').expect("an address has a database");
+        (user, server, name)
     }
 
     /// The address of the database that processes share.
@@ -46,6 +80,14 @@ impl Deployment {
         self.folder().join("blobs").join(&blob[..2]).join(blob)
     }
 
+    /// The bytes of a blob; `None` where there is none.
+    pub fn blob(&self, blob: &str) -> Option<Vec<u8>> {
+        match &self.bucket {
+            Some(bucket) => bucket.object(&format!("blobs/{}/{blob}", &blob[..2])),
+            None => std::fs::read(self.blob_file(blob)).ok(),
+        }
+    }
+
     /// What the environment is told of it.
     pub fn environment(&self) -> Vec<(&'static str, &str)> {
         self.bucket.as_ref().map(|bucket| bucket.environment().to_vec()).unwrap_or_default()
@@ -59,8 +101,7 @@ impl Deployment {
                 Some(_) => format!("s3://{}/blobs", ObjectStore::BUCKET),
                 None => format!("file://{}", self.folder().join("blobs").display()),
             };
-            // Jobs of a process that was killed come back soon.
-            let shared = ["--database", database, "--blobs", &blobs, "--lease-s", "2"];
+            let shared = ["--database", database, "--blobs", &blobs, "--lease-s", &self.lease_s.to_string()];
             arguments.extend(shared.map(str::to_owned));
         }
         arguments

@@ -13,6 +13,15 @@ use crate::deployment::Deployment;
 /// How often a state is asked for while waiting.
 const TICK: Duration = Duration::from_millis(20);
 
+/// What matters of an answer.
+#[derive(Debug)]
+pub struct Answer {
+    pub status: u16,
+    pub says_when_to_come_back: bool,
+    pub location: Option<String>,
+    pub text: String,
+}
+
 /// A running server. Killed when dropped.
 pub struct Server {
     process: Child,
@@ -39,6 +48,11 @@ impl Server {
         if let Some(point) = fail_point {
             command.env("STILLAGE_FAIL_POINT", point);
         }
+        Self::start_by(command)
+    }
+
+    /// [`Self::start`] by a command of one's own.
+    pub fn start_by(mut command: Command) -> Option<Self> {
         let mut process = command.stdout(Stdio::piped()).spawn().expect("the binary runs");
         let mut line = String::new();
         let output = process.stdout.take().expect("it is piped");
@@ -53,13 +67,27 @@ impl Server {
         Some(Self { process, address: address.to_owned(), client })
     }
 
+    /// `http://` and where it listens.
+    pub fn address(&self) -> &str {
+        &self.address
+    }
+
     /// Uploads a map: the path of its job when it was accepted, `None` when no answer came.
     pub fn upload(&self, message: &Value, key: &str) -> Option<String> {
+        let answer = self.try_upload(message, key)?;
+        assert!([200, 202].contains(&answer.status), "{answer:?}");
+        Some(answer.location.expect("where the job is"))
+    }
+
+    /// Uploads a map, whatever the answer is; `None` when none came.
+    pub fn try_upload(&self, message: &Value, key: &str) -> Option<Answer> {
         let request = self.client.post(format!("{}/v1/maps?name={key}", self.address)).header("idempotency-key", key);
-        let mut response = request.send_json(message).ok()?;
-        let accepted = [200, 202].contains(&response.status().as_u16());
-        assert!(accepted, "{}: {:?}", response.status(), response.body_mut().read_to_string());
-        Some(response.headers().get("location").expect("where the job is").to_str().expect("is text").to_owned())
+        Some(answer(request.send_json(message).ok()?))
+    }
+
+    /// Asks, whatever the answer is; `None` when none came.
+    pub fn ask(&self, path: &str) -> Option<Answer> {
+        Some(answer(self.client.get(format!("{}{path}", self.address)).call().ok()?))
     }
 
     /// Reads a JSON resource.
@@ -162,6 +190,13 @@ impl Server {
         let status = self.process.wait().expect("it ends");
         assert!(status.success(), "told to stop, it ended with {status}");
     }
+}
+
+fn answer(mut response: ureq::http::Response<ureq::Body>) -> Answer {
+    let header = |name| Some(response.headers().get(name)?.to_str().expect("is text").to_owned());
+    let (location, says_when_to_come_back) = (header("location"), header("retry-after").is_some());
+    let status = response.status().as_u16();
+    Answer { status, says_when_to_come_back, location, text: response.body_mut().read_to_string().unwrap_or_default() }
 }
 
 impl Drop for Server {

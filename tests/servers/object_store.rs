@@ -5,7 +5,7 @@
 
 #![allow(clippy::print_stderr, reason = "who runs the tests is told what is skipped")]
 
-use std::net::TcpListener;
+use std::net::{SocketAddr, TcpListener};
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
@@ -26,6 +26,8 @@ pub enum Program {
 /// A running server with one empty bucket.
 #[derive(Debug)]
 pub struct ObjectStore {
+    server: SocketAddr,
+    /// How the program under test reaches it.
     endpoint: String,
     /// Holds the standard input open, at whose end the server ends.
     _process: Child,
@@ -75,7 +77,27 @@ impl ObjectStore {
             assert!(begun.elapsed() < PATIENCE, "{package} does not start: {}", log());
             std::thread::sleep(Duration::from_millis(100));
         }
-        Some(Self { endpoint, _process: process, _folder: folder })
+        let server = ([127, 0, 0, 1], port.parse().expect("a number")).into();
+        Some(Self { server, endpoint, _process: process, _folder: folder })
+    }
+
+    /// Where it listens.
+    pub fn listens_at(&self) -> SocketAddr {
+        self.server
+    }
+
+    /// The same, reached by the program under test at another address.
+    pub fn through(self, proxy: SocketAddr) -> Self {
+        Self { endpoint: format!("http://{proxy}"), ..self }
+    }
+
+    /// The bytes of an object; `None` where there is none.
+    pub fn object(&self, name: &str) -> Option<Vec<u8>> {
+        let request = ureq::get(format!("http://{}/{}/{name}", self.server, Self::BUCKET));
+        // These servers check no signature, but want to see one.
+        let signature =
+            "AWS4-HMAC-SHA256 Credential=test/20260101/us-east-1/s3/aws4_request, SignedHeaders=host, Signature=0";
+        request.header("authorization", signature).call().ok()?.body_mut().read_to_vec().ok()
     }
 
     /// What the environment of the program under test says of it.

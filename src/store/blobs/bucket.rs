@@ -10,7 +10,7 @@ use futures::TryStreamExt;
 use object_store::aws::{AmazonS3, AmazonS3Builder};
 use object_store::{ObjectMeta, ObjectStore, ObjectStoreExt, PutPayload, RetryConfig};
 
-use super::reading::{location, read_whole};
+use super::reading::{is_there, location, read_whole};
 use super::transport::Transport;
 use super::{Blob, BlobId, Blobs};
 use crate::store::StoreError;
@@ -27,7 +27,7 @@ pub struct BucketBlobs {
 
 impl BucketBlobs {
     /// The blobs at `s3://BUCKET/PREFIX`. Keys, region and the address of the store are read from the environment
-    /// (`AWS_ACCESS_KEY_ID`, `AWS_SECRET_ACCESS_KEY`, `AWS_REGION`, `AWS_ENDPOINT_URL`, `AWS_ALLOW_HTTP`).
+    /// (`AWS_ACCESS_KEY_ID`, `AWS_SECRET_ACCESS_KEY`, `AWS_REGION`, `AWS_ENDPOINT_URL`, `AWS_ALLOW_HTTP`, `AWS_CA_BUNDLE`).
     ///
     /// # Errors
     /// When something of that is missing or makes no sense.
@@ -36,7 +36,7 @@ impl BucketBlobs {
         let (bucket, prefix) = place.split_once('/').unwrap_or((place, ""));
         let retry = RetryConfig { retry_timeout: RETRY_TIMEOUT, ..RetryConfig::default() };
         let builder = AmazonS3Builder::from_env().with_bucket_name(bucket).with_retry(retry);
-        let bucket = builder.with_http_connector(Transport).build()?;
+        let bucket = builder.with_http_connector(Transport::from_env()?).build()?;
         Ok(Self { bucket, prefix: prefix.to_owned() })
     }
 
@@ -56,6 +56,10 @@ impl Blobs for BucketBlobs {
 
     async fn get(&self, id: &BlobId) -> Result<Blob, StoreError> {
         read_whole(&self.bucket, &location(&self.prefix, id), id).await
+    }
+
+    async fn contains(&self, id: &BlobId) -> Result<bool, StoreError> {
+        is_there(&self.bucket, &location(&self.prefix, id)).await
     }
 
     async fn remove(&self, id: &BlobId) -> Result<(), StoreError> {

@@ -27,3 +27,15 @@ pub async fn read_whole(store: &dyn ObjectStore, place: &Path, id: &BlobId) -> R
     let blob = off_the_runtime(move || Blob::new(bytes)).await;
     if blob.id() == id { Ok(blob) } else { Err(damaged("its bytes do not have its hash")) }
 }
+
+/// Whether there is something at a place.
+///
+/// # Errors
+/// When the store does not answer.
+pub async fn is_there(store: &dyn ObjectStore, place: &Path) -> Result<bool, StoreError> {
+    match store.head(place).await {
+        Ok(_) => Ok(true),
+        Err(object_store::Error::NotFound { .. }) => Ok(false),
+        Err(error) => Err(error.into()),
+    }
+}

@@ -25,6 +25,12 @@ pub trait Blobs: fmt::Debug + Send + Sync {
     /// [`StoreError::Damaged`] when it is missing or not what was written.
     async fn get(&self, id: &BlobId) -> Result<Blob, StoreError>;
 
+    /// Whether there is such a blob, whole or not.
+    ///
+    /// # Errors
+    /// When nobody knows.
+    async fn contains(&self, id: &BlobId) -> Result<bool, StoreError>;
+
     /// Removes a blob; a missing one is no error.
     ///
     /// # Errors

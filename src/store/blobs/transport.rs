@@ -9,8 +9,10 @@ use object_store::ClientOptions;
 use object_store::client::{
     HttpClient, HttpConnector, HttpError, HttpErrorKind, HttpRequest, HttpRequestBody, HttpResponse, HttpService,
 };
+use ureq::tls::{PemItem, RootCerts, TlsConfig, parse_pem};
 
 use crate::blocking::off_the_runtime;
+use crate::store::StoreError;
 
 /// Longest wait for a connection.
 const CONNECT_TIMEOUT: Duration = Duration::from_secs(5);
@@ -21,18 +23,57 @@ const TIMEOUT: Duration = Duration::from_mins(2);
 /// Largest answer, bytes.
 const MOST_BYTES: u64 = 4 << 30;
 
+/// Names the file of the authorities whose certificates are believed, in place of those that browsers believe, as for the
+/// programs of AWS (<https://docs.aws.amazon.com/sdkref/latest/guide/feature-gen-config.html>).
+const AUTHORITIES: &str = "AWS_CA_BUNDLE";
+
 /// Makes the client.
 #[derive(Debug)]
-pub struct Transport;
+pub struct Transport {
+    authorities: RootCerts,
+}
 
 /// The client.
 #[derive(Debug)]
 struct Agent(ureq::Agent);
 
+impl Transport {
+    /// Requests as the environment wants them.
+    ///
+    /// # Errors
+    /// [`StoreError::Authorities`] when the file of authorities cannot be read or holds none.
+    pub fn from_env() -> Result<Self, StoreError> {
+        let Some(path) = std::env::var_os(AUTHORITIES).filter(|path| !path.is_empty()) else {
+            return Ok(Self { authorities: RootCerts::WebPki });
+        };
+        let refused = |reason| StoreError::Authorities { path: path.clone().into(), reason };
+        let bytes = std::fs::read(&path).map_err(|error| refused(error.to_string()))?;
+        Ok(Self { authorities: authorities(&bytes).map_err(refused)? })
+    }
+}
+
+/// The certificates in a file in the PEM format.
+fn authorities(pem: &[u8]) -> Result<RootCerts, String> {
+    let mut certificates = Vec::new();
+    for item in parse_pem(pem) {
+        match item {
+            Ok(PemItem::Certificate(certificate)) => certificates.push(certificate),
+            Ok(_) => {}
+            Err(_) => return Err("it is not in the PEM format".into()),
+        }
+    }
+    if certificates.is_empty() {
+        Err("it holds no certificate in the PEM format".into())
+    } else {
+        Ok(certificates.into())
+    }
+}
+
 impl HttpConnector for Transport {
     fn connect(&self, _: &ClientOptions) -> object_store::Result<HttpClient> {
         let config = ureq::Agent::config_builder()
             .http_status_as_error(false)
+            .tls_config(TlsConfig::builder().root_certs(self.authorities.clone()).build())
             .timeout_connect(Some(CONNECT_TIMEOUT))
             .timeout_global(Some(TIMEOUT))
             .max_redirects(0);
@@ -86,4 +127,20 @@ fn failed(error: ureq::Error) -> HttpError {
         _ => HttpErrorKind::Unknown,
     };
     HttpError::new(kind, error)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_file_without_a_certificate_is_refused() {
+        let key = "-----BEGIN PRIVATE KEY-----\nAAAA\n-----END PRIVATE KEY-----\n";
+        for text in ["", "no certificate", key] {
+            let refusal = authorities(text.as_bytes()).expect_err("there is none");
+            assert_eq!(refusal, "it holds no certificate in the PEM format");
+        }
+        let certificate = "-----BEGIN CERTIFICATE-----\nAAAA\n-----END CERTIFICATE-----\n";
+        assert!(matches!(authorities(certificate.as_bytes()), Ok(RootCerts::Specific(all)) if all.len() == 1));
+    }
 }

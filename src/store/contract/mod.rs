@@ -77,6 +77,7 @@ macro_rules! contract {
                     an_attempt_given_back_does_not_give_its_token_back
                     a_heartbeat_keeps_the_lease_and_shows_the_progress
                     a_job_that_kills_its_process_fails_after_the_last_attempt
+                    where_all_may_have_died_only_deaths_in_one_stage_count
                     a_job_that_was_cut_off_waits_behind_the_others
                     a_job_that_failed_or_was_dismissed_runs_once_more
                     a_waiting_job_is_dismissed_at_once_a_running_one_is_asked_to_stop
@@ -122,8 +123,12 @@ contract!(sqlite, crate::store::sqlite::tests::Embedded);
 #[cfg(feature = "postgres")]
 contract!(postgres, crate::store::postgres::tests::OnServer);
 
-pub const TERMS: Terms =
-    Terms { lease: Duration::from_secs(30), max_attempts: 3, backoff: |_, _| Duration::from_secs(5) };
+pub const TERMS: Terms = Terms {
+    lease: Duration::from_secs(30),
+    max_attempts: 3,
+    backoff: |_, _| Duration::from_secs(5),
+    in_touch_since: Timestamp::MIN,
+};
 
 /// The process that test jobs name.
 pub const PROCESS: &str = "test";

@@ -86,6 +86,27 @@ pub async fn a_job_that_kills_its_process_fails_after_the_last_attempt(engine: &
     assert!(record.finished.is_some());
 }
 
+pub async fn where_all_may_have_died_only_deaths_in_one_stage_count(engine: &impl Engine) {
+    let store = engine.store();
+    let job = upload(store, "map").await;
+    let mut at = 0;
+    // Cut off in a stage; whoever asks next was not there when that happened.
+    let mut die = async |stage: &str| {
+        let held = claim(store, later(at)).await.expect("it is due");
+        let progress = Progress { percent: 1, stage: Some(stage.to_owned()), stages: Vec::new() };
+        assert!(!store.heartbeat(&held, &progress, TERMS.lease, later(at)).await.unwrap());
+        let terms = Terms { in_touch_since: later(at + 20), ..TERMS };
+        assert!(store.claim(&terms, later(at + 40)).await.unwrap().is_none());
+        at += 50;
+        state(store, job.id).await
+    };
+    for stage in ["features", "rooms", "features", "rooms", "features"] {
+        assert_eq!(die(stage).await, (JobState::Accepted, 1), "it got to another stage each time");
+    }
+    assert_eq!(die("features").await, (JobState::Accepted, 2));
+    assert_eq!(die("features").await, (JobState::Failed, 3));
+}
+
 pub async fn a_job_that_was_cut_off_waits_behind_the_others(engine: &impl Engine) {
     let store = engine.store();
     let (first, second) = (upload(store, "first").await, upload(store, "second").await);

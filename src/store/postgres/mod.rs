@@ -29,6 +29,10 @@ const CONNECTIONS: u32 = 16;
 /// How long a statement may wait for a row or a lock that another transaction holds.
 const LOCK_TIMEOUT: &str = "10s";
 
+/// How long the server may take for an answer; a little longer than for a lock. Who is cut off would otherwise wait until the
+/// system gives the connection up, after a quarter of an hour.
+const ANSWER_TIMEOUT: Duration = Duration::from_secs(12);
+
 /// The migrations, oldest first. The first one makes what SQLite had at version 9; from then on both have the same numbers.
 static MIGRATIONS: LazyLock<Migrator> = LazyLock::new(|| {
     Migrator::with_migrations(vec![
@@ -68,7 +72,12 @@ impl Postgres {
 
     /// Begins a read of one committed state.
     pub(super) async fn snapshot(&self) -> Result<Transaction<'static, sqlx::Postgres>, StoreError> {
-        Ok(self.pool.begin_with("BEGIN ISOLATION LEVEL REPEATABLE READ READ ONLY").await?)
+        in_time(self.pool.begin_with("BEGIN ISOLATION LEVEL REPEATABLE READ READ ONLY")).await
+    }
+
+    /// Begins a write.
+    pub(super) async fn write(&self) -> Result<Transaction<'static, sqlx::Postgres>, StoreError> {
+        in_time(self.pool.begin()).await
     }
 
     /// Returns when a job may have been queued or changed, at least once a second.
@@ -80,5 +89,13 @@ impl Postgres {
     pub(super) async fn close(&self) {
         self.changes.close().await;
         self.pool.close().await;
+    }
+}
+
+/// Waits for an answer of the server, but not for long.
+pub(super) async fn in_time<T>(answer: impl Future<Output = Result<T, sqlx::Error>>) -> Result<T, StoreError> {
+    match tokio::time::timeout(ANSWER_TIMEOUT, answer).await {
+        Ok(answer) => Ok(answer?),
+        Err(_) => Err(StoreError::Busy),
     }
 }

@@ -20,9 +20,14 @@ impl SqlStore {
             // The lock and the row are in one transaction: whoever loses the connection loses both.
             #[cfg(feature = "postgres")]
             Database::Postgres(_) => {
+                // A store that is slow, or away, takes no connection from those who do not need it.
+                self.blobs.put(blob).await?;
                 let mut transaction = self.database.write().await?;
                 transaction.keep_blob(blob.id()).await?;
-                self.blobs.put(blob).await?;
+                // It may have been removed before it was kept.
+                if !self.blobs.contains(blob.id()).await? {
+                    self.blobs.put(blob).await?;
+                }
                 Ok(transaction)
             }
         }

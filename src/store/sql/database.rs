@@ -4,7 +4,7 @@ use tokio::sync::OwnedRwLockReadGuard;
 
 use crate::store::StoreError;
 #[cfg(feature = "postgres")]
-use crate::store::postgres::Postgres;
+use crate::store::postgres::{Postgres, in_time};
 use crate::store::sqlite::Sqlite;
 
 /// An open database.
@@ -38,7 +38,7 @@ impl Database {
         Ok(match self {
             Self::Sqlite(engine) => Transaction::Sqlite { transaction: engine.write().await?, gate: None },
             #[cfg(feature = "postgres")]
-            Self::Postgres(engine) => Transaction::Postgres(engine.pool.begin().await?),
+            Self::Postgres(engine) => Transaction::Postgres(engine.write().await?),
         })
     }
 
@@ -84,7 +84,7 @@ impl Transaction {
                 drop(gate);
             }
             #[cfg(feature = "postgres")]
-            Self::Postgres(transaction) => transaction.commit().await?,
+            Self::Postgres(transaction) => in_time(transaction.commit()).await?,
         }
         Ok(())
     }

@@ -186,15 +186,18 @@ async fn end_expired_claims(transaction: &mut Transaction, terms: &Terms, now: T
         .fetch_all(&mut *transaction)
         .await?;
     for row in &rows {
-        let attempts = row.whole("attempt")?;
+        // Its worker was there at this time.
+        let renewed = row.time("lease_until")?.saturating_sub(terms.lease).unwrap_or(Timestamp::MIN);
+        let attempts = if terms.in_touch_since <= renewed { row.whole("attempt")? } else { attempts_after_death(row)? };
         let wait = (terms.backoff)(row.uuid("id")?, attempts);
         end_claim(transaction, row, attempts, terms.max_attempts, wait, now).await?;
     }
     Ok(())
 }
 
-/// The attempts of a job that count after its process died, and all others of the service with it: where the machine died, the
-/// job is innocent. A job that kills its process dies in the same stage each time, so only such deaths in a row count.
+/// The attempts of a job that count after its process died, and all others of the service with it, as far as is known: where the
+/// machine died, the job is innocent. A job that kills its process dies in the same stage each time, so only such deaths in a
+/// row count.
 fn attempts_after_death(row: &SqlRow) -> Result<u32, StoreError> {
     let stage = stage(row)?;
     let is_same_stage = row.text_if("cut_off_in")?.is_none_or(|last| last == stage);

@@ -6,6 +6,8 @@ use sqlx::{SqlSafeStr, SqlStr, Sqlite};
 use super::columns::SqlRow;
 use super::database::{Database, Transaction};
 use crate::store::StoreError;
+#[cfg(feature = "postgres")]
+use crate::store::postgres::in_time;
 
 /// A parameter.
 #[derive(Debug)]
@@ -85,11 +87,11 @@ macro_rules! run {
             }
             #[cfg(feature = "postgres")]
             RunsOn::Alone(Database::Postgres(engine)) => {
-                $convert($statement.for_postgres().$method(&engine.pool).await?)
+                $convert(in_time($statement.for_postgres().$method(&engine.pool)).await?)
             }
             #[cfg(feature = "postgres")]
             RunsOn::Within(Transaction::Postgres(transaction)) => {
-                $convert($statement.for_postgres().$method(&mut **transaction).await?)
+                $convert(in_time($statement.for_postgres().$method(&mut **transaction)).await?)
             }
         }
     };
