@@ -15,7 +15,7 @@ use super::mending::Mending;
 use crate::config::Config;
 use crate::jobs::processes::{AnalysisProcess, Processes};
 use crate::jobs::{Signals, Worker};
-use crate::store::{self, Outdated, Store, now};
+use crate::store::{self, Outdated, Store, StoreError, now};
 
 /// A blob whose row never came is removed at a start after this time.
 const ORPHAN_AGE: Duration = Duration::from_hours(24);
@@ -137,7 +137,14 @@ async fn pass_on_changes(store: Arc<dyn Store>, signals: Arc<Signals>) {
 /// Takes up what earlier processes left: blobs without a row, claims of processes that are dead, analyses made by another
 /// version of the algorithms.
 async fn take_up(store: &dyn Store, max_attempts: u32) -> Result<(), AppError> {
-    let swept = store.sweep_blobs(ORPHAN_AGE).await?;
+    let swept = match store.sweep_blobs(ORPHAN_AGE).await {
+        // A bucket that does not answer is waited for by those who need it.
+        Err(error @ StoreError::Blob(_)) => {
+            tracing::warn!(%error, "blobs without a row could not be removed; the next start tries again");
+            0
+        }
+        swept => swept?,
+    };
     let requeued = store.end_claims_of_dead_processes(max_attempts, now()).await?;
     if swept + usize::try_from(requeued).unwrap_or(usize::MAX) > 0 {
         tracing::info!(swept, requeued, "took up what an earlier process left");

@@ -89,7 +89,8 @@ impl Worker {
         let (now, terms) = self.shared.now().await?;
         let Some(claim) = store.claim(&terms, now).await? else { return Ok(false) };
         tracing::info!(job = %claim.job, process = claim.process, map = %claim.map, attempt = claim.attempt, "job begun");
-        signals.changed();
+        // More may wait: several that were queued at once are told of once, and another slot may be idle.
+        signals.queued();
         Running::new(&self.shared, claim).run(pool).await?;
         Ok(true)
     }

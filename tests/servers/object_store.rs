@@ -34,8 +34,19 @@ pub struct ObjectStore {
     _folder: TempDir,
 }
 
-/// Runs the command in its arguments until the standard input ends.
-const SCRIPT: &str = r#""$@" >"$PWD/log" 2>&1 </dev/null & cat >/dev/null; kill $!; wait $!"#;
+/// All parts that S3 needs, and none at a port of its own choice.
+const SEAWEEDFS: [&str; 7] = [
+    "weed",
+    "server",
+    "-ip=127.0.0.1",
+    "-s3",
+    "-s3.port.iceberg=0",
+    "-s3.port.lance=0",
+    "-master.volumeSizeLimitMB=64",
+];
+
+/// Runs the command in its arguments until the standard input ends. Nothing of it is wanted then, so it is not asked.
+const SCRIPT: &str = r#""$@" >"$PWD/log" 2>&1 </dev/null & cat >/dev/null; kill -KILL $!; wait $!"#;
 
 impl ObjectStore {
     /// The name of the bucket.
@@ -57,9 +68,10 @@ impl ObjectStore {
         let data = format!("-dir={}", folder.path().display());
         let arguments: Vec<String> = match program {
             Program::Moto => ["moto_server", "-H", "127.0.0.1", "-p", &port].map(str::to_owned).into(),
-            Program::SeaweedFs => ["weed", "server", "-ip=127.0.0.1", "-s3", "-master.volumeSizeLimitMB=64", &data]
-                .map(str::to_owned)
+            Program::SeaweedFs => SEAWEEDFS
                 .into_iter()
+                .chain([data.as_str()])
+                .map(str::to_owned)
                 .chain(
                     [("s3", port.as_str()), ("master", &master), ("volume", &volume), ("filer", &filer)]
                         .map(|(part, port)| format!("-{part}.port={port}")),

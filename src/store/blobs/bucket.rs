@@ -8,7 +8,7 @@ use std::time::{Duration, SystemTime};
 use async_trait::async_trait;
 use futures::TryStreamExt;
 use object_store::aws::{AmazonS3, AmazonS3Builder};
-use object_store::{ObjectMeta, ObjectStore, ObjectStoreExt, PutPayload, RetryConfig};
+use object_store::{BackoffConfig, ObjectMeta, ObjectStore, ObjectStoreExt, PutPayload, RetryConfig};
 
 use super::reading::{is_there, location, read_whole};
 use super::transport::Transport;
@@ -17,6 +17,9 @@ use crate::store::StoreError;
 
 /// How long a request is tried again before it fails: a job waits and is tried again then, a client gets 503.
 const RETRY_TIMEOUT: Duration = Duration::from_secs(10);
+
+/// Longest wait between two tries, so that the last one is not long after that.
+const LONGEST_WAIT: Duration = Duration::from_secs(2);
 
 /// The bucket, and what the names of the blobs in it begin with.
 #[derive(Debug)]
@@ -34,7 +37,8 @@ impl BucketBlobs {
     pub fn open(address: &str) -> Result<Self, StoreError> {
         let place = address.trim_start_matches("s3://");
         let (bucket, prefix) = place.split_once('/').unwrap_or((place, ""));
-        let retry = RetryConfig { retry_timeout: RETRY_TIMEOUT, ..RetryConfig::default() };
+        let backoff = BackoffConfig { max_backoff: LONGEST_WAIT, ..BackoffConfig::default() };
+        let retry = RetryConfig { retry_timeout: RETRY_TIMEOUT, backoff, ..RetryConfig::default() };
         let builder = AmazonS3Builder::from_env().with_bucket_name(bucket).with_retry(retry);
         let bucket = builder.with_http_connector(Transport::from_env()?).build()?;
         Ok(Self { bucket, prefix: prefix.to_owned() })
