@@ -9,8 +9,8 @@ use crate::proxy::{Fault, Proxy};
 use crate::server::{Server, hall_message, map_message};
 use crate::settings::{AT_ONCE, PATIENCE, PATIENT, setting};
 
-/// After this time at the latest a client knows that the store does not answer: it is asked again and again for ten seconds.
-const PATIENCE_OF_A_CLIENT: Duration = Duration::from_secs(25);
+/// After this time at the latest a client knows that the store does not answer: it is asked again and again for three seconds.
+const PATIENCE_OF_A_CLIENT: Duration = Duration::from_secs(15);
 
 /// Each store, with a deployment on it.
 fn on_each_store(test: impl Fn(&Deployment, &Proxy)) {
@@ -91,8 +91,8 @@ fn what_needs_no_blob_is_answered_while_the_store_is_away() {
         let server = Server::start(deployment, None, &PATIENT).expect("it starts");
         proxy.set(Fault::Outage);
         std::thread::scope(|scope| {
-            // More than there are connections to the database.
-            for index in 0..24 {
+            // More than are worked on at the same time.
+            for index in 0..6 {
                 let server = &server;
                 scope.spawn(move || {
                     let refused = server.try_upload(&map_message(index), &index.to_string()).expect("it answers");

@@ -20,8 +20,7 @@ fn command(from: &Deployment, to: &Deployment) -> Command {
 /// The number before these words in a text.
 fn number_before(words: &str, text: &str) -> u64 {
     let before = text.split(words).next().filter(|before| before.len() < text.len());
-    let number = before.and_then(|before| before.rsplit([' ', '\r']).next()?.parse().ok());
-    number.unwrap_or_else(|| panic!("no number of {words:?} in {text}"))
+    before.and_then(|before| before.rsplit([' ', '\r']).next()?.parse().ok()).expect("a number comes before the words")
 }
 
 #[test]

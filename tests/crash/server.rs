@@ -67,11 +67,6 @@ impl Server {
         Some(Self { process, address: address.to_owned(), client })
     }
 
-    /// `http://` and where it listens.
-    pub fn address(&self) -> &str {
-        &self.address
-    }
-
     /// Uploads a map: the path of its job when it was accepted, `None` when no answer came.
     pub fn upload(&self, message: &Value, key: &str) -> Option<String> {
         let answer = self.try_upload(message, key)?;

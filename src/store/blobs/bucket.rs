@@ -15,11 +15,12 @@ use super::transport::Transport;
 use super::{Blob, BlobId, Blobs};
 use crate::store::StoreError;
 
-/// How long a request is tried again before it fails: a job waits and is tried again then, a client gets 503.
-const RETRY_TIMEOUT: Duration = Duration::from_secs(10);
+/// How long a request is tried again before it fails: a job waits and is tried again then, a client gets 503. Few requests that
+/// need blobs are worked on at the same time, so those behind wait as well.
+const RETRY_TIMEOUT: Duration = Duration::from_secs(3);
 
-/// Longest wait between two tries, so that the last one is not long after that.
-const LONGEST_WAIT: Duration = Duration::from_secs(2);
+/// Longest wait between two tries.
+const LONGEST_WAIT: Duration = Duration::from_millis(500);
 
 /// The bucket, and what the names of the blobs in it begin with.
 #[derive(Debug)]
@@ -38,7 +39,7 @@ impl BucketBlobs {
         let place = address.trim_start_matches("s3://");
         let (bucket, prefix) = place.split_once('/').unwrap_or((place, ""));
         let backoff = BackoffConfig { max_backoff: LONGEST_WAIT, ..BackoffConfig::default() };
-        let retry = RetryConfig { retry_timeout: RETRY_TIMEOUT, backoff, ..RetryConfig::default() };
+        let retry = RetryConfig { retry_timeout: RETRY_TIMEOUT, max_retries: usize::MAX, backoff };
         let builder = AmazonS3Builder::from_env().with_bucket_name(bucket).with_retry(retry);
         let bucket = builder.with_http_connector(Transport::from_env()?).build()?;
         Ok(Self { bucket, prefix: prefix.to_owned() })

@@ -56,7 +56,9 @@ impl Postgres {
     /// [`StoreError::Address`] when the address makes no sense, [`StoreError::NewerDatabase`] when a newer program wrote the
     /// database, and whatever the server answers.
     pub async fn open(address: &str) -> Result<Self, StoreError> {
-        let bad_address = |error: sqlx::Error| StoreError::Address(error.to_string());
+        let bad_address = |error: sqlx::Error| {
+            StoreError::Address(error.to_string().trim_start_matches("error with configuration: ").to_owned())
+        };
         let options: PgConnectOptions = address.parse().map_err(bad_address)?;
         let name = format!("{} on {}", options.get_database().unwrap_or("its database"), options.get_host());
         let options = options
