@@ -26,8 +26,9 @@ const UPLOADERS: usize = 16;
 const SINGLE_JOBS: usize = 200;
 /// Jobs that one or two workers finish.
 const SHARED_JOBS: usize = 100;
-/// Reads of a measurement, one after the other.
+/// Reads of a measurement, one after the other, and jobs that take longer than those.
 const READS: usize = 1_000;
+const LONG_JOBS: usize = 10;
 
 fn main() -> ExitCode {
     match std::env::args().nth(1).as_deref() {
@@ -82,10 +83,8 @@ fn uploads(deployment: &Deployment) -> f64 {
 
 /// How long each job waits that comes to an idle worker; in a process of its own where it can be.
 fn waits(deployment: &Deployment) -> Vec<Duration> {
-    let (role, worker) = match deployment.is_shared() {
-        true => ("api", Some(deployment.start(&["--role", "worker"]))),
-        false => ("all", None),
-    };
+    let worker = deployment.is_shared().then(|| deployment.start(&["--role", "worker"]));
+    let role = if worker.is_some() { "api" } else { "all" };
     let service = deployment.start(&["--role", role]);
     let client = Client::of(&service);
     let wait = |index| {
@@ -98,7 +97,7 @@ fn waits(deployment: &Deployment) -> Vec<Duration> {
     waits
 }
 
-/// Times of reads without jobs, and with a job that never ends on all cores.
+/// Times of reads without jobs, and with a job on all cores all the time.
 fn reads(deployment: &Deployment) -> (Vec<Duration>, Vec<Duration>) {
     let service = deployment.start(&[]);
     let client = Client::of(&service);
@@ -110,8 +109,7 @@ fn reads(deployment: &Deployment) -> (Vec<Duration>, Vec<Duration>) {
         asked.elapsed()
     };
     let idle = (0..READS).map(read).collect();
-    let more = |index| client.upload(LARGE, index);
-    (0..20).for_each(|index| drop(more(index)));
+    (0..LONG_JOBS).for_each(|index| drop(client.upload(LARGE, index)));
     let busy = (0..READS).map(read).collect();
     assert!(client.is_busy(), "the jobs ended before the reads");
     (idle, busy)
