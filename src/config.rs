@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
+use crate::access::KeySecretError;
 use crate::allowed_hosts::AllowedHosts;
 use crate::ingest::Limits;
 pub use crate::storage_address::{BlobAddress, DatabaseAddress};
@@ -18,6 +19,15 @@ pub enum Role {
     Worker,
 }
 
+/// Whether requests need a key.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+pub enum KeyRule {
+    /// Whoever reaches the service may do everything.
+    None,
+    /// Every request needs a key, but for health, the pages of the dashboard and the description of the API.
+    Required,
+}
+
 /// Configuration of a running service.
 #[derive(Debug, Clone)]
 pub struct Config {
@@ -27,6 +37,10 @@ pub struct Config {
     pub blobs: BlobAddress,
     /// What this process does.
     pub role: Role,
+    /// Whether requests need a key.
+    pub keys: KeyRule,
+    /// File of the secret that keys are hashed with; `None` for `key-secret` in the folder of SQLite.
+    pub key_secret_file: Option<PathBuf>,
     /// Limits on uploaded maps.
     pub limits: Limits,
     /// Jobs that run at the same time.
@@ -83,6 +97,8 @@ impl Config {
             blobs: BlobAddress::Folder(data.join("blobs")),
             database: DatabaseAddress::Sqlite(data),
             role: Role::All,
+            keys: KeyRule::None,
+            key_secret_file: None,
             limits: Limits::default(),
             job_slots: 1,
             compute_threads: cores,
@@ -107,6 +123,15 @@ impl Config {
             shutdown_notice: Duration::from_secs(1),
             shutdown_grace: Duration::from_secs(25),
         }
+    }
+
+    /// The file of the secret that keys are hashed with.
+    ///
+    /// # Errors
+    /// Processes that share a database share the file, too, so it has to be named.
+    pub fn key_secret_path(&self) -> Result<PathBuf, KeySecretError> {
+        let in_folder = || self.database.folder().map(|folder| folder.join("key-secret"));
+        self.key_secret_file.clone().or_else(in_folder).ok_or(KeySecretError::NotNamed)
     }
 
     /// The folder for requests that are being received: that of the rows or the blobs, or where neither is on this machine, that

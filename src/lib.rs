@@ -5,6 +5,7 @@
 //! [`views`], [`exports`] and [`render`] write what is answered, [`http`] and [`cli`] are the two edges. Dependencies point one way:
 //! `cli, http -> views -> app -> jobs, store -> core` and `formats -> features -> core`.
 
+pub mod access;
 pub mod allowed_hosts;
 pub mod config;
 pub mod ingest;

@@ -1,12 +1,15 @@
 //! Who asks.
 
-use crate::records::Tenant;
+use crate::access::{Scope, Scopes};
+use crate::records::{KeyRecord, Tenant};
 
 /// Who asks for a use case. Everything is read and written for the caller's tenant: what belongs to another one is not
 /// found.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Caller {
     tenant: Tenant,
+    scopes: Scopes,
+    name: String,
 }
 
 impl Caller {
@@ -16,15 +19,33 @@ impl Caller {
         Self::of(Tenant::local())
     }
 
-    /// Somebody who acts for this tenant.
+    /// Somebody who may do everything for this tenant.
     #[must_use]
-    pub const fn of(tenant: Tenant) -> Self {
-        Self { tenant }
+    pub fn of(tenant: Tenant) -> Self {
+        Self { name: tenant.to_string(), tenant, scopes: Scopes::all() }
+    }
+
+    /// Whoever has this key.
+    #[must_use]
+    pub fn with_key(key: &KeyRecord) -> Self {
+        Self { tenant: key.tenant.clone(), scopes: key.scopes, name: key.id.clone() }
     }
 
     /// The tenant.
     #[must_use]
     pub const fn tenant(&self) -> &Tenant {
         &self.tenant
+    }
+
+    /// Whether the caller has a scope.
+    #[must_use]
+    pub const fn may(&self, scope: Scope) -> bool {
+        self.scopes.has(scope)
+    }
+
+    /// Who it is, as the log of changes has it: the id of the key.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.name
     }
 }

@@ -47,6 +47,9 @@ pub enum AppError {
     /// The upload cannot be read.
     #[error(transparent)]
     Ingest(#[from] IngestError),
+    /// No key, or one that opens nothing.
+    #[error("{0}")]
+    Unauthorized(String),
     /// Somebody changed the resource since it was read.
     #[error("the resource is at version {current}, not at the one in If-Match")]
     PreconditionFailed {

@@ -23,6 +23,7 @@
 //! | `routers`, `latest` | its routers and navigation graphs, the latest kept |
 //! | `exports` | its files for other programs |
 //! | `service` | what the use cases share, start and stop |
+//! | `caller`, `keyring` | who asks, and with which key |
 //! | `evaluations` | how well it fits the truth of its site |
 //!
 //! Every use case takes its [`Caller`] first. What concerns the service itself (readiness, metrics, the orderly stop)
@@ -44,6 +45,7 @@ mod geometric_level;
 mod grid;
 mod history;
 mod jobs;
+mod keyring;
 mod label_preview;
 mod latest;
 mod map_context;

@@ -10,6 +10,7 @@ use tokio::task::JoinSet;
 use super::context_cache::ContextCache;
 use super::error::AppError;
 use super::geometric_level::LastCorrected;
+use super::keyring::Keyring;
 use super::map_states::MapStates;
 use super::mending::Mending;
 use crate::config::Config;
@@ -34,6 +35,8 @@ pub struct App {
     pub(super) states: MapStates,
     pub(super) last_corrected: LastCorrected,
     pub(super) mending: Arc<Mending>,
+    /// `None` where requests need no key.
+    pub(super) keyring: Option<Keyring>,
     /// Bounds how many uploads and contexts are decoded at the same time, and with that their memory.
     pub(super) decoders: Semaphore,
     is_stopping: AtomicBool,
@@ -46,12 +49,21 @@ impl App {
     pub async fn open(config: Config) -> Result<Arc<Self>, AppError> {
         let store = store::open(&config).await?;
         take_up(&*store, config.max_attempts).await?;
+        let keyring = Keyring::of(&config).map_err(|error| AppError::Internal(Box::new(error)))?;
+        if keyring.is_none() && !store.keys().keys(None).await?.is_empty() {
+            tracing::warn!("there are API keys, but requests do not need one: start with --keys required");
+        }
         let processes = Processes::standard(config.limits);
-        Ok(Self::start(config, store, processes))
+        Ok(Self::start(config, store, keyring, processes))
     }
 
     /// Starts the worker of a service on an open store.
-    pub(super) fn start(config: Config, store: Arc<dyn Store>, processes: Processes) -> Arc<Self> {
+    pub(super) fn start(
+        config: Config,
+        store: Arc<dyn Store>,
+        keyring: Option<Keyring>,
+        processes: Processes,
+    ) -> Arc<Self> {
         let signals = Arc::new(Signals::default());
         let worker = Worker::start(&config, Arc::clone(&store), processes, Arc::clone(&signals));
         let mut changes = JoinSet::new();
@@ -69,6 +81,7 @@ impl App {
             states: MapStates::default(),
             last_corrected: LastCorrected::default(),
             mending: Mending::new(),
+            keyring,
             decoders,
             is_stopping: AtomicBool::new(false),
             _changes_elsewhere: changes,

@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use clap::Args;
 
-use super::storage::{BlobsNotShared, StorageArgs};
+use super::storage::{BlobsNotShared, DatabaseArgs, StorageArgs};
 use crate::config::{BlobAddress, DatabaseAddress};
 use crate::store::{self, Moved, StoreError};
 
@@ -72,8 +72,8 @@ async fn bring_up_to_date(storage: &StorageArgs) -> Result<(), MigrateError> {
 
 async fn move_deployment(args: &MigrateArgs, from: &DatabaseAddress, to: &DatabaseAddress) -> Result<(), MigrateError> {
     let side = |database: &DatabaseAddress, blobs: &Option<BlobAddress>| {
-        let storage = StorageArgs { database: Some(database.clone()), blobs: blobs.clone(), ..args.storage.clone() };
-        storage.config()
+        let rows = DatabaseArgs { database: Some(database.clone()), ..args.storage.rows.clone() };
+        StorageArgs { rows, blobs: blobs.clone() }.config()
     };
     let (source, destination) = (side(from, &args.from_blobs)?, side(to, &args.to_blobs)?);
     let tell = |so_far: &Moved| {

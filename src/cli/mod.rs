@@ -9,6 +9,7 @@ mod compare;
 mod demo;
 mod evaluate;
 mod export;
+mod key;
 mod migrate;
 mod openapi;
 mod route;
@@ -54,6 +55,8 @@ enum Command {
     Evaluate(evaluate::EvaluateArgs),
     /// Serves on loopback with a temporary store, uploads an example map and shows where to look.
     Demo(demo::DemoArgs),
+    /// Makes, lists and ends API keys.
+    Key(key::KeyArgs),
     /// Prints the OpenAPI 3.1 document of the service.
     Openapi(openapi::OpenapiArgs),
     /// Brings the database up to date (`serve` does so by itself), or moves a deployment from one storage to another.
@@ -71,6 +74,7 @@ pub fn run() -> ExitCode {
         Command::Compare(arguments) => compare::run(&arguments),
         Command::Evaluate(arguments) => evaluate::run(&arguments),
         Command::Demo(arguments) => demo::run(&arguments),
+        Command::Key(arguments) => key::run(&arguments).map_err(Failure::setup),
         Command::Openapi(arguments) => openapi::run(&arguments).map_err(Failure::setup),
         Command::Migrate(arguments) => migrate::run(&arguments).map_err(Failure::setup),
     };

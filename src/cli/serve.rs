@@ -2,6 +2,7 @@
 
 use std::io::{self, Write};
 use std::net::SocketAddr;
+use std::path::PathBuf;
 use std::time::Duration;
 
 use clap::{Args, ValueEnum};
@@ -15,7 +16,7 @@ use tracing_subscriber::util::SubscriberInitExt as _;
 use super::storage::{BlobsNotShared, StorageArgs};
 use crate::allowed_hosts::HostPattern;
 use crate::app::{App, AppError};
-use crate::config::{Config, DatabaseAddress, Role};
+use crate::config::{Config, DatabaseAddress, KeyRule, Role};
 use crate::ingest::Limits;
 use crate::server::{self, ConnectionLimits, open_files};
 
@@ -25,9 +26,17 @@ pub(super) struct ServeArgs {
     /// Address and port; port 0 takes a free one and prints it.
     #[arg(long, env = "STILLAGE_LISTEN", default_value = "127.0.0.1:8080", value_name = "ADDRESS")]
     pub(super) listen: SocketAddr,
-    /// Listen on an address that others can reach. Everybody who reaches it may read, change and delete every map.
+    /// Listen on an address that others can reach, although requests need no key: everybody who reaches it may read, change and
+    /// delete every map.
     #[arg(long, env = "STILLAGE_ALLOW_PUBLIC")]
     pub(super) allow_public: bool,
+    /// Whether requests need a key, which `stillage key create` makes.
+    #[arg(long, env = "STILLAGE_KEYS", default_value = "none", value_name = "RULE")]
+    pub(super) keys: KeyRule,
+    /// File of the secret that keys are hashed with; `key-secret` in the data folder when absent. Processes that share a
+    /// database need one that all of them read.
+    #[arg(long, env = "STILLAGE_KEY_SECRET_FILE", value_name = "FILE")]
+    pub(super) key_secret_file: Option<PathBuf>,
     #[command(flatten)]
     pub(super) storage: StorageArgs,
     /// What this process does. Several processes share a database of `--database postgres://...`.
@@ -129,8 +138,8 @@ pub(super) enum LogFormat {
 pub(super) enum ServeError {
     /// An address that others can reach, without saying so.
     #[error(
-        "{0} can be reached from other machines, and there are no API keys yet: listen on 127.0.0.1 behind a proxy \
-        that knows its users, or pass --allow-public"
+        "{0} can be reached from other machines: pass --keys required (`stillage key create` makes keys), listen on 127.0.0.1 \
+        behind a proxy that knows its users, or let everybody in with --allow-public"
     )]
     Public(SocketAddr),
     /// A database of several processes with the blobs of one.
@@ -178,6 +187,8 @@ impl ServeArgs {
         }
         Ok(Config {
             role: self.role,
+            keys: self.keys,
+            key_secret_file: self.key_secret_file.clone(),
             lease: Duration::from_secs(self.lease_s),
             limits: Limits {
                 max_bytes: self.max_upload_mib.saturating_mul(1 << 20),
@@ -219,7 +230,7 @@ impl ServeArgs {
 
 /// Serves until SIGTERM or SIGINT; a second one ends the process at once (jobs survive that too).
 pub(super) fn run(args: &ServeArgs) -> Result<(), ServeError> {
-    if !args.allow_public && !args.listen.ip().is_loopback() {
+    if args.keys == KeyRule::None && !args.allow_public && !args.listen.ip().is_loopback() {
         return Err(ServeError::Public(args.listen));
     }
     start_logging(&args.log, args.log_format)?;

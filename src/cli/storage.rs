@@ -6,9 +6,9 @@ use clap::Args;
 
 use crate::config::{BlobAddress, Config, DatabaseAddress};
 
-/// Where the rows and the blobs are.
+/// Where the rows are.
 #[derive(Debug, Clone, Args)]
-pub(super) struct StorageArgs {
+pub(super) struct DatabaseArgs {
     /// Folder of the database and the uploads; made where it is missing. One process at a time.
     #[arg(long, env = "STILLAGE_DATA", default_value = "data", value_name = "FOLDER")]
     pub(super) data: PathBuf,
@@ -16,6 +16,30 @@ pub(super) struct StorageArgs {
     /// processes share, or `sqlite:FOLDER`.
     #[arg(long, env = "STILLAGE_DATABASE", value_name = "ADDRESS", hide_env_values = true)]
     pub(super) database: Option<DatabaseAddress>,
+}
+
+impl DatabaseArgs {
+    /// The address of the database.
+    pub(super) fn address(&self) -> DatabaseAddress {
+        self.config().database
+    }
+
+    /// The defaults of the service on this database.
+    pub(super) fn config(&self) -> Config {
+        let folder = match &self.database {
+            Some(DatabaseAddress::Sqlite(folder)) => folder,
+            _ => &self.data,
+        };
+        let config = Config::new(folder);
+        Config { database: self.database.clone().unwrap_or(config.database), ..config }
+    }
+}
+
+/// Where the rows and the blobs are.
+#[derive(Debug, Clone, Args)]
+pub(super) struct StorageArgs {
+    #[command(flatten)]
+    pub(super) rows: DatabaseArgs,
     /// Uploads and results in place of files in the data folder: `s3://BUCKET/PREFIX` (keys, region and endpoint as `AWS_…`
     /// in the environment) or `file:///FOLDER`, on a disk that all processes share.
     #[arg(long, env = "STILLAGE_BLOBS", value_name = "ADDRESS")]
@@ -36,14 +60,10 @@ impl StorageArgs {
     /// # Errors
     /// [`BlobsNotShared`].
     pub(super) fn config(&self) -> Result<Config, BlobsNotShared> {
-        let config = match &self.database {
-            Some(DatabaseAddress::Sqlite(folder)) => Config::new(folder),
-            _ => Config::new(&self.data),
-        };
-        let database = self.database.clone().unwrap_or(config.database);
-        if database.is_shared() && self.blobs.is_none() {
-            return Err(BlobsNotShared(database));
+        let config = self.rows.config();
+        if config.database.is_shared() && self.blobs.is_none() {
+            return Err(BlobsNotShared(config.database));
         }
-        Ok(Config { database, blobs: self.blobs.clone().unwrap_or(config.blobs), ..config })
+        Ok(Config { blobs: self.blobs.clone().unwrap_or(config.blobs), ..config })
     }
 }

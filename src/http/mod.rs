@@ -173,9 +173,9 @@ fn document<S: Clone + Send + Sync + 'static>(routes: OpenApiRouter<S>) -> (Rout
 
 /// The routes of the service, with all that lies around them.
 ///
-/// From the outside in: id, log line and metrics of the request; answers that are given again; the last slash of the address;
+/// From the outside in: id, log line and metrics of the request; who sends it; answers that are given again; the last slash of the address;
 /// its route; headers for browsers; entity tags by coding, around the compression; the address that proxies tell; bodies of
-/// problems; what a deleted map answers; panics; checks of host and origin; pace and coding of bodies; formats; unknown
+/// problems; what a deleted map answers; panics; checks of host, origin and scope; pace and coding of bodies; formats; unknown
 /// parameters; `Accept`. Around each group of routes lies its entrance, which receives bodies and bounds what is under way, and
 /// the clock of its answers.
 pub fn router(app: Arc<App>) -> Router {
@@ -185,11 +185,14 @@ pub fn router(app: Arc<App>) -> Router {
 /// The routes of a process that works on jobs: its health and its metrics.
 fn of_worker(app: Arc<App>) -> Router {
     let metrics = Arc::new(guard::observe::Metrics::new());
+    let rules = guard::access::AccessRules::of(&document(routes(app.config())).1);
     Router::new()
         .route("/health/live", axum::routing::get(admin::health::live))
         .route("/health/ready", axum::routing::get(admin::health::ready))
         .route("/metrics", axum::routing::get(guard::observe::metrics))
+        .layer(from_fn_with_state(Arc::new(rules), guard::access::allowed))
         .layer(from_fn(problem::render))
+        .layer(from_fn_with_state(Arc::clone(&app), guard::sign_in::sign_in))
         .layer(Extension(metrics))
         .with_state(app)
 }
@@ -197,6 +200,7 @@ fn of_worker(app: Arc<App>) -> Router {
 fn of_service(app: Arc<App>) -> Router {
     let (router, document) = document(routes(app.config()));
     let known = Arc::new(guard::KnownParameters::of(&document));
+    let rules = Arc::new(guard::access::AccessRules::of(&document));
     let metrics = Arc::new(guard::observe::Metrics::new());
     let layers = ServiceBuilder::new()
         .layer(from_fn(guard::observe::tell_route))
@@ -211,6 +215,7 @@ fn of_service(app: Arc<App>) -> Router {
         .layer(from_fn(guard::hosts::one_host))
         .layer(from_fn_with_state(Arc::clone(&app), guard::hosts::own_host))
         .layer(from_fn(guard::other_origins))
+        .layer(from_fn_with_state(rules, guard::access::allowed))
         .layer(from_fn(guard::pace::at_pace))
         .layer(from_fn(extract::coding::decoded))
         .layer(from_fn(extract::format::format_parameter))
@@ -226,7 +231,8 @@ fn of_service(app: Arc<App>) -> Router {
     let router = MapRequest::new(router, guard::without_last_slash as fn(Request) -> Request);
     Router::new()
         .fallback_service(router)
-        .layer(from_fn_with_state(answers::Again::new(app), answers::again))
+        .layer(from_fn_with_state(answers::Again::new(Arc::clone(&app)), answers::again))
+        .layer(from_fn_with_state(app, guard::sign_in::sign_in))
         .layer(from_fn_with_state(metrics, guard::observe::observe))
 }
 

@@ -6,7 +6,9 @@ use std::time::Duration;
 use async_trait::async_trait;
 use jiff::Timestamp;
 
-use super::{Analyses, Blobs, HiddenMaps, Jobs, Maps, Queue, Registries, RuleSets, SemanticsVersions, StoreError};
+use super::{
+    Analyses, AuditLog, Blobs, HiddenMaps, Jobs, Keys, Maps, Queue, Registries, RuleSets, SemanticsVersions, StoreError,
+};
 
 /// An open store.
 #[async_trait]
@@ -26,6 +28,12 @@ pub trait Store:
 {
     /// The blobs.
     fn blobs(&self) -> &dyn Blobs;
+
+    /// The keys.
+    fn keys(&self) -> &dyn Keys;
+
+    /// The log of changes.
+    fn audit(&self) -> &dyn AuditLog;
 
     /// Whether other processes may use the database at the same time.
     fn is_shared(&self) -> bool;

@@ -38,6 +38,19 @@ pub enum StoreError {
         /// The last migration of this program.
         known: i64,
     },
+    /// A service of an earlier release is using the database.
+    #[error(
+        "the database {database} is in use by an older stillage (schema {found}, this program has {known}): use the program \
+        of that release, or stop the service first"
+    )]
+    OlderService {
+        /// The database file.
+        database: String,
+        /// Its last migration.
+        found: i64,
+        /// The last migration of this program.
+        known: i64,
+    },
     /// An address that a database cannot have.
     #[error("the address of the database makes no sense: {0}")]
     Address(String),

@@ -10,6 +10,7 @@
 //! | `semantics` | human decisions, and the corrections they name |
 //! | `registries` | the codes and names of a site's places |
 //! | `rule_sets` | rule sets that people wrote |
+//! | `keys`, `audit` | API keys, and who changed what |
 //! | `blobs` | bytes by their hash, and the formats of stored values |
 //! | `sql` | the store: all SQL, for both databases |
 //! | `sqlite`, `postgres` | how each database is opened, and what only it has |
@@ -25,6 +26,7 @@
 //! - No call reads a clock but [`Store::clock`]: the caller passes the time.
 
 mod analyses;
+mod audit;
 mod blobs;
 mod clock;
 #[cfg(test)]
@@ -35,6 +37,7 @@ mod error;
 mod free_space;
 mod hidden_maps;
 mod jobs;
+mod keys;
 mod maps;
 mod migrations;
 #[cfg(feature = "postgres")]
@@ -49,16 +52,18 @@ mod sqlite;
 
 use std::sync::Arc;
 
-use crate::config::Config;
+use crate::config::{Config, DatabaseAddress};
 use sql::SqlStore;
 
 pub use analyses::{Analyses, MapState, NewAnalysis, Outdated, Request, Snapshot};
+pub use audit::AuditLog;
 pub use blobs::{Blob, BlobId, Blobs, LocalBlobs, Stored};
 pub use clock::now;
 pub use engine::Store;
 pub use error::StoreError;
 pub use hidden_maps::{HiddenMap, HiddenMaps};
 pub use jobs::{Jobs, NewJob, Retry};
+pub use keys::Keys;
 pub use maps::{IdempotencyKey, Maps, NewMapRow, Upload};
 pub use queue::Queue;
 pub use registries::{Registries, SiteRegistry};
@@ -74,6 +79,16 @@ pub use sql::Moved;
 /// program wrote it, and whatever the disk answers.
 pub async fn open(config: &Config) -> Result<Arc<dyn Store>, StoreError> {
     Ok(Arc::new(SqlStore::open(config).await?))
+}
+
+/// Opens the keys of a database, also of one that a service makes use of. One that nobody makes use of is made where it is
+/// missing, and brought up to date.
+///
+/// # Errors
+/// [`StoreError::NewerDatabase`] or [`StoreError::OlderService`] where the service is of another release, and whatever the
+/// database answers.
+pub async fn open_keys(database: &DatabaseAddress) -> Result<Box<dyn Keys>, StoreError> {
+    Ok(Box::new(sql::Database::open_beside(database).await?))
 }
 
 /// Moves everything from one configured storage to another, of which nobody makes use meanwhile. After each map `tell` is

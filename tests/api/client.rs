@@ -14,6 +14,8 @@ use tower::ServiceExt;
 pub struct Api {
     pub app: Arc<App>,
     router: axum::Router,
+    /// Sent with every request that has no `Authorization` of its own.
+    pub key: Option<String>,
     _folder: tempfile::TempDir,
 }
 
@@ -39,12 +41,16 @@ impl Api {
         config.allowed_hosts = vec!["stillage.test".parse().expect("is a name")].into();
         change(&mut config);
         let app = App::open(config).await.expect("the service opens");
-        Self { router: stillage::http::router(Arc::clone(&app)), app, _folder: folder }
+        Self { router: stillage::http::router(Arc::clone(&app)), app, key: None, _folder: folder }
     }
 
     /// Sends a request. `Host` is set unless the request has its own.
     pub async fn send(&self, mut request: Request<Body>) -> Answer {
         request.headers_mut().entry("host").or_insert("stillage.test".parse().expect("is a header"));
+        if let Some(key) = &self.key {
+            let bearer = format!("Bearer {key}").parse().expect("is a header");
+            request.headers_mut().entry("authorization").or_insert(bearer);
+        }
         self.send_raw(request).await
     }
 

@@ -7,6 +7,7 @@
     reason = "a test is read from top to bottom: no detours"
 )]
 
+mod access;
 mod bodies;
 mod client;
 mod clients;

@@ -9,7 +9,7 @@ async fn what_another_process_changes_is_seen_at_the_next_question() {
     // Two services on one store, as two processes on one database.
     let service = service().await;
     let config = service.config().clone();
-    let other = App::start(config.clone(), Arc::clone(&service.app.store), Processes::standard(config.limits));
+    let other = App::start(config.clone(), Arc::clone(&service.app.store), None, Processes::standard(config.limits));
     let map = analysed(&service).await;
     let before = other.context(&me(), map).await.unwrap();
     assert!(Arc::ptr_eq(&before, &other.context(&me(), map).await.unwrap()), "nothing has changed");

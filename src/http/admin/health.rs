@@ -22,7 +22,7 @@ pub struct Health {
 /// Liveness
 ///
 /// Answers as long as the process can answer at all.
-#[utoipa::path(get, path = "/health/live", tag = "service", operation_id = "getLiveness",
+#[utoipa::path(get, path = "/health/live", tag = "service", operation_id = "getLiveness", security(()),
     responses((status = 200, description = "The process answers", body = Health)))]
 pub async fn live() -> Json<Health> {
     Json(Health { status: "live" })
@@ -31,7 +31,7 @@ pub async fn live() -> Json<Health> {
 /// Readiness
 ///
 /// 503 or 507 while the store does not answer, is not migrated, is short of space, or the service is stopping.
-#[utoipa::path(get, path = "/health/ready", tag = "service", operation_id = "getReadiness",
+#[utoipa::path(get, path = "/health/ready", tag = "service", operation_id = "getReadiness", security(()),
     responses((status = 200, description = "The service takes work", body = Health),
         NoSpace))]
 pub async fn ready(State(app): State<Arc<App>>) -> Result<Json<Health>, Problem> {

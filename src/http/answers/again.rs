@@ -12,6 +12,7 @@ use tokio::runtime::Handle;
 use super::answer_cache::AnswerCache;
 use super::question::Question;
 use super::remembered::Remembered;
+use crate::access::Scope;
 use crate::app::{App, Caller};
 use crate::blocking::off_the_runtime;
 use crate::http::extract::conditional::{EntityTag, IfNoneMatch};
@@ -41,8 +42,9 @@ impl Again {
 
 /// Middleware: an answer that was given before is given again. It lies around the compression, so that an answer is
 /// compressed once for each coding. `HEAD` gets the head of what `GET` gets, length and coding too (RFC 9110, 9.3.2).
-pub async fn again(State(again): State<Again>, caller: Caller, mut request: Request, next: Next) -> Response {
-    let Some(question) = Question::of(&request) else { return next.run(request).await };
+pub async fn again(State(again): State<Again>, mut request: Request, next: Next) -> Response {
+    let reader = request.extensions().get::<Caller>().filter(|caller| caller.may(Scope::Read)).cloned();
+    let (Some(question), Some(caller)) = (Question::of(&request), reader) else { return next.run(request).await };
     let is_head = *request.method() == Method::HEAD;
     *request.method_mut() = Method::GET;
     let answer = answer(&again, question, &caller, request, next).await;

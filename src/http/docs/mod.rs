@@ -7,6 +7,7 @@ mod of_map;
 pub mod openapi;
 pub mod problem_types;
 pub mod refusals;
+pub mod security;
 mod version_3_0;
 
 use std::sync::Arc;
@@ -56,7 +57,7 @@ impl LandingPage {
 /// Landing page
 ///
 /// Leads to everything else. Browsers get the dashboard.
-#[utoipa::path(get, path = "/", tag = "service", operation_id = "getLandingPage",
+#[utoipa::path(get, path = "/", tag = "service", operation_id = "getLandingPage", security(()),
     responses((status = 200, description = "The landing page, or the dashboard",
         content((LandingPage = "application/json"), (String = "text/html")))))]
 pub async fn landing(base: Base, accept: Accept, if_none_match: IfNoneMatch) -> Response {
@@ -170,7 +171,7 @@ impl Texts {
 /// OpenAPI document
 ///
 /// This document.
-#[utoipa::path(get, path = "/openapi.json", tag = "service", operation_id = "getOpenApi",
+#[utoipa::path(get, path = "/openapi.json", tag = "service", operation_id = "getOpenApi", security(()),
     responses((status = 200, description = "The OpenAPI 3.1 document", body = serde_json::Value,
         content_type = "application/vnd.oai.openapi+json;version=3.1",
         headers(("ETag" = String, description = "Changes with the document")))))]
@@ -185,7 +186,7 @@ pub async fn openapi(
 /// OpenAPI 3.0 document
 ///
 /// This document in the version that GIS read, with a path for each collection.
-#[utoipa::path(get, path = "/openapi-3.0.json", tag = "service", operation_id = "getOpenApi30",
+#[utoipa::path(get, path = "/openapi-3.0.json", tag = "service", operation_id = "getOpenApi30", security(()),
     responses((status = 200, description = "The OpenAPI 3.0 document", body = serde_json::Value,
         content_type = "application/vnd.oai.openapi+json;version=3.0",
         headers(("ETag" = String, description = "Changes with the document")))))]

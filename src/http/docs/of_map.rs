@@ -60,7 +60,8 @@ fn components(document: &Value, value: &Value) -> Value {
     }
     let mut components = document["components"].clone();
     for (kind, named) in components.as_object_mut().into_iter().flatten() {
-        if let Some(named) = named.as_object_mut() {
+        // Schemes of security are referred to by their names alone.
+        if let Some(named) = named.as_object_mut().filter(|_| kind != "securitySchemes") {
             named.retain(|name, _| found.contains(format!("#/components/{kind}/{name}").as_str()));
         }
     }

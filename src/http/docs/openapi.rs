@@ -11,6 +11,7 @@ use super::refusals::{
     BadRequest, Forbidden, Internal, Invalid, Misdirected, NotAcceptable, PreconditionFailed, Timeout, TooLarge,
     Unavailable, UnsupportedMediaType,
 };
+use super::security;
 use crate::http::extract::crs::CrsName;
 use crate::http::extract::format;
 use crate::http::ogc::collections::CollectionId;
@@ -63,10 +64,12 @@ pub fn complete(document: &mut OpenApi) {
         for (operation, is_read) in operations {
             if let Some(operation) = operation {
                 complete_operation(operation, is_read);
+                security::complete(operation, is_read);
             }
         }
     }
     let components = document.components.get_or_insert_default();
+    security::add_scheme(components);
     for (name, response) in super::refusals::components() {
         components.responses.insert(name.to_owned(), response.into());
     }

@@ -26,7 +26,7 @@ pub struct ProblemTypeView {
 /// A kind of problem
 ///
 /// What the `type` of a problem detail leads to.
-#[utoipa::path(get, path = "/problems/{problem}", tag = "service", operation_id = "getProblemType",
+#[utoipa::path(get, path = "/problems/{problem}", tag = "service", operation_id = "getProblemType", security(()),
     params(("problem" = String, Path, description = "Last part of the type's URI", example = "not-found")),
     responses((status = 200, description = "The kind of problem",
         content((ProblemTypeView = "application/json"), (String = "text/html"))),

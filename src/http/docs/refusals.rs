@@ -39,8 +39,12 @@ macro_rules! refusals {
 refusals! {
     /// 400: of every operation.
     BadRequest = 400, "The request is malformed, or a parameter is unknown or has a bad value";
+    /// 401: of every operation that needs a key.
+    Unauthorized = 401, "The request has no key, or one that opens nothing: where keys are required";
     /// 403: of every write.
-    Forbidden = 403, "A page of another site tried to write, or the resource is read-only";
+    Forbidden = 403, "A page of another site tried to write, the resource is read-only, a quota is reached, or the key lacks a scope";
+    /// 403: of every read that needs a key.
+    MissingScope = 403, "The key lacks the scope that the operation needs";
     /// 404: named by handlers.
     NotFound = 404, "There is no such resource";
     /// 405: named by handlers that serve several kinds of resources.
@@ -67,6 +71,8 @@ refusals! {
     Invalid = 422, "The content is invalid";
     /// 428: named by handlers that write only with `If-Match`.
     PreconditionRequired = 428, "If-Match is missing";
+    /// 429: of every operation that needs a key.
+    TooManyRequests = 429, "The key asks too often, or its tenant has as many jobs waiting as it may: where keys are required";
     /// 500: of every operation.
     Internal = 500, "The service failed";
     /// 503: of every operation.
@@ -81,8 +87,11 @@ fn component(status: u16, description: &str) -> Response {
     let builder = builder.content(PROBLEM_JSON, ContentBuilder::new().schema(Some(schema)).build());
     let seconds = ObjectBuilder::new().schema_type(Type::Integer);
     let retry_after = HeaderBuilder::new().schema(Some(seconds)).description(Some("Seconds to wait"));
+    let text = ObjectBuilder::new().schema_type(Type::String);
+    let challenge = HeaderBuilder::new().schema(Some(text)).description(Some("How to sign in (RFC 6750)"));
     match status {
-        503 | 507 => builder.header("Retry-After", retry_after.build()).build(),
+        401 => builder.header("WWW-Authenticate", challenge.build()).build(),
+        429 | 503 | 507 => builder.header("Retry-After", retry_after.build()).build(),
         _ => builder.build(),
     }
 }

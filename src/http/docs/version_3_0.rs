@@ -33,8 +33,20 @@ pub fn down_convert(document: &Value) -> Value {
     if let Some(license) = document.pointer_mut("/info/license").and_then(Value::as_object_mut) {
         license.remove("identifier");
     }
+    let items = document["paths"].as_object_mut().into_iter().flat_map(Map::values_mut);
+    for operation in items.filter_map(Value::as_object_mut).flat_map(Map::values_mut) {
+        forget_scopes(operation);
+    }
     convert(&mut document);
     document
+}
+
+/// Only the schemes of OAuth have scopes in 3.0.
+fn forget_scopes(operation: &mut Value) {
+    let requirements = operation.get_mut("security").and_then(Value::as_array_mut);
+    for scopes in requirements.into_iter().flatten().filter_map(Value::as_object_mut).flat_map(Map::values_mut) {
+        *scopes = json!([]);
+    }
 }
 
 fn convert(value: &mut Value) {

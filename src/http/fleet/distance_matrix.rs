@@ -64,7 +64,7 @@ pub struct MatrixView {
 /// Measure ways between many ends
 ///
 /// lengths are those of routes to within three percent. What has no way is null: `GET …/routes` says why.
-#[utoipa::path(post, path = "/v1/maps/{mapId}/distance-matrix", tag = "fleet", operation_id = "getDistanceMatrix",
+#[utoipa::path(post, path = "/v1/maps/{mapId}/distance-matrix", tag = "fleet", operation_id = "getDistanceMatrix", security(("key" = ["read"]), ()),
     params(MapPath), request_body = MatrixRequest,
     responses((status = 200, description = "The lengths and times", body = MatrixView), NotFound, NotAnalysed))]
 pub async fn create(

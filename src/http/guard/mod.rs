@@ -1,11 +1,13 @@
-//! What is checked of every request before a handler sees it: host, origin, parameters, pace, room and patience.
+//! What is checked of every request before a handler sees it: key, host, origin, parameters, pace, room and patience.
 
+pub mod access;
 pub mod admission;
 mod bodies;
 mod gate;
 pub mod hosts;
 pub mod observe;
 pub mod pace;
+pub mod sign_in;
 
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
@@ -46,7 +48,7 @@ pub async fn other_origins(request: Request, next: Next) -> Response {
     if is_options {
         response.headers_mut().extend([
             fixed("access-control-allow-methods", "GET, HEAD"),
-            fixed("access-control-allow-headers", "accept, if-none-match, last-event-id"),
+            fixed("access-control-allow-headers", "accept, authorization, if-none-match, last-event-id"),
             fixed("access-control-max-age", "86400"),
         ]);
     }
@@ -55,7 +57,8 @@ pub async fn other_origins(request: Request, next: Next) -> Response {
             fixed("access-control-allow-origin", "*"),
             fixed(
                 "access-control-expose-headers",
-                "content-crs, etag, link, location, preference-applied, retry-after, x-request-id",
+                "content-crs, etag, link, location, preference-applied, ratelimit, ratelimit-policy, retry-after, www-authenticate, \
+                 x-request-id",
             ),
         ]);
     }

@@ -139,7 +139,7 @@ fn request_id(request: &Request) -> HeaderValue {
 /// Metrics
 ///
 /// Requests by route, method and status, their latency, and jobs by state, in the text format of Prometheus.
-#[utoipa::path(get, path = "/metrics", tag = "service", operation_id = "getMetrics",
+#[utoipa::path(get, path = "/metrics", tag = "service", operation_id = "getMetrics", security(("key" = ["metrics"]), ()),
     responses((status = 200, description = "The metrics", body = String, content_type = "text/plain; version=0.0.4")))]
 pub async fn metrics(
     State(app): State<Arc<App>>,

@@ -92,10 +92,11 @@ pub async fn restore(
 }
 
 /// Middleware: where nothing is below a map that was deleted, the refusal says how to restore it.
-pub async fn tell_restorable(State(app): State<Arc<App>>, caller: Caller, request: Request, next: Next) -> Response {
+pub async fn tell_restorable(State(app): State<Arc<App>>, request: Request, next: Next) -> Response {
+    let caller = request.extensions().get::<Caller>().cloned();
     let id = request.uri().path().strip_prefix("/v1/maps/").and_then(|rest| rest.split('/').next()?.parse().ok());
     let response = next.run(request).await;
-    let (StatusCode::NOT_FOUND, Some(id)) = (response.status(), id) else { return response };
+    let (StatusCode::NOT_FOUND, Some(id), Some(caller)) = (response.status(), id, caller) else { return response };
     restorable(&app, &caller, id).await.map_or(response, IntoResponse::into_response)
 }
 

@@ -19,7 +19,7 @@ use crate::views::truth::TruthBody;
 /// How well the newest analysis fits what is known to be true: which places are found, how the areas of labels agree,
 /// which orientations are right. Under the suggested labels, under one decision per category, and under the labels in
 /// force where a person assigned them. Coordinates are metres of the map frame. Nothing is stored.
-#[utoipa::path(post, path = "/v1/maps/{mapId}/evaluations", tag = "maps", operation_id = "evaluate", params(MapPath),
+#[utoipa::path(post, path = "/v1/maps/{mapId}/evaluations", tag = "maps", operation_id = "evaluate", security(("key" = ["read"]), ()), params(MapPath),
     request_body(content = TruthBody, content_type = "application/geo+json"),
     responses((status = 200, description = "The figures", body = EvaluationView),
         NotFound, NotAnalysed))]

@@ -45,7 +45,7 @@ pub struct PreviewQuery {
 /// too, and a rule set that is not stored in the place of its id): counts of faces, locations, edges and links before and
 /// after, whether the corrections fit, and the faces that would be added, removed, reshaped or relabelled as GeoJSON features
 /// with `label` and `previousLabel`. Corrections that do not fit are told, not refused. Nothing is stored.
-#[utoipa::path(post, path = "/v1/maps/{mapId}/semantics/preview", tag = "semantics", operation_id = "previewSemantics",
+#[utoipa::path(post, path = "/v1/maps/{mapId}/semantics/preview", tag = "semantics", operation_id = "previewSemantics", security(("key" = ["read"]), ()),
     params(MapPath, PreviewQuery),
     request_body(content((SemanticsPatchBody = "application/json"),
         (SemanticsPatchBody = "application/merge-patch+json"))),

@@ -16,7 +16,7 @@ const CONFORMS_TO: [&str; 1] = ["http://www.opengis.net/spec/ogcapi-common-1/1.0
 /// Root of the API
 ///
 /// Its processes, jobs and maps. Each map is the root of an API of its own.
-#[utoipa::path(get, path = "/v1", tag = "jobs", operation_id = "getApiRoot",
+#[utoipa::path(get, path = "/v1", tag = "jobs", operation_id = "getApiRoot", security(()),
     responses((status = 200, description = "The landing page",
         content((LandingPage = "application/json"), (String = "text/html")))))]
 pub async fn landing(base: Base, accept: Accept) -> Response {
@@ -28,7 +28,7 @@ pub async fn landing(base: Base, accept: Accept) -> Response {
 /// Conformance of the root
 ///
 /// The classes of requirements of the OGC standards that are met here. Each map lists those of its features.
-#[utoipa::path(get, path = "/v1/conformance", tag = "jobs", operation_id = "getApiConformance",
+#[utoipa::path(get, path = "/v1/conformance", tag = "jobs", operation_id = "getApiConformance", security(()),
     responses((status = 200, description = "The classes",
         content((Conformance = "application/json"), (String = "text/html")))))]
 pub async fn conformance(accept: Accept) -> Response {

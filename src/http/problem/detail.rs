@@ -6,6 +6,7 @@ use serde::Serialize;
 use utoipa::ToSchema;
 
 use super::types::ProblemType;
+use crate::access::Scope;
 use crate::app::{AppError, FieldProblem};
 use crate::ingest::Refusal;
 
@@ -41,6 +42,7 @@ pub struct Problem {
     position: Option<[f64; 2]>,
     errors: Vec<ProblemItem>,
     retry_after_s: Option<u32>,
+    challenge: Option<String>,
 }
 
 impl Problem {
@@ -54,7 +56,7 @@ impl Problem {
     /// A refusal with its reason, for people.
     #[must_use]
     pub fn new(kind: ProblemType, detail: impl Into<String>) -> Self {
-        Self { kind, detail: detail.into(), position: None, errors: Vec::new(), retry_after_s: None }
+        Self { kind, detail: detail.into(), position: None, errors: Vec::new(), retry_after_s: None, challenge: None }
     }
 
     /// A query parameter that is unknown or wrong.
@@ -83,6 +85,39 @@ impl Problem {
     #[must_use]
     pub fn not_found(detail: impl Into<String>) -> Self {
         Self::new(ProblemType::NotFound, detail)
+    }
+
+    /// A request without a key, where one is needed.
+    #[must_use]
+    pub fn key_required() -> Self {
+        let detail = "send a key as `Authorization: Bearer stillage_...`; the operator of the service makes one with \
+                      `stillage key create`";
+        Self::new(ProblemType::KeyRequired, detail).challenge("")
+    }
+
+    /// An `Authorization` that is not understood.
+    #[must_use]
+    pub fn not_bearer() -> Self {
+        Self::invalid_key("Authorization is sent once, and is the word Bearer, a blank and the key")
+    }
+
+    fn invalid_key(detail: impl Into<String>) -> Self {
+        Self::new(ProblemType::InvalidKey, detail).challenge(", error=\"invalid_token\"")
+    }
+
+    /// A key that is not good for an operation.
+    #[must_use]
+    pub fn missing_scope(scope: Scope) -> Self {
+        let scope = scope.name();
+        let detail = format!("this needs a key with the scope {scope}: the operator makes one with --scopes {scope}");
+        let challenge = format!(", error=\"insufficient_scope\", scope=\"{scope}\"");
+        Self::new(ProblemType::MissingScope, detail).challenge(&challenge)
+    }
+
+    /// Tells the client how to sign in (RFC 6750, 3).
+    fn challenge(mut self, parameters: &str) -> Self {
+        self.challenge = Some(format!("Bearer realm=\"stillage\"{parameters}"));
+        self
     }
 
     /// Tells the client when to come back.
@@ -183,6 +218,9 @@ impl IntoResponse for Problem {
         if let Some(seconds) = self.retry_after_s {
             response.headers_mut().insert(header::RETRY_AFTER, seconds.into());
         }
+        if let Some(challenge) = self.challenge.as_ref().and_then(|challenge| challenge.parse().ok()) {
+            response.headers_mut().insert(header::WWW_AUTHENTICATE, challenge);
+        }
         response.extensions_mut().insert(self);
         response
     }
@@ -213,6 +251,7 @@ impl From<AppError> for Problem {
                 };
                 Self::at(kind, error.pointer, error.message)
             }
+            AppError::Unauthorized(detail) => Self::invalid_key(detail),
             AppError::PreconditionFailed { .. } => Self::new(ProblemType::PreconditionFailed, detail),
             AppError::PreconditionRequired => Self::new(ProblemType::PreconditionRequired, detail),
             AppError::NotSameSite(_) => Self::new(ProblemType::NotSameSite, detail),

@@ -29,6 +29,12 @@ problem_types! {
     BadRequest = "bad-request", BAD_REQUEST, "The request is malformed";
     /// A query parameter is unknown or wrong.
     BadParameter = "bad-parameter", BAD_REQUEST, "A parameter is unknown or has a bad value";
+    /// No key was sent.
+    KeyRequired = "key-required", UNAUTHORIZED, "The service needs a key";
+    /// A key that opens nothing.
+    InvalidKey = "invalid-key", UNAUTHORIZED, "The key opens nothing";
+    /// The key is not good for this.
+    MissingScope = "missing-scope", FORBIDDEN, "The key lacks a scope";
     /// A page of another site tried to write.
     CrossOrigin = "cross-origin-write", FORBIDDEN, "Pages of other sites may not write";
     /// The service has another name.

@@ -38,6 +38,7 @@ static MIGRATIONS: LazyLock<Migrator> = LazyLock::new(|| {
     Migrator::with_migrations(vec![
         migration(9, "start", include_str!("../../../migrations/postgres/0009_start.sql")),
         migration(10, "jobs that were cut off", include_str!("../../../migrations/postgres/0010_cut_off_jobs.sql")),
+        migration(11, "keys", include_str!("../../../migrations/postgres/0011_keys.sql")),
     ])
 });
 

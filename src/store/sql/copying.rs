@@ -24,7 +24,7 @@ const OF_MAPS: [(&str, &str); 6] = [
 ];
 
 /// The tables whose rows belong to no map.
-const OF_TENANTS: [&str; 2] = ["registries", "rule_sets"];
+const OF_TENANTS: [&str; 5] = ["registries", "rule_sets", "api_keys", "tenant_turns", "audit_log"];
 
 /// The columns that say yes or no, for which SQLite has whole numbers.
 const FLAGS: [&str; 2] = ["cancel_requested", "activates"];

@@ -2,6 +2,7 @@
 
 use tokio::sync::OwnedRwLockReadGuard;
 
+use crate::config::DatabaseAddress;
 use crate::store::StoreError;
 #[cfg(feature = "postgres")]
 use crate::store::postgres::{Postgres, in_time};
@@ -33,6 +34,24 @@ pub enum Transaction {
 }
 
 impl Database {
+    /// Opens a database for the service, and brings it up to date.
+    pub async fn open(address: &DatabaseAddress) -> Result<Self, StoreError> {
+        Ok(match address {
+            DatabaseAddress::Sqlite(folder) => Self::Sqlite(Sqlite::open(folder).await?),
+            #[cfg(feature = "postgres")]
+            DatabaseAddress::Postgres(address) => Self::Postgres(Postgres::open(address).await?),
+        })
+    }
+
+    /// Opens a database that a service may be using, for changes that touch neither jobs nor blobs.
+    pub async fn open_beside(address: &DatabaseAddress) -> Result<Self, StoreError> {
+        match address {
+            DatabaseAddress::Sqlite(folder) => Ok(Self::Sqlite(Sqlite::open_beside(folder).await?)),
+            #[cfg(feature = "postgres")]
+            DatabaseAddress::Postgres(_) => Self::open(address).await,
+        }
+    }
+
     /// Begins a write.
     pub async fn write(&self) -> Result<Transaction, StoreError> {
         Ok(match self {

@@ -13,12 +13,14 @@
 //! `copying` moves all rows to another database. The other files have the rows of what they are named for.
 
 mod analyses;
+mod audit;
 mod blob_rows;
 mod columns;
 mod copying;
 mod database;
 mod hidden_maps;
 mod jobs;
+mod keys;
 mod locks;
 mod maps;
 mod queue;
@@ -30,6 +32,5 @@ mod statement;
 mod store;
 
 pub use copying::{Moved, move_all};
-#[cfg(test)]
 pub use database::Database;
 pub use store::SqlStore;

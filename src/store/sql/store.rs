@@ -8,15 +8,12 @@ use jiff::Timestamp;
 
 use super::database::Database;
 use super::statement::query;
-use crate::config::{BlobAddress, Config, DatabaseAddress};
+use crate::config::{BlobAddress, Config};
 #[cfg(feature = "s3")]
 use crate::store::blobs::BucketBlobs;
 use crate::store::blobs::LocalBlobs;
 use crate::store::free_space::free_bytes;
-#[cfg(feature = "postgres")]
-use crate::store::postgres::Postgres;
-use crate::store::sqlite::Sqlite;
-use crate::store::{Blobs, Store, StoreError, now};
+use crate::store::{AuditLog, Blobs, Keys, Store, StoreError, now};
 
 /// Rows in a database, blobs beside them.
 #[derive(Debug)]
@@ -34,11 +31,7 @@ impl SqlStore {
     /// # Errors
     /// What stands against it, for whoever configured it.
     pub async fn open(config: &Config) -> Result<Self, StoreError> {
-        let database = match &config.database {
-            DatabaseAddress::Sqlite(folder) => Database::Sqlite(Sqlite::open(folder).await?),
-            #[cfg(feature = "postgres")]
-            DatabaseAddress::Postgres(address) => Database::Postgres(Postgres::open(address).await?),
-        };
+        let database = Database::open(&config.database).await?;
         let blobs: Box<dyn Blobs> = match &config.blobs {
             BlobAddress::Folder(folder) => Box::new(LocalBlobs::open(folder)?),
             #[cfg(feature = "s3")]
@@ -59,6 +52,14 @@ impl SqlStore {
 impl Store for SqlStore {
     fn blobs(&self) -> &dyn Blobs {
         &*self.blobs
+    }
+
+    fn keys(&self) -> &dyn Keys {
+        &self.database
+    }
+
+    fn audit(&self) -> &dyn AuditLog {
+        &self.database
     }
 
     fn is_shared(&self) -> bool {

@@ -12,11 +12,11 @@ use crate::store::StoreError;
 /// for a small delete, the rest is margin.
 const RESERVE_BYTES: u64 = 4 << 20;
 
-/// The folder, locked until this value is dropped (or the process dies, however it dies).
+/// The folder, locked until this value is dropped (or the process dies, however it dies), unless another process has it.
 #[derive(Debug)]
 pub struct DataFolder {
     path: PathBuf,
-    _lock: File,
+    _lock: Option<File>,
 }
 
 impl DataFolder {
@@ -28,7 +28,16 @@ impl DataFolder {
         fs::create_dir_all(path).map_err(|error| StoreError::folder(path, error))?;
         let path = fs::canonicalize(path).map_err(|error| StoreError::folder(path, error))?;
         let lock = take_lock(&path)?;
-        Ok(Self { path, _lock: lock })
+        Ok(Self { path, _lock: Some(lock) })
+    }
+
+    /// The folder of another process. No blob and no job may be touched in it.
+    ///
+    /// # Errors
+    /// When it is not there any more.
+    pub fn of_another_process(path: &Path) -> Result<Self, StoreError> {
+        let path = fs::canonicalize(path).map_err(|error| StoreError::folder(path, error))?;
+        Ok(Self { path, _lock: None })
     }
 
     /// The database file.

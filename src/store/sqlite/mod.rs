@@ -28,7 +28,7 @@ use sqlx::{Connection, Transaction};
 use tokio::sync::RwLock;
 
 use super::StoreError;
-use super::migrations::{migration, run_migrations};
+use super::migrations::{check_migrated, migration, run_migrations};
 
 pub use folder::DataFolder;
 
@@ -58,6 +58,7 @@ static MIGRATIONS: LazyLock<Migrator> = LazyLock::new(|| {
         migration(8, "hidden maps", include_str!("../../../migrations/sqlite/0008_hidden_maps.sql")),
         migration(9, "corrections", include_str!("../../../migrations/sqlite/0009_corrections.sql")),
         migration(10, "jobs that were cut off", include_str!("../../../migrations/sqlite/0010_cut_off_jobs.sql")),
+        migration(11, "keys", include_str!("../../../migrations/sqlite/0011_keys.sql")),
     ])
 });
 
@@ -87,6 +88,22 @@ impl Sqlite {
         if let Err(error) = folder.restore_reserve() {
             tracing::warn!(%error, "no space could be set aside for a full disk");
         }
+        Ok(Self { folder, writer, readers, writes: AtomicU64::new(0), blob_gate: Arc::default() })
+    }
+
+    /// Opens the database of a folder that another process may have, whose release must be this one's.
+    ///
+    /// # Errors
+    /// [`StoreError::NewerDatabase`], [`StoreError::OlderService`], and whatever the disk answers.
+    pub async fn open_beside(path: &Path) -> Result<Self, StoreError> {
+        match Self::open(path).await {
+            Err(StoreError::FolderInUse { .. }) => {}
+            other => return other,
+        }
+        let folder = DataFolder::of_another_process(path)?;
+        let writer = connect_writer(&folder).await?;
+        check_migrated(&MIGRATIONS, &writer, &folder.database().display().to_string()).await?;
+        let readers = connect_readers(&folder).await?;
         Ok(Self { folder, writer, readers, writes: AtomicU64::new(0), blob_gate: Arc::default() })
     }
 

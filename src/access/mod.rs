@@ -1,0 +1,18 @@
+//! Who may ask, and what: keys, the scopes they have, and how fast they may ask. Knows neither HTTP nor the store.
+//!
+//! | file | what it holds |
+//! | --- | --- |
+//! | `scope` | what a key is good for |
+//! | `api_key` | a key as people carry it |
+//! | `key_secret` | what turns a key into the hash that is stored |
+//! | `expiry` | when a key ends, as people write it |
+
+mod api_key;
+mod expiry;
+mod key_secret;
+mod scope;
+
+pub use api_key::{ApiKey, KeyHash};
+pub use expiry::Expiry;
+pub use key_secret::{KeySecret, KeySecretError};
+pub use scope::{Scope, Scopes};

@@ -1,0 +1,73 @@
+//! Rows of the log of changes.
+
+use async_trait::async_trait;
+use jiff::Timestamp;
+use uuid::Uuid;
+
+use super::columns::SqlRow;
+use super::database::{Database, Transaction};
+use super::statement::query;
+use crate::records::{AuditRecord, Tenant};
+use crate::store::{AuditLog, StoreError};
+
+#[async_trait]
+impl AuditLog for Database {
+    async fn record(&self, entry: &AuditRecord) -> Result<(), StoreError> {
+        let mut transaction = self.write().await?;
+        insert_entry(&mut transaction, entry).await?;
+        transaction.commit().await
+    }
+
+    async fn entries(&self, tenant: &Tenant, limit: u32, after: Option<Uuid>) -> Result<Vec<AuditRecord>, StoreError> {
+        let rows =
+            query("SELECT * FROM audit_log WHERE tenant = $1 AND ($2 IS NULL OR id < $2) ORDER BY id DESC LIMIT $3")
+                .bind(tenant.as_str())
+                .bind(after.map(|id| id.to_string()))
+                .bind(limit)
+                .fetch_all(self)
+                .await?;
+        rows.iter().map(audit_record).collect()
+    }
+
+    async fn forget_before(&self, time: Timestamp) -> Result<u64, StoreError> {
+        let mut transaction = self.write().await?;
+        let forgotten = query("DELETE FROM audit_log WHERE time < $1")
+            .bind(time.as_microsecond())
+            .execute(&mut transaction)
+            .await?;
+        transaction.commit().await?;
+        Ok(forgotten)
+    }
+}
+
+/// Adds an entry to a transaction.
+pub(super) async fn insert_entry(transaction: &mut Transaction, entry: &AuditRecord) -> Result<(), StoreError> {
+    query(
+        "INSERT INTO audit_log (id, tenant, time, caller, operation, resource, status, request) \
+         VALUES ($1, $2, $3, $4, $5, $6, $7, $8)",
+    )
+    .bind(entry.id.to_string())
+    .bind(entry.tenant.as_str())
+    .bind(entry.time.as_microsecond())
+    .bind(&entry.caller)
+    .bind(&entry.operation)
+    .bind(&entry.resource)
+    .bind(i64::from(entry.status))
+    .bind(&entry.request)
+    .execute(&mut *transaction)
+    .await?;
+    Ok(())
+}
+
+fn audit_record(row: &SqlRow) -> Result<AuditRecord, StoreError> {
+    Ok(AuditRecord {
+        id: row.uuid("id")?,
+        tenant: row.tenant()?,
+        time: row.time("time")?,
+        caller: row.text("caller")?,
+        operation: row.text("operation")?,
+        resource: row.text("resource")?,
+        status: row.whole("status")?,
+        request: row.text("request")?,
+    })
+}
