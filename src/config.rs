@@ -7,6 +7,7 @@ use crate::access::KeySecretError;
 use crate::allowed_hosts::AllowedHosts;
 use crate::ingest::Limits;
 pub use crate::storage_address::{BlobAddress, DatabaseAddress};
+use crate::store::Quotas;
 
 /// What a process does.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
@@ -41,6 +42,12 @@ pub struct Config {
     pub keys: KeyRule,
     /// File of the secret that keys are hashed with; `None` for `key-secret` in the folder of SQLite.
     pub key_secret_file: Option<PathBuf>,
+    /// Requests that a key may send in a minute; 0 for any number.
+    pub requests_per_minute: u32,
+    /// What a tenant may have.
+    pub quotas: Quotas,
+    /// How long the log of changes is kept.
+    pub keep_audit: Duration,
     /// Limits on uploaded maps.
     pub limits: Limits,
     /// Jobs that run at the same time.
@@ -99,6 +106,9 @@ impl Config {
             role: Role::All,
             keys: KeyRule::None,
             key_secret_file: None,
+            requests_per_minute: 6_000,
+            quotas: Quotas::UNLIMITED,
+            keep_audit: Duration::from_hours(365 * 24),
             limits: Limits::default(),
             job_slots: 1,
             compute_threads: cores,

@@ -2,6 +2,8 @@
 //!
 //! | file | what it holds |
 //! | --- | --- |
+//! | `rate` | how fast somebody may ask |
+//! | `session` | what a browser has in place of a key |
 //! | `scope` | what a key is good for |
 //! | `api_key` | a key as people carry it |
 //! | `key_secret` | what turns a key into the hash that is stored |
@@ -10,9 +12,13 @@
 mod api_key;
 mod expiry;
 mod key_secret;
+mod rate;
 mod scope;
+mod session;
 
 pub use api_key::{ApiKey, KeyHash};
 pub use expiry::Expiry;
 pub use key_secret::{KeySecret, KeySecretError};
+pub use rate::{Allowance, RateLimiter, WINDOW};
 pub use scope::{Scope, Scopes};
+pub use session::{SESSION, Session};

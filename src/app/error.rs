@@ -74,6 +74,17 @@ pub enum AppError {
         /// When to try again, seconds.
         retry_after_s: u32,
     },
+    /// As many jobs of the tenant wait as may.
+    #[error("{most} jobs of a tenant may wait at the same time: try again in {retry_after_s} s")]
+    TooManyJobs {
+        /// As many.
+        most: u64,
+        /// When to try again, seconds.
+        retry_after_s: u32,
+    },
+    /// The tenant has as much as it may.
+    #[error("{0}")]
+    OverQuota(String),
     /// Below the floor of free space.
     #[error("the server is short of disk space")]
     NoSpace,

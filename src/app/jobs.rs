@@ -6,7 +6,6 @@ use std::time::Duration;
 use stillage_core::AnalysisOptions;
 use uuid::Uuid;
 
-use super::service::RETRY_AFTER_S;
 use super::{AnalysisRecord, AnalysisTicket, App, AppError, Caller, JobFilter, JobRecord, JobState};
 use crate::jobs::processes::AnalysisProcess;
 use crate::store::{Request, Retry, now};
@@ -36,11 +35,11 @@ impl App {
         let source =
             self.store.map_source(caller.tenant(), map).await?.ok_or_else(|| AppError::not_found("map", map))?;
         let job = AnalysisProcess::job(map, &source, &options, activate);
-        let max_queued = self.config.max_queued_jobs;
-        let request = self.store.request_analysis(caller.tenant(), &options, &job, max_queued, now()).await?;
+        let capacity = self.capacity();
+        let request = self.store.request_analysis(caller.tenant(), &options, &job, &capacity, now()).await?;
         match request {
             None => Err(AppError::not_found("map", map)),
-            Some(Request::QueueFull) => Err(AppError::Busy { retry_after_s: RETRY_AFTER_S }),
+            Some(Request::Full(full)) => Err(self.refusal(full)),
             Some(Request::Pending(job)) => Ok(AnalysisTicket::Job(Box::new(job))),
             Some(Request::New(job)) => {
                 self.signals.queued();
@@ -97,7 +96,7 @@ impl App {
 
     /// Runs a job that failed or was dismissed once more.
     pub async fn retry_job(&self, caller: &Caller, id: Uuid) -> Result<JobRecord, AppError> {
-        let retry = self.store.retry(caller.tenant(), id, self.config.max_queued_jobs, now()).await?;
+        let retry = self.store.retry(caller.tenant(), id, &self.capacity(), now()).await?;
         match retry.ok_or_else(|| AppError::not_found("job", id))? {
             Retry::Queued(job) => {
                 self.signals.queued();
@@ -110,7 +109,7 @@ impl App {
             Retry::Superseded => {
                 Err(AppError::Conflict("another job has made the same analysis, or is about to".to_owned()))
             }
-            Retry::QueueFull => Err(AppError::Busy { retry_after_s: RETRY_AFTER_S }),
+            Retry::Full(full) => Err(self.refusal(full)),
         }
     }
 

@@ -5,7 +5,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 use super::{App, AppError, Caller};
-use crate::access::{ApiKey, KeyHash, KeySecret, KeySecretError};
+use crate::access::{ApiKey, KeyHash, KeySecret, KeySecretError, SESSION, Session};
 use crate::config::{Config, KeyRule};
 use crate::records::KeyRecord;
 use crate::store::now;
@@ -17,11 +17,20 @@ const KNOWN_FOR: Duration = Duration::from_secs(1);
 /// Keys known at the same time.
 const MOST_KNOWN: usize = 10_000;
 
+/// What somebody shows who asks.
+#[derive(Debug, Clone)]
+pub enum Credential {
+    /// A key.
+    Key(String),
+    /// A session of a browser.
+    Session(String),
+}
+
 /// What keys are checked with, and those that were seen a moment ago.
 #[derive(Debug)]
 pub(super) struct Keyring {
     secret: KeySecret,
-    known: Mutex<HashMap<KeyHash, (KeyRecord, Instant)>>,
+    known: Mutex<HashMap<String, (Instant, KeyRecord, KeyHash)>>,
 }
 
 impl Keyring {
@@ -37,21 +46,21 @@ impl Keyring {
         Ok(Some(Self { secret, known: Mutex::default() }))
     }
 
-    fn recall(&self, hash: &KeyHash) -> Option<KeyRecord> {
+    fn recall(&self, id: &str) -> Option<(KeyRecord, KeyHash)> {
         let known = self.known();
-        let (record, seen) = known.get(hash)?;
-        (seen.elapsed() < KNOWN_FOR).then(|| record.clone())
+        let (seen, record, hash) = known.get(id)?;
+        (seen.elapsed() < KNOWN_FOR).then(|| (record.clone(), hash.clone()))
     }
 
-    fn remember(&self, hash: KeyHash, record: KeyRecord) {
+    fn remember(&self, record: KeyRecord, hash: KeyHash) {
         let mut known = self.known();
         if known.len() >= MOST_KNOWN {
             known.clear();
         }
-        known.insert(hash, (record, Instant::now()));
+        known.insert(record.id.clone(), (Instant::now(), record, hash));
     }
 
-    fn known(&self) -> MutexGuard<'_, HashMap<KeyHash, (KeyRecord, Instant)>> {
+    fn known(&self) -> MutexGuard<'_, HashMap<String, (Instant, KeyRecord, KeyHash)>> {
         // Every statement above leaves it whole.
         self.known.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -64,25 +73,26 @@ impl App {
         self.keyring.is_some()
     }
 
-    /// Who has a key; anybody where none is needed.
+    /// Who shows something; anybody where nothing is needed.
     ///
     /// # Errors
     /// [`AppError::Unauthorized`] where it opens nothing.
-    pub async fn sign_in(&self, key: &str) -> Result<Caller, AppError> {
+    pub async fn sign_in(&self, shown: &Credential) -> Result<Caller, AppError> {
         let Some(keyring) = &self.keyring else { return Ok(Caller::local()) };
-        let unknown = || AppError::Unauthorized("this key is not known here".to_owned());
-        let key = ApiKey::read(key).ok_or_else(unknown)?;
-        let hash = key.hash(&keyring.secret);
-        let record = match keyring.recall(&hash) {
-            Some(record) => record,
-            None => {
-                let found = self.store.keys().key(key.id()).await?;
-                // Two hashes are compared in constant time.
-                let (record, _) = found.filter(|(_, stored)| *stored == hash).ok_or_else(unknown)?;
-                keyring.remember(hash, record.clone());
-                record
+        let refused = |reason: &str| AppError::Unauthorized(reason.to_owned());
+        let (id, hash) = match shown {
+            Credential::Key(text) => {
+                let key = ApiKey::read(text).ok_or_else(|| refused("this key is not known here"))?;
+                (key.id().to_owned(), Some(key.hash(&keyring.secret)))
+            }
+            Credential::Session(text) => {
+                let session = Session::read(text, &keyring.secret, now());
+                (session.ok_or_else(|| refused("the session has ended: sign in again"))?.key, None)
             }
         };
+        // Two hashes are compared in constant time.
+        let found = self.known_key(keyring, &id).await?.filter(|(_, stored)| hash.is_none_or(|hash| hash == *stored));
+        let (record, _) = found.ok_or_else(|| refused("this key is not known here"))?;
         if record.is_valid_at(now()) {
             return Ok(Caller::with_key(&record));
         }
@@ -90,5 +100,24 @@ impl App {
             (None, Some(end)) => format!("key {} ended at {end}: ask for a new one", record.id),
             _ => format!("key {} was revoked", record.id),
         }))
+    }
+
+    /// A session for a caller who signed in with a key; `None` where none is needed.
+    #[must_use]
+    pub fn session(&self, caller: &Caller) -> Option<String> {
+        let keyring = self.keyring.as_ref()?;
+        let end = now().checked_add(SESSION).ok()?;
+        Some(Session { key: caller.name().to_owned(), end }.seal(&keyring.secret))
+    }
+
+    async fn known_key(&self, keyring: &Keyring, id: &str) -> Result<Option<(KeyRecord, KeyHash)>, AppError> {
+        if let Some(known) = keyring.recall(id) {
+            return Ok(Some(known));
+        }
+        let found = self.store.keys().key(id).await?;
+        if let Some((record, hash)) = &found {
+            keyring.remember(record.clone(), hash.clone());
+        }
+        Ok(found)
     }
 }

@@ -2,7 +2,6 @@
 
 use uuid::Uuid;
 
-use super::service::RETRY_AFTER_S;
 use super::{App, AppError, Caller, JobRecord, MapPatch, MapRecord, NewMap};
 use crate::blocking::off_the_runtime;
 use crate::coordinates::{OutOfRange, Survey};
@@ -33,11 +32,12 @@ impl App {
         if let Some(key) = &key
             && let Some(seen) = self.store.seen_upload(caller.tenant(), key, now()).await?
         {
-            return answer(seen);
+            return self.answer(seen);
         }
-        // It is checked again when the job is stored; until then a full queue costs nothing but the reading of the upload.
-        if self.store.waiting_jobs().await? >= self.config.max_queued_jobs {
-            return Err(AppError::Busy { retry_after_s: RETRY_AFTER_S });
+        // It is checked again when the job is stored; until then a full queue or quota costs nothing but the reading of the upload.
+        let capacity = self.capacity();
+        if let Some(full) = self.store.full(caller.tenant(), &capacity).await? {
+            return Err(self.refusal(full));
         }
         self.store.check_space()?;
         let (name, options, georeference) = (map.name.trim().to_owned(), map.options, map.georeference);
@@ -63,12 +63,11 @@ impl App {
             warnings: decoded.warnings,
         };
         let job = AnalysisProcess::job(row.id, blob.id(), &options, true);
-        let (max_queued, key) = (self.config.max_queued_jobs, key.as_ref());
-        let upload = self.store.create_map(caller.tenant(), &row, &blob, &job, key, max_queued, now()).await?;
+        let upload = self.store.create_map(caller.tenant(), &row, &blob, &job, key.as_ref(), &capacity, now()).await?;
         if let Upload::New(_) = upload {
             self.signals.queued();
         }
-        answer(upload)
+        self.answer(upload)
     }
 
     /// Maps, newest first.
@@ -115,6 +114,18 @@ impl App {
         )))
     }
 
+    fn answer(&self, upload: Upload) -> Result<(JobRecord, bool), AppError> {
+        match upload {
+            Upload::New(job) => Ok((job, true)),
+            Upload::Seen(job) => Ok((job, false)),
+            Upload::Full(full) => Err(self.refusal(full)),
+            Upload::KeyReused => Err(AppError::Invalid {
+                detail: "this Idempotency-Key was used with another upload in the last 24 hours: use a new key".into(),
+                fields: Vec::new(),
+            }),
+        }
+    }
+
     /// Reads an upload, so that a bad map is refused at once, and packs it for the store.
     async fn decode_upload(
         &self,
@@ -125,18 +136,6 @@ impl App {
         let (grid, limits) = (options.grid.clone(), self.config.limits);
         let decode = move || Ok((ingest::decode(&source, &grid, &limits)?, Blob::encode(&source)));
         off_the_runtime(decode).await
-    }
-}
-
-fn answer(upload: Upload) -> Result<(JobRecord, bool), AppError> {
-    match upload {
-        Upload::New(job) => Ok((job, true)),
-        Upload::Seen(job) => Ok((job, false)),
-        Upload::QueueFull => Err(AppError::Busy { retry_after_s: RETRY_AFTER_S }),
-        Upload::KeyReused => Err(AppError::Invalid {
-            detail: "this Idempotency-Key was used with another upload in the last 24 hours: use a new key".into(),
-            fields: Vec::new(),
-        }),
     }
 }
 

@@ -23,12 +23,13 @@
 //! | `routers`, `latest` | its routers and navigation graphs, the latest kept |
 //! | `exports` | its files for other programs |
 //! | `service` | what the use cases share, start and stop |
-//! | `caller`, `keyring` | who asks, and with which key |
+//! | `caller`, `keyring`, `audit` | who asks, with which key, and who changed what |
 //! | `evaluations` | how well it fits the truth of its site |
 //!
 //! Every use case takes its [`Caller`] first. What concerns the service itself (readiness, metrics, the orderly stop)
 //! takes none. Nothing here knows HTTP; nothing here holds SQL.
 
+mod audit;
 mod caller;
 mod carrying;
 mod comparisons;
@@ -71,6 +72,7 @@ pub use crate::records::{
     AnalysisRecord, AnalysisTicket, CorrectionId, JobFilter, JobRecord, JobState, MapPatch, MapRecord, NewMap,
     RuleSetRecord, SemanticsOrigin, SemanticsRecord, StageReport,
 };
+pub use audit::AnsweredChange;
 pub use caller::Caller;
 pub use comparisons::{LocationComparison, MapComparison, PairAlignment, ReadingComparison};
 pub use corrections::check_corrections;
@@ -79,6 +81,7 @@ pub use error::{AppError, FieldProblem};
 pub use file_context::FileMap;
 pub use geometric_level::AppliedCorrections;
 pub use grid::GridSource;
+pub use keyring::Credential;
 pub use label_preview::LabelPreview;
 pub use map_context::MapContext;
 pub use name_import::{NameChange, NameReport};

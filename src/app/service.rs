@@ -7,6 +7,7 @@ use std::time::Duration;
 use tokio::sync::{Semaphore, watch};
 use tokio::task::JoinSet;
 
+use super::audit::forget_old_entries;
 use super::context_cache::ContextCache;
 use super::error::AppError;
 use super::geometric_level::LastCorrected;
@@ -16,13 +17,13 @@ use super::mending::Mending;
 use crate::config::Config;
 use crate::jobs::processes::{AnalysisProcess, Processes};
 use crate::jobs::{Signals, Worker};
-use crate::store::{self, Outdated, Store, StoreError, now};
+use crate::store::{self, Capacity, Full, Outdated, Store, StoreError, now};
 
 /// A blob whose row never came is removed at a start after this time.
 const ORPHAN_AGE: Duration = Duration::from_hours(24);
 
 /// When a client may try again after finding the queue full, seconds: about the time of a job on a large map.
-pub(super) const RETRY_AFTER_S: u32 = 10;
+const RETRY_AFTER_S: u32 = 10;
 
 /// The service without its edges.
 #[derive(Debug)]
@@ -41,7 +42,7 @@ pub struct App {
     pub(super) decoders: Semaphore,
     is_stopping: AtomicBool,
     /// Ends with the service.
-    _changes_elsewhere: JoinSet<()>,
+    _background: JoinSet<()>,
 }
 
 impl App {
@@ -66,9 +67,12 @@ impl App {
     ) -> Arc<Self> {
         let signals = Arc::new(Signals::default());
         let worker = Worker::start(&config, Arc::clone(&store), processes, Arc::clone(&signals));
-        let mut changes = JoinSet::new();
+        let mut background = JoinSet::new();
         if store.is_shared() {
-            changes.spawn(pass_on_changes(Arc::clone(&store), Arc::clone(&signals)));
+            background.spawn(pass_on_changes(Arc::clone(&store), Arc::clone(&signals)));
+        }
+        if keyring.is_some() {
+            background.spawn(forget_old_entries(Arc::clone(&store), config.keep_audit));
         }
         let contexts = ContextCache::new(config.cached_maps);
         let decoders = Semaphore::new(config.compute_threads.max(1));
@@ -84,7 +88,7 @@ impl App {
             keyring,
             decoders,
             is_stopping: AtomicBool::new(false),
-            _changes_elsewhere: changes,
+            _background: background,
         })
     }
 
@@ -92,6 +96,22 @@ impl App {
     #[must_use]
     pub const fn config(&self) -> &Config {
         &self.config
+    }
+
+    /// How much there may be when something is added.
+    pub(super) const fn capacity(&self) -> Capacity {
+        Capacity { queued_jobs: self.config.max_queued_jobs, of_tenant: self.config.quotas }
+    }
+
+    /// Why nothing can be added.
+    pub(super) fn refusal(&self, full: Full) -> AppError {
+        let quotas = self.config.quotas;
+        match full {
+            Full::Queue => AppError::Busy { retry_after_s: RETRY_AFTER_S },
+            Full::QueuedJobs => AppError::TooManyJobs { most: quotas.queued_jobs, retry_after_s: RETRY_AFTER_S },
+            Full::Maps => AppError::OverQuota(format!("a tenant may have {} maps: delete some", quotas.maps)),
+            Full::Bytes => AppError::OverQuota(format!("a tenant may store {} MiB: delete maps", quotas.bytes >> 20)),
+        }
     }
 
     /// Says from now on that the service is not ready, so that nothing new is sent to it. Who follows a job is woken, so
@@ -166,7 +186,7 @@ async fn take_up(store: &dyn Store, max_attempts: u32) -> Result<(), AppError> {
         tracing::info!(%map, "will be analysed again by this version of the algorithms");
         let Some(source) = store.map_source(&tenant, map).await? else { continue };
         let job = AnalysisProcess::job(map, &source, &options, true);
-        store.request_analysis(&tenant, &options, &job, u64::MAX, now()).await?;
+        store.request_analysis(&tenant, &options, &job, &Capacity::UNLIMITED, now()).await?;
     }
     Ok(())
 }

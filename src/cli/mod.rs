@@ -21,6 +21,7 @@ mod findings;
 mod input;
 mod output;
 mod progress;
+mod quotas;
 mod server;
 mod storage;
 

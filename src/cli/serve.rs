@@ -13,6 +13,7 @@ use tracing_subscriber::filter::Targets;
 use tracing_subscriber::layer::SubscriberExt as _;
 use tracing_subscriber::util::SubscriberInitExt as _;
 
+use super::quotas::QuotaArgs;
 use super::storage::{BlobsNotShared, StorageArgs};
 use crate::allowed_hosts::HostPattern;
 use crate::app::{App, AppError};
@@ -37,6 +38,14 @@ pub(super) struct ServeArgs {
     /// database need one that all of them read.
     #[arg(long, env = "STILLAGE_KEY_SECRET_FILE", value_name = "FILE")]
     pub(super) key_secret_file: Option<PathBuf>,
+    /// Requests that a key may send in a minute; 0 for any number.
+    #[arg(long, env = "STILLAGE_REQUESTS_PER_MINUTE", default_value_t = 6_000, value_name = "N")]
+    pub(super) requests_per_minute: u32,
+    #[command(flatten)]
+    pub(super) quotas: QuotaArgs,
+    /// How long the log of changes is kept, days.
+    #[arg(long, env = "STILLAGE_KEEP_AUDIT_DAYS", default_value_t = 365, value_name = "DAYS")]
+    pub(super) keep_audit_days: u32,
     #[command(flatten)]
     pub(super) storage: StorageArgs,
     /// What this process does. Several processes share a database of `--database postgres://...`.
@@ -189,6 +198,9 @@ impl ServeArgs {
             role: self.role,
             keys: self.keys,
             key_secret_file: self.key_secret_file.clone(),
+            requests_per_minute: self.requests_per_minute,
+            quotas: self.quotas.quotas(self.keys),
+            keep_audit: Duration::from_hours(u64::from(self.keep_audit_days) * 24),
             lease: Duration::from_secs(self.lease_s),
             limits: Limits {
                 max_bytes: self.max_upload_mib.saturating_mul(1 << 20),

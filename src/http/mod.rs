@@ -106,6 +106,8 @@ fn reading_and_writing() -> OpenApiRouter<Arc<App>> {
         .routes(routes!(docs::openapi))
         .routes(routes!(docs::openapi_3_0))
         .routes(routes!(docs::problem_types::describe))
+        .routes(routes!(admin::audit::list))
+        .routes(routes!(admin::session::sign_in, admin::session::sign_out))
         .routes(routes!(maps::map::list))
         .routes(routes!(maps::map::get, maps::map::update, maps::deletion::delete))
         .routes(routes!(maps::deletion::list))
@@ -185,14 +187,15 @@ pub fn router(app: Arc<App>) -> Router {
 /// The routes of a process that works on jobs: its health and its metrics.
 fn of_worker(app: Arc<App>) -> Router {
     let metrics = Arc::new(guard::observe::Metrics::new());
-    let rules = guard::access::AccessRules::of(&document(routes(app.config())).1);
+    let guard = guard::access::AccessGuard::new(Arc::clone(&app), &document(routes(app.config())).1);
+    let door = guard::sign_in::Door::new(Arc::clone(&app));
     Router::new()
         .route("/health/live", axum::routing::get(admin::health::live))
         .route("/health/ready", axum::routing::get(admin::health::ready))
         .route("/metrics", axum::routing::get(guard::observe::metrics))
-        .layer(from_fn_with_state(Arc::new(rules), guard::access::allowed))
+        .layer(from_fn_with_state(guard, guard::access::allowed))
         .layer(from_fn(problem::render))
-        .layer(from_fn_with_state(Arc::clone(&app), guard::sign_in::sign_in))
+        .layer(from_fn_with_state(door, guard::sign_in::sign_in))
         .layer(Extension(metrics))
         .with_state(app)
 }
@@ -200,7 +203,7 @@ fn of_worker(app: Arc<App>) -> Router {
 fn of_service(app: Arc<App>) -> Router {
     let (router, document) = document(routes(app.config()));
     let known = Arc::new(guard::KnownParameters::of(&document));
-    let rules = Arc::new(guard::access::AccessRules::of(&document));
+    let guard = guard::access::AccessGuard::new(Arc::clone(&app), &document);
     let metrics = Arc::new(guard::observe::Metrics::new());
     let layers = ServiceBuilder::new()
         .layer(from_fn(guard::observe::tell_route))
@@ -215,7 +218,7 @@ fn of_service(app: Arc<App>) -> Router {
         .layer(from_fn(guard::hosts::one_host))
         .layer(from_fn_with_state(Arc::clone(&app), guard::hosts::own_host))
         .layer(from_fn(guard::other_origins))
-        .layer(from_fn_with_state(rules, guard::access::allowed))
+        .layer(from_fn_with_state(guard, guard::access::allowed))
         .layer(from_fn(guard::pace::at_pace))
         .layer(from_fn(extract::coding::decoded))
         .layer(from_fn(extract::format::format_parameter))
@@ -232,7 +235,7 @@ fn of_service(app: Arc<App>) -> Router {
     Router::new()
         .fallback_service(router)
         .layer(from_fn_with_state(answers::Again::new(Arc::clone(&app)), answers::again))
-        .layer(from_fn_with_state(app, guard::sign_in::sign_in))
+        .layer(from_fn_with_state(guard::sign_in::Door::new(app), guard::sign_in::sign_in))
         .layer(from_fn_with_state(metrics, guard::observe::observe))
 }
 

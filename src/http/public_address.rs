@@ -30,6 +30,12 @@ impl PublicAddress {
         self.authority.as_ref().map(|authority| format!("{scheme}://{authority}{}", self.prefix)).unwrap_or_default()
     }
 
+    /// Whether the client reached the service by TLS.
+    #[must_use]
+    pub fn is_secure(&self) -> bool {
+        self.scheme == Some("https")
+    }
+
     /// The path of a resource as the client sees it.
     #[must_use]
     pub fn path(&self, path: &str) -> String {

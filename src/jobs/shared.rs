@@ -24,6 +24,8 @@ pub(super) struct Settings {
     pub(super) lease: Duration,
     /// How often a job is tried in all.
     pub(super) max_attempts: u32,
+    /// How many jobs of one tenant may run at the same time.
+    pub(super) running_of_tenant: u64,
     pub(super) heartbeat: Duration,
     /// How long deleted maps are kept.
     pub(super) keep_deleted: Duration,
@@ -51,8 +53,9 @@ impl Shared {
     /// The time by the clock of the store, and the terms of a claim at this time.
     pub(super) async fn now(&self) -> Result<(Timestamp, Terms), StoreError> {
         let now = self.store.clock().await?;
-        let Settings { lease, max_attempts, .. } = self.settings;
-        Ok((now, Terms { lease, max_attempts, backoff, in_touch_since: self.contact.answered(now) }))
+        let Settings { lease, max_attempts, running_of_tenant, .. } = self.settings;
+        let in_touch_since = self.contact.answered(now);
+        Ok((now, Terms { lease, max_attempts, running_of_tenant, backoff, in_touch_since }))
     }
 
     /// Asks the slots to stop; jobs that run are put back after a grace period. Only the first call counts.

@@ -29,6 +29,7 @@ impl Worker {
         let settings = Settings {
             lease: config.lease,
             max_attempts: config.max_attempts,
+            running_of_tenant: config.quotas.running_jobs,
             heartbeat: config.heartbeat,
             keep_deleted: config.keep_deleted,
         };

@@ -10,7 +10,7 @@ use stillage_core::analysis::Diagnostic;
 use stillage_core::layout::LayoutOptions;
 use uuid::Uuid;
 
-use super::{BlobId, NewJob, StoreError};
+use super::{BlobId, Capacity, Full, NewJob, StoreError};
 use crate::records::{AnalysisRecord, JobRecord, MapRecord, SemanticsRecord, Tenant};
 
 /// A finished analysis to be stored.
@@ -33,8 +33,8 @@ pub enum Request {
     New(JobRecord),
     /// A job that waits or runs already will make it.
     Pending(JobRecord),
-    /// Too many jobs wait.
-    QueueFull,
+    /// There is no room for it.
+    Full(Full),
 }
 
 /// A map whose analysis in force was made by another version of the algorithms.
@@ -92,7 +92,7 @@ pub trait Analyses {
         tenant: &Tenant,
         options: &AnalysisOptions,
         job: &NewJob,
-        max_queued: u64,
+        capacity: &Capacity,
         now: Timestamp,
     ) -> Result<Option<Request>, StoreError>;
 

@@ -5,7 +5,7 @@ use jiff::Timestamp;
 use serde_json::Value;
 use uuid::Uuid;
 
-use super::{ResultAddress, StoreError};
+use super::{Capacity, Full, ResultAddress, StoreError};
 use crate::records::{JobFilter, JobRecord, JobState, Tenant};
 
 /// A job to be queued.
@@ -34,8 +34,8 @@ pub enum Retry {
     NotOver(Box<JobRecord>),
     /// Another job has made the same result, or is about to.
     Superseded,
-    /// As many jobs wait as may.
-    QueueFull,
+    /// There is no room for it.
+    Full(Full),
 }
 
 /// What is kept of jobs.
@@ -56,12 +56,9 @@ pub trait Jobs {
         &self,
         tenant: &Tenant,
         id: Uuid,
-        max_queued: u64,
+        capacity: &Capacity,
         now: Timestamp,
     ) -> Result<Option<Retry>, StoreError>;
-
-    /// How many jobs of all tenants wait.
-    async fn waiting_jobs(&self) -> Result<u64, StoreError>;
 
     /// How many jobs of all tenants are in a state, for every state that has some.
     async fn job_counts(&self) -> Result<Vec<(JobState, u64)>, StoreError>;

@@ -5,7 +5,7 @@ use jiff::Timestamp;
 use stillage_core::analysis::Diagnostic;
 use uuid::Uuid;
 
-use super::{Blob, BlobId, NewJob, StoreError};
+use super::{Blob, BlobId, Capacity, Full, NewJob, StoreError};
 use crate::coordinates::Survey;
 use crate::records::{AlignmentRecord, JobRecord, MapPatch, MapRecord, Tenant};
 
@@ -50,13 +50,16 @@ pub enum Upload {
     Seen(JobRecord),
     /// The key was seen with other content.
     KeyReused,
-    /// Too many jobs wait.
-    QueueFull,
+    /// There is no room for it.
+    Full(Full),
 }
 
 /// What is kept of maps.
 #[async_trait]
 pub trait Maps {
+    /// Why a tenant cannot add a map of whatever length, before it is decoded.
+    async fn full(&self, tenant: &Tenant, capacity: &Capacity) -> Result<Option<Full>, StoreError>;
+
     /// Stores an upload, its map, its first job and its idempotency key: all or nothing.
     #[expect(clippy::too_many_arguments, reason = "all that is committed together")]
     async fn create_map(
@@ -66,7 +69,7 @@ pub trait Maps {
         source: &Blob,
         job: &NewJob,
         key: Option<&IdempotencyKey>,
-        max_queued: u64,
+        capacity: &Capacity,
         now: Timestamp,
     ) -> Result<Upload, StoreError>;
 

@@ -5,6 +5,7 @@
 //! | `maps` | uploads with their first job, the record of a map, deletion |
 //! | `hidden_maps` | maps that were deleted and may be restored for a while |
 //! | `analyses` | finished results, the one in force for each map |
+//! | `capacity` | how much there may be, in all and of a tenant |
 //! | `queue` | the worker's side of a job: claim, heartbeat, result |
 //! | `jobs` | the client's side of a job: read, list, dismiss |
 //! | `semantics` | human decisions, and the corrections they name |
@@ -28,6 +29,7 @@
 mod analyses;
 mod audit;
 mod blobs;
+mod capacity;
 mod clock;
 #[cfg(test)]
 pub(crate) mod contract;
@@ -58,6 +60,7 @@ use sql::SqlStore;
 pub use analyses::{Analyses, MapState, NewAnalysis, Outdated, Request, Snapshot};
 pub use audit::AuditLog;
 pub use blobs::{Blob, BlobId, Blobs, LocalBlobs, Stored};
+pub use capacity::{Capacity, Full, Quotas};
 pub use clock::now;
 pub use engine::Store;
 pub use error::StoreError;

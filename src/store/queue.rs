@@ -57,6 +57,8 @@ pub struct Terms {
     pub lease: Duration,
     /// How often a job is tried in all.
     pub max_attempts: u32,
+    /// How many jobs of one tenant may run at the same time.
+    pub running_of_tenant: u64,
     /// The wait after the n-th attempt (from 1) of a job.
     pub backoff: fn(Uuid, u32) -> Duration,
     /// Since when the worker that asks has been in touch with the database without a break, by the clock of the database.
@@ -88,8 +90,9 @@ pub enum JobResult {
 /// The queue.
 #[async_trait]
 pub trait Queue {
-    /// Ends the claims whose lease has run out, then takes a job that is due, if there is one: of those with the fewest
-    /// attempts the one that waits longest, so that a job which kills its workers does not hold up the others.
+    /// Ends the claims whose lease has run out, then takes a job that is due, if there is one: of the tenant that was served
+    /// longest ago, so that nobody waits for all the jobs of another; and of its jobs with the fewest attempts the one that waits
+    /// longest, so that a job which kills its workers does not hold up the others.
     ///
     /// Where the asking worker was in touch with the database ([`Terms::in_touch_since`]) from the last sign of life of a claim
     /// until its lease ran out, that worker alone was gone, and the attempt counts. Otherwise all may have been, with the machine

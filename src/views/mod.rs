@@ -4,6 +4,7 @@
 
 pub mod alignment;
 pub mod analysis;
+pub mod audit;
 pub mod carried;
 pub mod category;
 pub mod cogency_matrix;

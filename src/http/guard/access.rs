@@ -4,14 +4,15 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 use axum::extract::{MatchedPath, Request, State};
-use axum::http::Method;
+use axum::http::{Method, Uri, header};
 use axum::middleware::Next;
 use axum::response::{IntoResponse, Response};
 use utoipa::openapi::OpenApi;
 
+use super::observe::RequestId;
 use super::sign_in::NotSignedIn;
 use crate::access::Scope;
-use crate::app::Caller;
+use crate::app::{AnsweredChange, App, Caller};
 use crate::http::dashboard;
 use crate::http::docs::security;
 use crate::http::problem::Problem;
@@ -19,14 +20,25 @@ use crate::http::problem::Problem;
 /// Routes beside the document that need no key: the same bytes for everybody.
 const OPEN_ROUTES: [&str; 3] = [dashboard::ASSET_PATH, "/docs", "/docs/{*rest}"];
 
-/// The scope that each operation needs; none where it needs no key.
-#[derive(Debug, Default)]
-pub struct AccessRules(HashMap<(String, Method), Option<Scope>>);
+/// What the document says of an operation.
+#[derive(Debug)]
+struct Rule {
+    operation: String,
+    /// `None` where it needs no key.
+    scope: Option<Scope>,
+}
 
-impl AccessRules {
+/// What the middleware works with.
+#[derive(Debug, Clone)]
+pub struct AccessGuard {
+    app: Arc<App>,
+    rules: Arc<HashMap<(String, Method), Rule>>,
+}
+
+impl AccessGuard {
     /// The rules of a document that is complete.
     #[must_use]
-    pub fn of(document: &OpenApi) -> Self {
+    pub fn new(app: Arc<App>, document: &OpenApi) -> Self {
         let mut rules = HashMap::new();
         for (path, item) in &document.paths.paths {
             let operations = [
@@ -37,44 +49,57 @@ impl AccessRules {
                 (Method::DELETE, &item.delete),
             ];
             for (method, operation) in operations {
-                if let Some(operation) = operation {
-                    rules.insert((path.clone(), method), security::scope(operation));
-                }
+                let Some(operation) = operation else { continue };
+                let (scope, operation) = (security::scope(operation), operation.operation_id.clone());
+                rules.insert((path.clone(), method), Rule { operation: operation.unwrap_or_default(), scope });
             }
         }
-        Self(rules)
+        Self { app, rules: Arc::new(rules) }
     }
 
-    /// The scope that a request to a route needs. One that the document does not have needs that of its method, so that
-    /// nothing is open by being forgotten.
-    fn scope(&self, route: &str, method: &Method) -> Option<Scope> {
+    /// The scope that a request to a route needs, and the name of its operation. A route that the document does not have needs
+    /// the scope of its method, so that nothing is open by being forgotten.
+    fn rule(&self, route: &str, method: &Method) -> Option<(Scope, String)> {
         let method = if *method == Method::HEAD { &Method::GET } else { method };
-        match self.0.get(&(route.to_owned(), method.clone())) {
-            Some(scope) => *scope,
+        match self.rules.get(&(route.to_owned(), method.clone())) {
+            Some(rule) => rule.scope.map(|scope| (scope, rule.operation.clone())),
             None if OPEN_ROUTES.contains(&route) || *method == Method::OPTIONS => None,
-            None => Some(security::scope_of_method(method.is_safe())),
+            None => Some((security::scope_of_method(method.is_safe()), route.to_owned())),
         }
     }
 }
 
-/// Middleware: refuses whoever has no key (401), or one without the scope that the operation needs (403). Where there is no
-/// route there is nothing to guard.
+/// Middleware: refuses whoever has no key (401), or one without the scope that the operation needs (403), and records what was
+/// changed by whom. Where there is no route there is nothing to guard.
 pub async fn allowed(
-    State(rules): State<Arc<AccessRules>>,
+    State(guard): State<AccessGuard>,
     route: Option<MatchedPath>,
     request: Request,
     next: Next,
 ) -> Response {
-    let Some(scope) = route.and_then(|route| rules.scope(route.as_str(), request.method())) else {
+    let Some((scope, operation)) = route.as_ref().and_then(|route| guard.rule(route.as_str(), request.method())) else {
         return next.run(request).await;
     };
     let extensions = request.extensions();
-    match extensions.get::<Caller>() {
-        Some(caller) if caller.may(scope) => next.run(request).await,
-        Some(_) => Problem::missing_scope(scope).into_response(),
-        None => {
-            let reason = extensions.get::<NotSignedIn>().map(|reason| reason.0.clone());
-            reason.unwrap_or_else(Problem::key_required).into_response()
-        }
+    let Some(caller) = extensions.get::<Caller>().cloned() else {
+        let reason = extensions.get::<NotSignedIn>().map(|reason| reason.0.clone());
+        return reason.unwrap_or_else(Problem::key_required).into_response();
+    };
+    let id = extensions.get::<RequestId>().and_then(|id| id.0.to_str().ok()).unwrap_or_default().to_owned();
+    let path = request.uri().path().to_owned();
+    let response =
+        if caller.may(scope) { next.run(request).await } else { Problem::missing_scope(scope).into_response() };
+    if scope == Scope::Write {
+        let resource = made(&response).unwrap_or(path);
+        let status = response.status().as_u16();
+        let change = AnsweredChange { operation, resource, status, request: id };
+        guard.app.record_change(&caller, change).await;
     }
+    response
+}
+
+/// The path of what a request made.
+fn made(response: &Response) -> Option<String> {
+    let location: Uri = response.headers().get(header::LOCATION)?.to_str().ok()?.parse().ok()?;
+    Some(location.path().to_owned())
 }

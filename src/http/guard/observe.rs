@@ -25,6 +25,10 @@ const LATENCY_BUCKETS: [f64; 11] = [0.001, 0.0025, 0.005, 0.01, 0.025, 0.05, 0.1
 /// Requests between two clean-ups of the recorder, which otherwise happen whenever it is read.
 const UPKEEP_PERIOD: u64 = 4_096;
 
+/// The id of a request.
+#[derive(Debug, Clone)]
+pub struct RequestId(pub HeaderValue);
+
 /// The metrics of one router. Not a global: several services may live in a process, as they do in tests.
 pub struct Metrics {
     recorder: PrometheusRecorder,
@@ -95,9 +99,10 @@ impl std::fmt::Debug for Metrics {
 }
 
 /// Middleware: gives the request its id, logs it and counts it.
-pub async fn observe(State(metrics): State<Arc<Metrics>>, request: Request, next: Next) -> Response {
+pub async fn observe(State(metrics): State<Arc<Metrics>>, mut request: Request, next: Next) -> Response {
     let began = Instant::now();
     let id = request_id(&request);
+    request.extensions_mut().insert(RequestId(id.clone()));
     let method = request.method().clone();
     let span =
         tracing::info_span!("request", %method, path = request.uri().path(), id = id.to_str().unwrap_or_default());

@@ -6,7 +6,6 @@ use serde::Serialize;
 use utoipa::ToSchema;
 
 use super::types::ProblemType;
-use crate::access::Scope;
 use crate::app::{AppError, FieldProblem};
 use crate::ingest::Refusal;
 
@@ -87,35 +86,8 @@ impl Problem {
         Self::new(ProblemType::NotFound, detail)
     }
 
-    /// A request without a key, where one is needed.
-    #[must_use]
-    pub fn key_required() -> Self {
-        let detail = "send a key as `Authorization: Bearer stillage_...`; the operator of the service makes one with \
-                      `stillage key create`";
-        Self::new(ProblemType::KeyRequired, detail).challenge("")
-    }
-
-    /// An `Authorization` that is not understood.
-    #[must_use]
-    pub fn not_bearer() -> Self {
-        Self::invalid_key("Authorization is sent once, and is the word Bearer, a blank and the key")
-    }
-
-    fn invalid_key(detail: impl Into<String>) -> Self {
-        Self::new(ProblemType::InvalidKey, detail).challenge(", error=\"invalid_token\"")
-    }
-
-    /// A key that is not good for an operation.
-    #[must_use]
-    pub fn missing_scope(scope: Scope) -> Self {
-        let scope = scope.name();
-        let detail = format!("this needs a key with the scope {scope}: the operator makes one with --scopes {scope}");
-        let challenge = format!(", error=\"insufficient_scope\", scope=\"{scope}\"");
-        Self::new(ProblemType::MissingScope, detail).challenge(&challenge)
-    }
-
     /// Tells the client how to sign in (RFC 6750, 3).
-    fn challenge(mut self, parameters: &str) -> Self {
+    pub(super) fn challenge(mut self, parameters: &str) -> Self {
         self.challenge = Some(format!("Bearer realm=\"stillage\"{parameters}"));
         self
     }
@@ -258,6 +230,10 @@ impl From<AppError> for Problem {
             AppError::Conflict(_) => Self::new(ProblemType::Conflict, detail),
             AppError::TooLarge(_) => Self::new(ProblemType::TooLarge, detail),
             AppError::Busy { retry_after_s } => Self::new(ProblemType::Busy, detail).retry_after(retry_after_s),
+            AppError::TooManyJobs { retry_after_s, .. } => {
+                Self::new(ProblemType::TooManyJobs, detail).retry_after(retry_after_s)
+            }
+            AppError::OverQuota(_) => Self::new(ProblemType::OverQuota, detail),
             AppError::NoSpace => Self::new(ProblemType::NoSpace, detail).retry_after(60),
             AppError::Unavailable | AppError::BeingMended(_) => {
                 Self::new(ProblemType::Unavailable, detail).retry_after(5)

@@ -4,6 +4,7 @@
 //! path of the request is known. It also gives a body to the bare refusals of the framework (405, 413 ...), so that
 //! every error has the same shape.
 
+mod access;
 mod detail;
 mod render;
 mod types;

@@ -39,6 +39,8 @@ problem_types! {
     CrossOrigin = "cross-origin-write", FORBIDDEN, "Pages of other sites may not write";
     /// The service has another name.
     Misdirected = "misdirected", MISDIRECTED_REQUEST, "The service does not answer under this host";
+    /// The tenant has as much as it may.
+    OverQuota = "over-quota", FORBIDDEN, "A quota of the tenant is reached";
     /// What is built in cannot be changed.
     ReadOnly = "read-only", FORBIDDEN, "The resource is read-only";
     /// Nothing is there.
@@ -81,6 +83,10 @@ problem_types! {
     Invalid = "invalid", UNPROCESSABLE_ENTITY, "The content is invalid";
     /// A write without `If-Match`.
     PreconditionRequired = "precondition-required", PRECONDITION_REQUIRED, "The write needs an If-Match header";
+    /// The key asked too often.
+    TooManyRequests = "too-many-requests", TOO_MANY_REQUESTS, "The key asks too often";
+    /// As many jobs of the tenant wait as may.
+    TooManyJobs = "too-many-jobs", TOO_MANY_REQUESTS, "The tenant has too many jobs waiting";
     /// Something is wrong in the service.
     Internal = "internal", INTERNAL_SERVER_ERROR, "The service failed";
     /// A stored blob is not what was written.

@@ -38,7 +38,11 @@ pub async fn a_proposal_answers_once_it_is_activated(engine: &impl Engine) {
     let source = store.map_source(&local(), map).await.unwrap().expect("the map is there");
     let propose = async |seed| {
         let job = NewJob { activates: false, ..job_of(map, &source, seed) };
-        store.request_analysis(&local(), &with_seed(seed), &job, 9, now()).await.unwrap().expect("the map is there")
+        store
+            .request_analysis(&local(), &with_seed(seed), &job, &Capacity::queue(9), now())
+            .await
+            .unwrap()
+            .expect("the map is there")
     };
     let finish_next = async || finish(store, &claim(store, now()).await.expect("a job waits")).await.unwrap();
     let in_force = async || {

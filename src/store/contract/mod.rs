@@ -4,8 +4,10 @@
 
 mod analyses;
 mod blobs;
+mod capacity;
 mod corrections;
 mod hidden_maps;
+mod keys;
 mod maps;
 mod queue;
 mod registries;
@@ -110,6 +112,16 @@ macro_rules! contract {
                     a_registry_is_changed_only_from_the_version_that_was_read
                     maps_of_a_site_share_its_registry_and_it_ends_with_the_last
                 }
+                keys {
+                    a_key_is_found_by_its_id_and_revoked_for_good
+                    the_log_of_changes_is_read_by_its_tenant_and_forgotten_by_age
+                }
+                capacity {
+                    a_tenant_has_no_more_than_it_may_and_others_do_not_notice
+                    what_is_stored_of_a_tenant_counts_upload_and_result
+                    tenants_are_served_in_turn
+                    a_tenant_runs_no_more_jobs_than_it_may
+                }
                 tenants {
                     what_belongs_to_another_tenant_is_not_there
                     two_tenants_may_use_the_same_names
@@ -126,6 +138,7 @@ contract!(postgres, crate::store::postgres::tests::OnServer);
 pub const TERMS: Terms = Terms {
     lease: Duration::from_secs(30),
     max_attempts: 3,
+    running_of_tenant: u64::MAX,
     backoff: |_, _| Duration::from_secs(5),
     in_touch_since: Timestamp::MIN,
 };
@@ -166,7 +179,10 @@ async fn try_upload(
     let map = map_row(content);
     let source = Blob::encode(&MapSource::Message(content.as_bytes().to_vec()));
     let job = job_of(map.id, source.id(), 1);
-    store.create_map(tenant, &map, &source, &job, key, max_queued, now()).await.expect("the upload is stored")
+    store
+        .create_map(tenant, &map, &source, &job, key, &Capacity::queue(max_queued), now())
+        .await
+        .expect("the upload is stored")
 }
 
 /// The first map of a site.
@@ -189,7 +205,7 @@ fn map_row(name: &str) -> NewMapRow {
 async fn request(store: &Arc<dyn Store>, map: Uuid, seed: u64) -> Request {
     let source = store.map_source(&local(), map).await.expect("it answers").expect("the map is there");
     let job = job_of(map, &source, seed);
-    let request = store.request_analysis(&local(), &with_seed(seed), &job, 9, now()).await;
+    let request = store.request_analysis(&local(), &with_seed(seed), &job, &Capacity::queue(9), now()).await;
     request.expect("it answers").expect("the map is there")
 }
 

@@ -120,12 +120,13 @@ pub async fn a_job_that_was_cut_off_waits_behind_the_others(engine: &impl Engine
 pub async fn a_job_that_failed_or_was_dismissed_runs_once_more(engine: &impl Engine) {
     let store = engine.store();
     let job = upload(store, "map").await;
-    let retry = async |most| store.retry(&local(), job.id, most, now()).await.unwrap().expect("it is there");
+    let retry =
+        async |most| store.retry(&local(), job.id, &Capacity::queue(most), now()).await.unwrap().expect("it is there");
     assert!(matches!(retry(9).await, Retry::NotOver(_)));
     for state in [JobState::Failed, JobState::Dismissed] {
         let held = claim(store, now()).await.expect("it waits");
         store.end(&held, state, "for a test", now()).await.unwrap();
-        assert_eq!(retry(0).await, Retry::QueueFull);
+        assert_eq!(retry(0).await, Retry::Full(Full::Queue));
         let Retry::Queued(again) = retry(9).await else { panic!("it is over") };
         assert_eq!((again.state, again.attempt, again.message.as_str()), (JobState::Accepted, 0, ""));
         assert_eq!((again.started, again.finished), (None, None));
@@ -138,7 +139,7 @@ pub async fn a_job_that_failed_or_was_dismissed_runs_once_more(engine: &impl Eng
     let held = claim(store, now()).await.expect("it waits");
     finish(store, &held).await.expect("the wish to cancel is forgotten");
     assert!(matches!(retry(9).await, Retry::NotOver(_)));
-    assert!(store.retry(&local(), Uuid::now_v7(), 9, now()).await.unwrap().is_none());
+    assert!(store.retry(&local(), Uuid::now_v7(), &Capacity::UNLIMITED, now()).await.unwrap().is_none());
 }
 
 pub async fn a_waiting_job_is_dismissed_at_once_a_running_one_is_asked_to_stop(engine: &impl Engine) {
@@ -158,12 +159,13 @@ pub async fn a_waiting_job_is_dismissed_at_once_a_running_one_is_asked_to_stop(e
 pub async fn a_full_queue_takes_no_more(engine: &impl Engine) {
     let store = engine.store();
     upload(store, "first").await;
-    assert_eq!(store.waiting_jobs().await.unwrap(), 1);
-    assert_eq!(try_upload(store, &local(), "second", None, 1).await, Upload::QueueFull);
+    let capacity = Capacity::queue(1);
+    assert_eq!(store.full(&local(), &capacity).await.unwrap(), Some(Full::Queue));
+    assert_eq!(try_upload(store, &local(), "second", None, 1).await, Upload::Full(Full::Queue));
     assert_eq!(counts(store).await, (1, 0, 1));
     claim(store, now()).await.unwrap();
     assert!(matches!(try_upload(store, &local(), "second", None, 1).await, Upload::New(_)), "running jobs do not wait");
-    assert_eq!(store.waiting_jobs().await.unwrap(), 1);
+    assert_eq!(store.full(&local(), &capacity).await.unwrap(), Some(Full::Queue));
 }
 
 pub async fn a_result_may_be_a_document(engine: &impl Engine) {

@@ -55,7 +55,7 @@ pub async fn maps_of_a_site_share_its_registry_and_it_ends_with_the_last(engine:
     let second = NewMapRow { site: first, ..map_row("hall again") };
     let source = Blob::encode(&MapSource::Message(b"hall again".to_vec()));
     let job = job_of(second.id, source.id(), 1);
-    store.create_map(&local(), &second, &source, &job, None, u64::MAX, now()).await.unwrap();
+    store.create_map(&local(), &second, &source, &job, None, &Capacity::UNLIMITED, now()).await.unwrap();
     assert!(put(store, first, "01", 0).await);
     assert_eq!(read(store, second.id).await.registry, registry("01"));
     assert!(read(store, first).await.is_newest, "the other one is not analysed yet");
@@ -73,6 +73,6 @@ pub async fn maps_of_a_site_share_its_registry_and_it_ends_with_the_last(engine:
     store.delete_map(&local(), second.id, None).await.unwrap();
     let anew = NewMapRow { id: first, site: first, ..map_row("hall") };
     let job = job_of(first, source.id(), 1);
-    store.create_map(&local(), &anew, &source, &job, None, u64::MAX, now()).await.unwrap();
+    store.create_map(&local(), &anew, &source, &job, None, &Capacity::UNLIMITED, now()).await.unwrap();
     assert_eq!(read(store, first).await.version, 0, "nothing was left of it");
 }

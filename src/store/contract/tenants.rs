@@ -32,7 +32,7 @@ pub async fn what_belongs_to_another_tenant_is_not_there(engine: &impl Engine) {
     let rename = MapPatch { name: Some("theirs".into()), georeference: None };
     assert_eq!(store.update_map(&other, job.map, &rename, None, now()).await.unwrap(), None);
     let again = job_of(job.map, &source, 2);
-    assert_eq!(store.request_analysis(&other, &with_seed(2), &again, 9, now()).await.unwrap(), None);
+    assert_eq!(store.request_analysis(&other, &with_seed(2), &again, &Capacity::queue(9), now()).await.unwrap(), None);
     let row = NewSemanticsRow {
         map: job.map,
         analysis,

@@ -6,15 +6,18 @@ use stillage_core::AnalysisOptions;
 use stillage_core::analysis::ALGORITHM_VERSION;
 use uuid::Uuid;
 
+use super::capacity::Addition;
 use super::columns::SqlRow;
 use super::database::Transaction;
-use super::jobs::{insert_job, is_queue_full};
+use super::jobs::insert_job;
 use super::rows::{analysis_record, job_record, json, map_record, semantics_record};
 use super::statement::query;
 use super::store::SqlStore;
 use crate::records::{AnalysisRecord, SemanticsRecord, StageReport, Tenant};
 use crate::store::queue::Claim;
-use crate::store::{Analyses, BlobId, MapState, NewAnalysis, NewJob, Outdated, Request, Snapshot, StoreError};
+use crate::store::{
+    Analyses, Blob, BlobId, Capacity, MapState, NewAnalysis, NewJob, Outdated, Request, Snapshot, StoreError,
+};
 
 #[async_trait]
 impl Analyses for SqlStore {
@@ -23,10 +26,11 @@ impl Analyses for SqlStore {
         tenant: &Tenant,
         options: &AnalysisOptions,
         job: &NewJob,
-        max_queued: u64,
+        capacity: &Capacity,
         now: Timestamp,
     ) -> Result<Option<Request>, StoreError> {
         let mut transaction = self.database.write().await?;
+        transaction.alone_on_tenant(tenant, capacity).await?;
         transaction.alone_on_site_of(job.map).await?;
         let row =
             query("SELECT id FROM maps WHERE tenant = $1 AND id = $2").bind(tenant.as_str()).bind(job.map.to_string());
@@ -57,8 +61,8 @@ impl Analyses for SqlStore {
             transaction.commit().await?;
             return Ok(Some(Request::Pending(job_record(&row)?)));
         }
-        if is_queue_full(&mut transaction, max_queued).await? {
-            return Ok(Some(Request::QueueFull));
+        if let Some(full) = transaction.full(tenant, capacity, Addition::default()).await? {
+            return Ok(Some(Request::Full(full)));
         }
         let job = insert_job(&mut transaction, tenant, job, now).await?;
         transaction.commit().await?;
@@ -221,12 +225,12 @@ pub(super) async fn insert_analysis(
     claim: &Claim,
     analysis: &NewAnalysis,
     stages: &[StageReport],
-    blob: &BlobId,
+    blob: &Blob,
     now: Timestamp,
 ) -> Result<(), StoreError> {
     query(
-        "INSERT INTO analyses (id, map, job, created, options, algorithm, address, blob, stages, diagnostics) \
-         VALUES ($1, $2, $3, $4, $5, $6, $7, $8, $9, $10)",
+        "INSERT INTO analyses (id, map, job, created, options, algorithm, address, blob, stages, diagnostics, bytes) \
+         VALUES ($1, $2, $3, $4, $5, $6, $7, $8, $9, $10, $11)",
     )
     .bind(analysis.id.to_string())
     .bind(claim.map.to_string())
@@ -235,9 +239,10 @@ pub(super) async fn insert_analysis(
     .bind(json(&analysis.options))
     .bind(ALGORITHM_VERSION)
     .bind(claim.address.as_str())
-    .bind(blob.as_str())
+    .bind(blob.id().as_str())
     .bind(json(&stages))
     .bind(json(&analysis.diagnostics))
+    .bind(blob.bytes().len() as i64)
     .execute(&mut *transaction)
     .await?;
     let comes_into_force = query(

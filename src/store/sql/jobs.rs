@@ -6,13 +6,14 @@ use async_trait::async_trait;
 use jiff::Timestamp;
 use uuid::Uuid;
 
+use super::capacity::Addition;
 use super::columns::SqlRow;
 use super::database::Transaction;
 use super::rows::{job_record, json};
-use super::statement::{RunsOn, query};
+use super::statement::query;
 use super::store::SqlStore;
 use crate::records::{JobFilter, JobRecord, JobState, Tenant};
-use crate::store::{Jobs, NewJob, Retry, StoreError, now};
+use crate::store::{Capacity, Jobs, NewJob, Retry, StoreError, now};
 
 #[async_trait]
 impl Jobs for SqlStore {
@@ -72,10 +73,11 @@ impl Jobs for SqlStore {
         &self,
         tenant: &Tenant,
         id: Uuid,
-        max_queued: u64,
+        capacity: &Capacity,
         now: Timestamp,
     ) -> Result<Option<Retry>, StoreError> {
         let mut transaction = self.database.write().await?;
+        transaction.alone_on_tenant(tenant, capacity).await?;
         let row = query(
             "SELECT *, EXISTS (SELECT 1 FROM analyses WHERE analyses.map = jobs.map AND analyses.address = jobs.address) \
                  OR EXISTS (SELECT 1 FROM jobs AS other WHERE other.map = jobs.map AND other.address = jobs.address \
@@ -93,8 +95,8 @@ impl Jobs for SqlStore {
         if row.flag("superseded")? {
             return Ok(Some(Retry::Superseded));
         }
-        if is_queue_full(&mut transaction, max_queued).await? {
-            return Ok(Some(Retry::QueueFull));
+        if let Some(full) = transaction.full(tenant, capacity, Addition::default()).await? {
+            return Ok(Some(Retry::Full(full)));
         }
         let row = query(
             "UPDATE jobs SET state = 'accepted', attempt = 0, cut_off_in = NULL, cut_offs = 0, cancel_requested = FALSE, \
@@ -108,10 +110,6 @@ impl Jobs for SqlStore {
         .await?;
         transaction.commit().await?;
         Ok(Some(Retry::Queued(Box::new(job_record(&row)?))))
-    }
-
-    async fn waiting_jobs(&self) -> Result<u64, StoreError> {
-        waiting_jobs(&self.database).await
     }
 
     async fn job_counts(&self) -> Result<Vec<(JobState, u64)>, StoreError> {
@@ -156,16 +154,4 @@ pub(super) async fn insert_job(
     .fetch_one(&mut *transaction)
     .await?;
     job_record(&row)
-}
-
-/// Whether as many jobs wait as may.
-pub(super) async fn is_queue_full(transaction: &mut Transaction, max_queued: u64) -> Result<bool, StoreError> {
-    Ok(waiting_jobs(transaction).await? >= max_queued)
-}
-
-async fn waiting_jobs<'a>(place: impl Into<RunsOn<'a>>) -> Result<u64, StoreError> {
-    let row = query("SELECT count(*) AS waiting FROM jobs WHERE state = 'accepted' AND tenant <> ''")
-        .fetch_one(place)
-        .await?;
-    row.whole("waiting")
 }

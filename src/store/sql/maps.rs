@@ -4,15 +4,16 @@ use async_trait::async_trait;
 use jiff::Timestamp;
 use uuid::Uuid;
 
+use super::capacity::Addition;
 use super::database::Transaction;
-use super::jobs::{insert_job, is_queue_full};
+use super::jobs::insert_job;
 use super::rows::{job_record, json, map_record};
 use super::statement::query;
 use super::store::SqlStore;
 use crate::coordinates::Survey;
 use crate::fail_point;
 use crate::records::{MapPatch, MapRecord, Tenant};
-use crate::store::{Blob, BlobId, IdempotencyKey, Maps, NewJob, NewMapRow, StoreError, Upload};
+use crate::store::{Blob, BlobId, Capacity, Full, IdempotencyKey, Maps, NewJob, NewMapRow, StoreError, Upload};
 
 /// How long an idempotency key is remembered, microseconds: a day, as Stripe keeps them at least
 /// (<https://docs.stripe.com/api/idempotent_requests>).
@@ -20,6 +21,11 @@ const KEY_LIFE_US: i64 = 24 * 3600 * 1_000_000;
 
 #[async_trait]
 impl Maps for SqlStore {
+    async fn full(&self, tenant: &Tenant, capacity: &Capacity) -> Result<Option<Full>, StoreError> {
+        let new = Addition { maps: 1, bytes: 1 };
+        self.database.snapshot().await?.full(tenant, capacity, new).await
+    }
+
     async fn create_map(
         &self,
         tenant: &Tenant,
@@ -27,7 +33,7 @@ impl Maps for SqlStore {
         source: &Blob,
         job: &NewJob,
         key: Option<&IdempotencyKey>,
-        max_queued: u64,
+        capacity: &Capacity,
         now: Timestamp,
     ) -> Result<Upload, StoreError> {
         let mut transaction = self.write_with(Some(source)).await?;
@@ -39,11 +45,13 @@ impl Maps for SqlStore {
                 return Ok(seen);
             }
         }
-        if is_queue_full(&mut transaction, max_queued).await? {
-            return Ok(Upload::QueueFull);
+        transaction.alone_on_tenant(tenant, capacity).await?;
+        let new = Addition { maps: 1, bytes: source.bytes().len() as u64 };
+        if let Some(full) = transaction.full(tenant, capacity, new).await? {
+            return Ok(Upload::Full(full));
         }
         transaction.alone_on_site(map.site).await?;
-        insert_map(&mut transaction, tenant, map, source.id(), now).await?;
+        insert_map(&mut transaction, tenant, map, source, now).await?;
         let job = insert_job(&mut transaction, tenant, job, now).await?;
         if let Some(key) = key {
             query("INSERT INTO idempotency_keys (tenant, key, content, job, created) VALUES ($1, $2, $3, $4, $5)")
@@ -191,13 +199,13 @@ async fn insert_map(
     transaction: &mut Transaction,
     tenant: &Tenant,
     map: &NewMapRow,
-    source: &BlobId,
+    source: &Blob,
     now: Timestamp,
 ) -> Result<(), StoreError> {
     query(
         "INSERT INTO maps (id, name, created, updated, width, height, resolution, georeference, warnings, source, version, \
-             tenant, site, alignment) \
-         VALUES ($1, $2, $3, $3, $4, $5, $6, $7, $8, $9, 1, $10, $11, $12)",
+             tenant, site, alignment, bytes) \
+         VALUES ($1, $2, $3, $3, $4, $5, $6, $7, $8, $9, 1, $10, $11, $12, $13)",
     )
     .bind(map.id.to_string())
     .bind(&map.name)
@@ -207,10 +215,11 @@ async fn insert_map(
     .bind(map.resolution)
     .bind(map.georeference.as_ref().map(json))
     .bind(json(&map.warnings))
-    .bind(source.as_str())
+    .bind(source.id().as_str())
     .bind(tenant.as_str())
     .bind(map.site.to_string())
     .bind(map.alignment.as_ref().map(json))
+    .bind(source.bytes().len() as i64)
     .execute(&mut *transaction)
     .await?;
     Ok(())

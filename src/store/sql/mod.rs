@@ -15,6 +15,7 @@
 mod analyses;
 mod audit;
 mod blob_rows;
+mod capacity;
 mod columns;
 mod copying;
 mod database;

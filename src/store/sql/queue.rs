@@ -26,19 +26,29 @@ impl Queue for SqlStore {
     async fn claim(&self, terms: &Terms, now: Timestamp) -> Result<Option<Claim>, StoreError> {
         let mut transaction = self.database.write().await?;
         end_expired_claims(&mut transaction, terms, now).await?;
+        if terms.running_of_tenant < u64::MAX {
+            // Those that run are counted below.
+            transaction.alone_on("claims").await?;
+        }
         let row = query(of_free_rows!(
             transaction,
             "UPDATE jobs SET state = 'running', attempt = attempt + 1, claim = claim + 1, lease_until = $2, \
                  started = coalesce(started, $1), updated = CASE WHEN updated < $1 THEN $1 ELSE updated + 1 END, \
                  message = '', progress = 0, stage = NULL, stages = '[]' \
              WHERE id = (SELECT id FROM jobs WHERE state = 'accepted' AND tenant <> '' AND run_at <= $1 \
-                 ORDER BY attempt, id LIMIT 1",
+                 AND (SELECT count(*) FROM jobs AS others WHERE others.tenant = jobs.tenant AND others.state = 'running') < $3 \
+                 ORDER BY coalesce((SELECT turn FROM tenant_turns WHERE tenant_turns.tenant = jobs.tenant), 0), attempt, id \
+                 LIMIT 1",
             ") RETURNING *, (SELECT source FROM maps WHERE maps.id = jobs.map) AS source"
         ))
         .bind(now.as_microsecond())
         .bind(after(now, terms.lease))
+        .bind(i64::try_from(terms.running_of_tenant).unwrap_or(i64::MAX))
         .fetch_optional(&mut transaction)
         .await?;
+        if let Some(row) = &row {
+            end_turn(&mut transaction, &row.text("tenant")?, now).await?;
+        }
         transaction.commit().await?;
         if row.is_some() {
             fail_point::pass("after-claim");
@@ -126,7 +136,7 @@ impl Queue for SqlStore {
             return Err(StoreError::ClaimLost);
         }
         if let JobResult::Analysis(analysis, blob) = result {
-            insert_analysis(&mut transaction, claim, analysis, stages, blob.id(), now).await?;
+            insert_analysis(&mut transaction, claim, analysis, stages, blob, now).await?;
         }
         fail_point::pass("before-finish-commit");
         transaction.commit().await?;
@@ -177,6 +187,18 @@ impl Queue for SqlStore {
         transaction.commit().await?;
         if requeued == 1 { Ok(()) } else { Err(StoreError::ClaimLost) }
     }
+}
+
+/// Puts a tenant behind the others, whose jobs come first from now on.
+async fn end_turn(transaction: &mut Transaction, tenant: &str, now: Timestamp) -> Result<(), StoreError> {
+    query(
+        "INSERT INTO tenant_turns (tenant, turn) VALUES ($1, $2) ON CONFLICT (tenant) DO UPDATE SET turn = excluded.turn",
+    )
+    .bind(tenant)
+    .bind(now.as_microsecond())
+    .execute(&mut *transaction)
+    .await?;
+    Ok(())
 }
 
 /// Ends the claims whose lease has run out.

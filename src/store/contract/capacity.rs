@@ -1,0 +1,83 @@
+//! What tenants may have, and whose turn it is.
+
+use super::*;
+
+fn other() -> Tenant {
+    Tenant::new("other")
+}
+
+/// Uploads within quotas of the tenant.
+async fn upload_within(store: &Arc<dyn Store>, tenant: &Tenant, content: &str, quotas: Quotas) -> Upload {
+    let map = map_row(content);
+    let source = Blob::encode(&MapSource::Message(content.as_bytes().to_vec()));
+    let job = job_of(map.id, source.id(), 1);
+    let capacity = Capacity { of_tenant: quotas, ..Capacity::UNLIMITED };
+    store.create_map(tenant, &map, &source, &job, None, &capacity, now()).await.expect("it answers")
+}
+
+pub async fn a_tenant_has_no_more_than_it_may_and_others_do_not_notice(engine: &impl Engine) {
+    let store = engine.store();
+    let quotas = Quotas { maps: 2, queued_jobs: 2, ..Quotas::UNLIMITED };
+    let capacity = Capacity { of_tenant: quotas, ..Capacity::UNLIMITED };
+    for name in ["first", "second"] {
+        assert!(matches!(upload_within(store, &local(), name, quotas).await, Upload::New(_)));
+    }
+    assert_eq!(upload_within(store, &local(), "third", quotas).await, Upload::Full(Full::QueuedJobs));
+    assert_eq!(store.full(&local(), &capacity).await.unwrap(), Some(Full::QueuedJobs));
+    assert!(matches!(upload_within(store, &other(), "theirs", quotas).await, Upload::New(_)));
+
+    let held = claim(store, now()).await.unwrap();
+    assert_eq!(upload_within(store, &local(), "third", quotas).await, Upload::Full(Full::Maps), "a job less waits");
+    store.delete_map(&local(), held.map, None).await.unwrap();
+    assert_eq!(store.full(&local(), &capacity).await.unwrap(), None);
+    assert!(matches!(upload_within(store, &local(), "third", quotas).await, Upload::New(_)), "there is room again");
+}
+
+pub async fn what_is_stored_of_a_tenant_counts_upload_and_result(engine: &impl Engine) {
+    let store = engine.store();
+    let length = Blob::encode(&MapSource::Message(b"a map".to_vec())).bytes().len() as u64;
+    let within = |bytes| Quotas { bytes, ..Quotas::UNLIMITED };
+    assert_eq!(upload_within(store, &local(), "a map", within(length - 1)).await, Upload::Full(Full::Bytes));
+    assert!(matches!(upload_within(store, &local(), "a map", within(length)).await, Upload::New(_)));
+    assert_eq!(upload_within(store, &local(), "a map", within(2 * length - 1)).await, Upload::Full(Full::Bytes));
+    let held = claim(store, now()).await.unwrap();
+    finish(store, &held).await.unwrap();
+    assert_eq!(upload_within(store, &local(), "a map", within(2 * length)).await, Upload::Full(Full::Bytes));
+    assert!(
+        matches!(upload_within(store, &other(), "a map", within(length)).await, Upload::New(_)),
+        "not told of ours"
+    );
+}
+
+pub async fn tenants_are_served_in_turn(engine: &impl Engine) {
+    let store = engine.store();
+    for name in ["first", "second", "third"] {
+        upload(store, name).await;
+    }
+    let served = async |second: i64| claim(store, later(second)).await.map(|claim| claim.tenant);
+    assert_eq!(served(0).await, Some(local()));
+    for name in ["theirs", "theirs, too"] {
+        try_upload(store, &other(), name, None, u64::MAX).await;
+    }
+    let mut turns = Vec::new();
+    for second in 1..5 {
+        turns.push(served(second).await.expect("a job waits"));
+    }
+    assert_eq!(turns, [other(), local(), other(), local()]);
+    assert_eq!(served(6).await, None);
+}
+
+pub async fn a_tenant_runs_no_more_jobs_than_it_may(engine: &impl Engine) {
+    let store = engine.store();
+    let terms = Terms { running_of_tenant: 1, ..TERMS };
+    for name in ["first", "second"] {
+        upload(store, name).await;
+    }
+    try_upload(store, &other(), "theirs", None, u64::MAX).await;
+    let first = store.claim(&terms, now()).await.unwrap().expect("a job waits");
+    let theirs = store.claim(&terms, now()).await.unwrap().expect("a job waits");
+    assert_eq!((&first.tenant, &theirs.tenant), (&local(), &other()));
+    assert!(store.claim(&terms, now()).await.unwrap().is_none());
+    finish(store, &first).await.unwrap();
+    assert_eq!(store.claim(&terms, now()).await.unwrap().expect("there is room").tenant, local());
+}
