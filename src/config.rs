@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use crate::access::KeySecretError;
+use crate::access::{KeySecretError, TokenRules};
 use crate::allowed_hosts::AllowedHosts;
 use crate::ingest::Limits;
 pub use crate::storage_address::{BlobAddress, DatabaseAddress};
@@ -29,6 +29,15 @@ pub enum KeyRule {
     Required,
 }
 
+/// Tokens of an identity provider.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct TokenConfig {
+    /// File or address of the provider's keys, a JWK Set.
+    pub keys: String,
+    /// Which of its tokens are taken.
+    pub rules: TokenRules,
+}
+
 /// Configuration of a running service.
 #[derive(Debug, Clone)]
 pub struct Config {
@@ -38,10 +47,14 @@ pub struct Config {
     pub blobs: BlobAddress,
     /// What this process does.
     pub role: Role,
+    /// Whether clients reach the listener by TLS.
+    pub is_tls: bool,
     /// Whether requests need a key.
     pub keys: KeyRule,
     /// File of the secret that keys are hashed with; `None` for `key-secret` in the folder of SQLite.
     pub key_secret_file: Option<PathBuf>,
+    /// Which tokens of an identity provider are taken in place of keys; none when absent.
+    pub tokens: Option<TokenConfig>,
     /// Requests that a key may send in a minute; 0 for any number.
     pub requests_per_minute: u32,
     /// What a tenant may have.
@@ -104,8 +117,10 @@ impl Config {
             blobs: BlobAddress::Folder(data.join("blobs")),
             database: DatabaseAddress::Sqlite(data),
             role: Role::All,
+            is_tls: false,
             keys: KeyRule::None,
             key_secret_file: None,
+            tokens: None,
             requests_per_minute: 6_000,
             quotas: Quotas::UNLIMITED,
             keep_audit: Duration::from_hours(365 * 24),

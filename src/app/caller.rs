@@ -1,6 +1,6 @@
 //! Who asks.
 
-use crate::access::{Scope, Scopes};
+use crate::access::{Scope, Scopes, TokenBearer};
 use crate::records::{KeyRecord, Tenant};
 
 /// Who asks for a use case. Everything is read and written for the caller's tenant: what belongs to another one is not
@@ -10,6 +10,8 @@ pub struct Caller {
     tenant: Tenant,
     scopes: Scopes,
     name: String,
+    /// The id of the key, where it is one.
+    key: Option<String>,
 }
 
 impl Caller {
@@ -22,13 +24,19 @@ impl Caller {
     /// Somebody who may do everything for this tenant.
     #[must_use]
     pub fn of(tenant: Tenant) -> Self {
-        Self { name: tenant.to_string(), tenant, scopes: Scopes::all() }
+        Self { name: tenant.to_string(), tenant, scopes: Scopes::all(), key: None }
     }
 
     /// Whoever has this key.
     #[must_use]
     pub fn with_key(key: &KeyRecord) -> Self {
-        Self { tenant: key.tenant.clone(), scopes: key.scopes, name: key.id.clone() }
+        Self { tenant: key.tenant.clone(), scopes: key.scopes, name: key.id.clone(), key: Some(key.id.clone()) }
+    }
+
+    /// Whoever has this token.
+    #[must_use]
+    pub fn with_token(TokenBearer { tenant, scopes, subject }: TokenBearer) -> Self {
+        Self { tenant, scopes, name: format!("sub:{subject}"), key: None }
     }
 
     /// The tenant.
@@ -43,7 +51,13 @@ impl Caller {
         self.scopes.has(scope)
     }
 
-    /// Who it is, as the log of changes has it: the id of the key.
+    /// The id of the caller's key.
+    #[must_use]
+    pub fn key(&self) -> Option<&str> {
+        self.key.as_deref()
+    }
+
+    /// Who it is, as the log of changes has it: the id of the key, or `sub:` and the subject of the token.
     #[must_use]
     pub fn name(&self) -> &str {
         &self.name

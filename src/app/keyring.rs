@@ -4,8 +4,9 @@ use std::collections::HashMap;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
+use super::tokens::TokenDoor;
 use super::{App, AppError, Caller};
-use crate::access::{ApiKey, KeyHash, KeySecret, KeySecretError, SESSION, Session};
+use crate::access::{ApiKey, KeyHash, KeySecret, SESSION, Session, is_token};
 use crate::config::{Config, KeyRule};
 use crate::records::KeyRecord;
 use crate::store::now;
@@ -20,7 +21,7 @@ const MOST_KNOWN: usize = 10_000;
 /// What somebody shows who asks.
 #[derive(Debug, Clone)]
 pub enum Credential {
-    /// A key.
+    /// A key, or a token of an identity provider.
     Key(String),
     /// A session of a browser.
     Session(String),
@@ -30,20 +31,28 @@ pub enum Credential {
 #[derive(Debug)]
 pub(super) struct Keyring {
     secret: KeySecret,
+    /// `None` where no tokens are taken.
+    tokens: Option<TokenDoor>,
     known: Mutex<HashMap<String, (Instant, KeyRecord, KeyHash)>>,
 }
 
 impl Keyring {
-    /// The keyring of a configuration; `None` where requests need no key. In the folder of SQLite the secret is made where
+    /// The keyring of a configuration, with the keys of its identity provider; `None` where requests need no key. In the folder of SQLite the secret is made where
     /// it is missing. Processes that share a database share its file, too, which none of them may make for itself.
-    pub(super) fn of(config: &Config) -> Result<Option<Self>, KeySecretError> {
+    pub(super) async fn open(config: &Config) -> Result<Option<Self>, AppError> {
         if config.keys == KeyRule::None {
             return Ok(None);
         }
-        let path = config.key_secret_path()?;
         let is_own = config.key_secret_file.is_none();
-        let secret = if is_own { KeySecret::read_or_make(&path)? } else { KeySecret::read(&path)? };
-        Ok(Some(Self { secret, known: Mutex::default() }))
+        let secret = config
+            .key_secret_path()
+            .and_then(|path| if is_own { KeySecret::read_or_make(&path) } else { KeySecret::read(&path) });
+        let secret = secret.map_err(|error| AppError::Internal(Box::new(error)))?;
+        let tokens = match config.tokens.clone() {
+            Some(config) => Some(TokenDoor::open(config).await.map_err(|error| AppError::Internal(Box::new(error)))?),
+            None => None,
+        };
+        Ok(Some(Self { secret, tokens, known: Mutex::default() }))
     }
 
     fn recall(&self, id: &str) -> Option<(KeyRecord, KeyHash)> {
@@ -81,6 +90,10 @@ impl App {
         let Some(keyring) = &self.keyring else { return Ok(Caller::local()) };
         let refused = |reason: &str| AppError::Unauthorized(reason.to_owned());
         let (id, hash) = match shown {
+            Credential::Key(text) if is_token(text) => {
+                let tokens = keyring.tokens.as_ref().ok_or_else(|| refused("no tokens are taken here: send a key"))?;
+                return tokens.caller(text).await;
+            }
             Credential::Key(text) => {
                 let key = ApiKey::read(text).ok_or_else(|| refused("this key is not known here"))?;
                 (key.id().to_owned(), Some(key.hash(&keyring.secret)))
@@ -102,12 +115,12 @@ impl App {
         }))
     }
 
-    /// A session for a caller who signed in with a key; `None` where none is needed.
+    /// A session for a caller who signed in with a key; `None` for others.
     #[must_use]
     pub fn session(&self, caller: &Caller) -> Option<String> {
         let keyring = self.keyring.as_ref()?;
         let end = now().checked_add(SESSION).ok()?;
-        Some(Session { key: caller.name().to_owned(), end }.seal(&keyring.secret))
+        Some(Session { key: caller.key()?.to_owned(), end }.seal(&keyring.secret))
     }
 
     async fn known_key(&self, keyring: &Keyring, id: &str) -> Result<Option<(KeyRecord, KeyHash)>, AppError> {

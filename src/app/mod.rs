@@ -23,7 +23,7 @@
 //! | `routers`, `latest` | its routers and navigation graphs, the latest kept |
 //! | `exports` | its files for other programs |
 //! | `service` | what the use cases share, start and stop |
-//! | `caller`, `keyring`, `audit` | who asks, with which key, and who changed what |
+//! | `caller`, `keyring`, `tokens`, `audit` | who asks, with which key, and who changed what |
 //! | `evaluations` | how well it fits the truth of its site |
 //!
 //! Every use case takes its [`Caller`] first. What concerns the service itself (readiness, metrics, the orderly stop)
@@ -66,6 +66,7 @@ mod site_carrying;
 mod stored_blobs;
 #[cfg(test)]
 mod tests;
+mod tokens;
 
 pub use crate::jobs::processes::{ANALYSIS, ProcessDescription};
 pub use crate::records::{

@@ -50,7 +50,7 @@ impl App {
     pub async fn open(config: Config) -> Result<Arc<Self>, AppError> {
         let store = store::open(&config).await?;
         take_up(&*store, config.max_attempts).await?;
-        let keyring = Keyring::of(&config).map_err(|error| AppError::Internal(Box::new(error)))?;
+        let keyring = Keyring::open(&config).await?;
         if keyring.is_none() && !store.keys().keys(None).await?.is_empty() {
             tracing::warn!("there are API keys, but requests do not need one: start with --keys required");
         }

@@ -58,7 +58,7 @@ async fn demo(arguments: &DemoArgs) -> Result<(), Failure> {
         .map_err(Failure::internal)?;
 
     let (stop, stopped) = tokio::sync::oneshot::channel::<()>();
-    let serving = tokio::spawn(server::serve(listener, app.clone(), CONNECTIONS, async {
+    let serving = tokio::spawn(server::serve(listener, None, app.clone(), CONNECTIONS, async {
         // A dropped sender (a failed upload) stops the service as well.
         let _ = stopped.await;
     }));

@@ -24,6 +24,7 @@ mod progress;
 mod quotas;
 mod server;
 mod storage;
+mod tokens;
 
 use std::ffi::OsString;
 use std::process::ExitCode;

@@ -15,10 +15,12 @@ use tracing_subscriber::util::SubscriberInitExt as _;
 
 use super::quotas::QuotaArgs;
 use super::storage::{BlobsNotShared, StorageArgs};
+use super::tokens::TokenArgs;
 use crate::allowed_hosts::HostPattern;
 use crate::app::{App, AppError};
 use crate::config::{Config, DatabaseAddress, KeyRule, Role};
 use crate::ingest::Limits;
+use crate::server::tls::{self, TlsError};
 use crate::server::{self, ConnectionLimits, open_files};
 
 /// Serves the API. Everything can also be set in the environment.
@@ -31,6 +33,12 @@ pub(super) struct ServeArgs {
     /// delete every map.
     #[arg(long, env = "STILLAGE_ALLOW_PUBLIC")]
     pub(super) allow_public: bool,
+    /// Certificate in PEM, with those of its authorities behind it: the service then speaks HTTPS.
+    #[arg(long, env = "STILLAGE_TLS_CERT", value_name = "FILE", requires = "tls_key")]
+    pub(super) tls_cert: Option<PathBuf>,
+    /// Private key of the certificate in PEM.
+    #[arg(long, env = "STILLAGE_TLS_KEY", value_name = "FILE", requires = "tls_cert")]
+    pub(super) tls_key: Option<PathBuf>,
     /// Whether requests need a key, which `stillage key create` makes.
     #[arg(long, env = "STILLAGE_KEYS", default_value = "none", value_name = "RULE")]
     pub(super) keys: KeyRule,
@@ -41,6 +49,8 @@ pub(super) struct ServeArgs {
     /// Requests that a key may send in a minute; 0 for any number.
     #[arg(long, env = "STILLAGE_REQUESTS_PER_MINUTE", default_value_t = 6_000, value_name = "N")]
     pub(super) requests_per_minute: u32,
+    #[command(flatten)]
+    pub(super) tokens: TokenArgs,
     #[command(flatten)]
     pub(super) quotas: QuotaArgs,
     /// How long the log of changes is kept, days.
@@ -168,6 +178,9 @@ pub(super) enum ServeError {
     /// The logging directives make no sense.
     #[error("--log: {0}")]
     Log(#[from] tracing_subscriber::filter::ParseError),
+    /// The files of TLS.
+    #[error("--tls-cert and --tls-key: {0}")]
+    Tls(#[from] TlsError),
     /// The store does not open.
     #[error("{}", root(.0))]
     App(#[from] AppError),
@@ -196,8 +209,10 @@ impl ServeArgs {
         }
         Ok(Config {
             role: self.role,
+            is_tls: self.tls_cert.is_some(),
             keys: self.keys,
             key_secret_file: self.key_secret_file.clone(),
+            tokens: self.tokens.config(),
             requests_per_minute: self.requests_per_minute,
             quotas: self.quotas.quotas(self.keys),
             keep_audit: Duration::from_hours(u64::from(self.keep_audit_days) * 24),
@@ -253,9 +268,16 @@ async fn serve(args: &ServeArgs) -> Result<(), ServeError> {
     let address = args.listen;
     let listener = TcpListener::bind(address).await.map_err(|source| ServeError::Listen { address, source })?;
     let mut signals = StopSignals::listen()?;
+    let files = args.tls_cert.as_deref().zip(args.tls_key.as_deref());
+    let tls = files.map(|(certificate, key)| tls::acceptor(certificate, key)).transpose()?;
     let app = App::open(args.config()?).await?;
     // Whoever started the service may not listen any more.
-    let _ = writeln!(io::stdout(), "listening on http://{}", listener.local_addr()?);
+    let _ = writeln!(
+        io::stdout(),
+        "listening on {}://{}",
+        if tls.is_some() { "https" } else { "http" },
+        listener.local_addr()?
+    );
     let stop = async {
         signals.next().await;
         tracing::info!("stopping: running requests and jobs may end");
@@ -265,7 +287,7 @@ async fn serve(args: &ServeArgs) -> Result<(), ServeError> {
             std::process::exit(130);
         });
     };
-    server::serve(listener, app, args.connections(), stop).await;
+    server::serve(listener, tls, app, args.connections(), stop).await;
     tracing::info!("stopped");
     Ok(())
 }

@@ -205,12 +205,14 @@ fn of_service(app: Arc<App>) -> Router {
     let known = Arc::new(guard::KnownParameters::of(&document));
     let guard = guard::access::AccessGuard::new(Arc::clone(&app), &document);
     let metrics = Arc::new(guard::observe::Metrics::new());
+    let Config { trust_proxy, is_tls, .. } = *app.config();
+    let surroundings = public_address::Surroundings { trust_proxy, is_tls };
     let layers = ServiceBuilder::new()
         .layer(from_fn(guard::observe::tell_route))
         .layer(from_fn(browser_headers))
         .layer(from_fn(extract::conditional::tag_encodings))
         .layer(CompressionLayer::new())
-        .layer(from_fn_with_state(app.config().trust_proxy, public_address::resolve))
+        .layer(from_fn_with_state(surroundings, public_address::resolve))
         .layer(from_fn(problem::render))
         .layer(from_fn_with_state(Arc::clone(&app), maps::deletion::tell_restorable))
         .layer_fn(shared_service::SharedService::new)

@@ -11,10 +11,19 @@ use axum::http::{HeaderMap, HeaderValue, Uri, header};
 use axum::middleware::Next;
 use axum::response::Response;
 
+/// What decides whom the service believes about its address.
+#[derive(Debug, Clone, Copy)]
+pub struct Surroundings {
+    /// Whether what a proxy says is believed.
+    pub trust_proxy: bool,
+    /// Whether the listener speaks TLS.
+    pub is_tls: bool,
+}
+
 /// Scheme, authority and path under which the client reached the service.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct PublicAddress {
-    /// `http` or `https`, where a proxy says so. The service itself speaks HTTP and does not know.
+    /// `http` or `https`, where a proxy says so or the listener speaks TLS. Behind a proxy the service does not know by itself.
     scheme: Option<&'static str>,
     /// Host and port, without the scheme's own port.
     authority: Option<String>,
@@ -61,13 +70,13 @@ impl PublicAddress {
     }
 
     /// The address of a request.
-    fn of(headers: &HeaderMap, uri: &Uri, trust_proxy: bool) -> Self {
+    fn of(headers: &HeaderMap, uri: &Uri, surroundings: Surroundings) -> Self {
         let host = text(headers, "host").or_else(|| uri.authority().map(Authority::as_str)).map(str::to_owned);
-        let said = if trust_proxy { Said::by_proxies(headers) } else { Said::default() };
+        let said = if surroundings.trust_proxy { Said::by_proxies(headers) } else { Said::default() };
         let scheme = match said.scheme.as_deref() {
             Some("https") => Some("https"),
             Some("http") => Some("http"),
-            _ => None,
+            _ => surroundings.is_tls.then_some("https"),
         };
         let is_valid = |host: &String| host.parse::<Authority>().is_ok();
         let authority = said.host.filter(is_valid).or(host).map(|host| match said.port {
@@ -129,8 +138,8 @@ fn text<'a>(headers: &'a HeaderMap, name: &str) -> Option<&'a str> {
 
 /// Middleware: finds the address, for links, for problems and for the check of origins, and puts the prefix before
 /// `Location`.
-pub async fn resolve(State(trust_proxy): State<bool>, mut request: Request, next: Next) -> Response {
-    let address = PublicAddress::of(request.headers(), request.uri(), trust_proxy);
+pub async fn resolve(State(surroundings): State<Surroundings>, mut request: Request, next: Next) -> Response {
+    let address = PublicAddress::of(request.headers(), request.uri(), surroundings);
     request.extensions_mut().insert(address.clone());
     let mut response = next.run(request).await;
     if let Some(location) = text(response.headers(), "location").filter(|path| path.starts_with('/'))
@@ -146,10 +155,14 @@ mod tests {
     use super::*;
 
     fn address(trust_proxy: bool, headers: &[(&'static str, &'static str)]) -> PublicAddress {
+        address_in(Surroundings { trust_proxy, is_tls: false }, headers)
+    }
+
+    fn address_in(surroundings: Surroundings, headers: &[(&'static str, &'static str)]) -> PublicAddress {
         let header = |&(name, value): &(&'static str, &'static str)| {
             (header::HeaderName::from_static(name), HeaderValue::from_static(value))
         };
-        PublicAddress::of(&headers.iter().map(header).collect(), &Uri::from_static("/v1/maps"), trust_proxy)
+        PublicAddress::of(&headers.iter().map(header).collect(), &Uri::from_static("/v1/maps"), surroundings)
     }
 
     #[test]
@@ -168,6 +181,15 @@ mod tests {
         assert_eq!(root(&[host, proto, public, prefix]), "https://maps.example.com/stillage");
         let forwarded = ("forwarded", "for=192.0.2.60;Proto=https;host=\"a.example:8443\", for=10.0.0.1;host=b");
         assert_eq!(root(&[host, ("x-forwarded-proto", "http"), public, forwarded]), "https://a.example:8443");
+    }
+
+    #[test]
+    fn a_listener_with_tls_has_links_with_https() {
+        let own = address_in(Surroundings { trust_proxy: false, is_tls: true }, &[("host", "maps.example.com:443")]);
+        assert_eq!(own.root(), "https://maps.example.com");
+        assert!(
+            own.is_secure() && own.is_origin("https://maps.example.com") && !own.is_origin("http://maps.example.com")
+        );
     }
 
     #[test]

@@ -9,6 +9,7 @@
 //! | `places` | which connections are open, and which one makes room for a newcomer |
 //! | `waiting` | how long a connection has been waiting for its client |
 //! | `stream` | the bytes of a connection: the pace of clients that take answers |
+//! | `tls` | TLS, from a certificate and its key |
 //! | `heads` | heads of requests that other programs may read differently |
 //! | `body` | bodies of requests, until they are there |
 //! | `refusal` | what a connection without a place is answered |
@@ -20,6 +21,7 @@ pub mod open_files;
 mod places;
 mod refusal;
 mod stream;
+pub mod tls;
 mod waiting;
 
 use std::convert::Infallible;
@@ -37,9 +39,11 @@ use hyper::body::{Body as _, Incoming};
 use hyper::server::conn::http1;
 use hyper::service::service_fn;
 use hyper_util::rt::{TokioIo, TokioTimer};
-use hyper_util::server::graceful::GracefulShutdown;
+use hyper_util::server::graceful::{GracefulShutdown, Watcher};
+use tokio::io::{AsyncRead, AsyncWrite};
 use tokio::net::{TcpListener, TcpStream};
 use tokio::time::Instant;
+use tokio_rustls::TlsAcceptor;
 use tower::ServiceExt as _;
 
 use crate::app::App;
@@ -65,8 +69,14 @@ const ACCEPT_PAUSE: Duration = Duration::from_millis(100);
 /// Serves until `stop` comes about, then: not ready any more, and answers close their connections, for the notice of the
 /// configuration; no new connections, running requests and jobs to their end within the grace period, the rest of the jobs put
 /// back.
-pub async fn serve(listener: TcpListener, app: Arc<App>, limits: ConnectionLimits, stop: impl Future<Output = ()>) {
-    let server = Acceptor::new(Arc::clone(&app), limits);
+pub async fn serve(
+    listener: TcpListener,
+    tls: Option<TlsAcceptor>,
+    app: Arc<App>,
+    limits: ConnectionLimits,
+    stop: impl Future<Output = ()>,
+) {
+    let server = Acceptor::new(Arc::clone(&app), limits, tls);
     server.accept_until(&listener, stop).await;
     app.announce_stop();
     server.accept_until(&listener, tokio::time::sleep(app.config().shutdown_notice)).await;
@@ -94,15 +104,16 @@ struct Acceptor {
     connections: GracefulShutdown,
     places: Arc<ConnectionPlaces>,
     refusals: Refusals,
+    tls: Option<TlsAcceptor>,
 }
 
 impl Acceptor {
-    fn new(app: Arc<App>, limits: ConnectionLimits) -> Self {
+    fn new(app: Arc<App>, limits: ConnectionLimits, tls: Option<TlsAcceptor>) -> Self {
         let mut protocol = http1::Builder::new();
         protocol.timer(TokioTimer::new()).header_read_timeout(HEAD_TIMEOUT);
         let router = http::router(Arc::clone(&app));
         let (connections, places, refusals) = (GracefulShutdown::new(), ConnectionPlaces::new(limits), Refusals::new());
-        Self { app, router, protocol, connections, places, refusals }
+        Self { app, router, protocol, connections, places, refusals, tls }
     }
 
     async fn accept_until(&self, listener: &TcpListener, end: impl Future<Output = ()>) {
@@ -115,29 +126,68 @@ impl Acceptor {
         }
     }
 
-    /// Serves a connection, or refuses it where all others are at work.
+    /// Serves a connection, or refuses it where all others are at work: in words where no handshake comes first.
     fn begin(&self, stream: TcpStream, address: IpAddr) {
-        let Some(place) = self.places.take(address) else { return self.refusals.refuse(stream) };
+        let Some(place) = self.places.take(address) else {
+            if self.tls.is_none() {
+                self.refusals.refuse(stream);
+            }
+            return;
+        };
         // Answers are written whole; waiting to fill a packet only delays them.
         let _ = stream.set_nodelay(true);
-        let (app, router, waiting) = (Arc::clone(&self.app), self.router.clone(), Arc::clone(&place.waiting));
-        let stream = WatchedStream::new(stream, Arc::clone(&waiting), PaceLimits::default());
-        let answer = service_fn(move |request| {
-            answer(request, ClientAddress(address), router.clone(), Arc::clone(&app), Arc::clone(&waiting))
-        });
-        let connection = self.protocol.serve_connection(TokioIo::new(stream), answer);
-        tokio::spawn(see_to_its_end(self.connections.watch(connection), place));
+        let connection = Connection {
+            app: Arc::clone(&self.app),
+            router: self.router.clone(),
+            protocol: self.protocol.clone(),
+            watcher: self.connections.watcher(),
+            address: ClientAddress(address),
+        };
+        match self.tls.clone() {
+            None => tokio::spawn(connection.serve(stream, place)),
+            Some(tls) => tokio::spawn(connection.serve_behind_tls(tls, stream, place)),
+        };
     }
 }
 
-async fn see_to_its_end(connection: impl Future<Output = hyper::Result<()>>, place: ConnectionPlace) {
-    tokio::select! {
-        ended = connection => {
-            if let Err(error) = ended {
-                tracing::debug!(%error, "connection ended early");
-            }
+/// What one connection is served with.
+struct Connection {
+    app: Arc<App>,
+    router: Router,
+    protocol: http1::Builder,
+    watcher: Watcher,
+    address: ClientAddress,
+}
+
+impl Connection {
+    async fn serve_behind_tls(self, tls: TlsAcceptor, stream: TcpStream, place: ConnectionPlace) {
+        let handshake = tokio::time::timeout(HEAD_TIMEOUT, tls.accept(stream));
+        let stream = tokio::select! {
+            stream = handshake => stream,
+            () = place.close.notified() => return,
+        };
+        match stream {
+            Ok(Ok(stream)) => self.serve(stream, place).await,
+            Ok(Err(error)) => tracing::debug!(%error, "no handshake came about"),
+            Err(_) => tracing::debug!("a handshake took too long"),
         }
-        () = place.close.notified() => tracing::debug!("a connection that waited for its client made room"),
+    }
+
+    async fn serve(self, stream: impl AsyncRead + AsyncWrite + Unpin + Send + 'static, place: ConnectionPlace) {
+        let Self { app, router, protocol, watcher, address } = self;
+        let waiting = Arc::clone(&place.waiting);
+        let stream = WatchedStream::new(stream, Arc::clone(&waiting), PaceLimits::default());
+        let answer =
+            service_fn(move |request| answer(request, address, router.clone(), Arc::clone(&app), Arc::clone(&waiting)));
+        let connection = watcher.watch(protocol.serve_connection(TokioIo::new(stream), answer));
+        tokio::select! {
+            ended = connection => {
+                if let Err(error) = ended {
+                    tracing::debug!(%error, "connection ended early");
+                }
+            }
+            () = place.close.notified() => tracing::debug!("a connection that waited for its client made room"),
+        }
     }
 }
 

@@ -23,6 +23,8 @@ mod features;
 mod filters;
 mod graph_report;
 mod jobs;
+mod key_client;
+mod keys;
 mod maps;
 mod names;
 mod nearest;
@@ -39,5 +41,6 @@ mod semantics;
 mod semantics_changes;
 #[cfg(feature = "postgres")]
 mod shared_database;
+mod sign_in;
 mod sites;
 mod uploads;

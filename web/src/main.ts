@@ -2,10 +2,13 @@
 
 import "./style/base.css";
 import * as address from "./address";
-import { choice, h, replace } from "./dom";
+import { button, choice, h, replace } from "./dom";
 import { choose, language, t, type Language } from "./language";
-import { onConnection } from "./service/connection";
 import { mapsPage } from "./pages/maps/maps_page";
+import { askForKey } from "./parts/sign_in";
+import { onConnection } from "./service/connection";
+import { onSignedOut } from "./service/request";
+import { isSignedIn, signOut } from "./service/session";
 
 const connection = h("div", { class: "connection", role: "status" });
 const main = h("main", { id: "main" });
@@ -38,6 +41,7 @@ function header(): HTMLElement {
     h("a", { href: "#/", class: "brand" }, "stillage"),
     h("a", { href: "#/" }, t("maps")),
     h("a", { href: "docs/", class: "right" }, t("reference")),
+    isSignedIn() && button(t("signOut"), () => void signOut().then(begin)),
     chosen,
   );
 }
@@ -74,6 +78,7 @@ function begin(): void {
   void show();
 }
 
+onSignedOut(() => askForKey(begin));
 onConnection((isGone) => replace(connection, isGone && t("connecting")));
 addEventListener("hashchange", () => void show());
 begin();

@@ -16,9 +16,9 @@ export const EXAMPLE = {
 };
 
 /** Starts the service; resolves once it listens. */
-export async function startService() {
+export async function startService(more = []) {
   const folder = await mkdtemp(join(tmpdir(), "stillage-web-"));
-  let program = await run(folder, "127.0.0.1:0");
+  let program = await run(folder, "127.0.0.1:0", more);
   const end = async () => {
     const ended = new Promise((done) => program.once("exit", done));
     program.kill();
@@ -26,11 +26,12 @@ export async function startService() {
   };
   const service = {
     base: program.base,
+    folder,
     /** Ends the service, and keeps what it stored. */
     interrupt: end,
     /** Starts it again at the same address with what it stored. */
     resume: async () => {
-      program = await run(folder, new URL(service.base).host);
+      program = await run(folder, new URL(service.base).host, more);
     },
     stop: async () => {
       await end();
@@ -41,8 +42,8 @@ export async function startService() {
 }
 
 /** Runs the program on a folder. */
-async function run(folder, address) {
-  const options = ["serve", "--listen", address, "--data", folder, "--log", "warn"];
+async function run(folder, address, more) {
+  const options = ["serve", "--listen", address, "--data", folder, "--log", "warn", ...more];
   const program = spawn(process.env.STILLAGE_BINARY, options, { stdio: ["ignore", "pipe", "inherit"] });
   program.base = await new Promise((listening, failed) => {
     program.once("exit", (code) => failed(new Error(`the service ended with ${code}`)));

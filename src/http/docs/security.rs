@@ -14,7 +14,7 @@ const SCHEME: &str = "key";
 
 /// What the document says of the scheme.
 const DESCRIPTION: &str = "A key of `stillage key create`. A service that was started without `--keys required` asks for none. \
-    The words at an operation are the scope that the key needs.";
+    In version 3.1 of this document the word at an operation is the scope that its key needs.";
 
 /// The scope of operations that name none.
 #[must_use]

@@ -22,6 +22,15 @@ export interface Tagged<T> {
   readonly tag: string;
 }
 
+type Listener = () => void;
+
+const signedOut = new Set<Listener>();
+
+/** Tells when the service needs a key and got none, or one that opens nothing. */
+export function onSignedOut(listener: Listener): void {
+  signedOut.add(listener);
+}
+
 interface Wish {
   readonly method?: string;
   readonly json?: unknown;
@@ -46,6 +55,7 @@ export async function ask(path: string, wish: Wish = {}): Promise<Response> {
     foundNobody();
     throw new Refused({ type: "about:blank", title: "", status: 0, detail: "", instance: path });
   }
+  if (response.status === 401) for (const listener of signedOut) listener();
   if (!response.ok) throw new Refused(await problemOf(response, path));
   return response;
 }
