@@ -4,11 +4,9 @@
 //! to be gained by a slow hash. The prefix lets scanners find keys that were left in repositories.
 
 use std::fmt;
-use std::fmt::Write as _;
-
-use rustix::rand::{GetRandomFlags, getrandom};
 
 use super::key_secret::KeySecret;
+use super::random::random_digits;
 
 /// What every key begins with.
 const PREFIX: &str = "stillage";
@@ -86,19 +84,6 @@ impl fmt::Display for KeyHash {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         formatter.write_str(&self.0.to_hex())
     }
-}
-
-/// Random bytes as hexadecimal digits.
-pub(super) fn random_digits(bytes: usize) -> std::io::Result<String> {
-    let mut random = vec![0_u8; bytes];
-    let mut filled = 0;
-    while filled < bytes {
-        filled += getrandom(&mut random[filled..], GetRandomFlags::empty())?;
-    }
-    Ok(random.iter().fold(String::new(), |mut digits, byte| {
-        let _ = write!(digits, "{byte:02x}");
-        digits
-    }))
 }
 
 #[cfg(test)]

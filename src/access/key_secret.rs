@@ -4,7 +4,7 @@ use std::fmt;
 use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 
-use super::api_key::random_digits;
+use super::random::random_digits;
 
 /// Length of the secret, bytes: what keyed blake3 takes.
 const BYTES: usize = 32;

@@ -13,6 +13,7 @@
 mod api_key;
 mod expiry;
 mod key_secret;
+mod random;
 mod rate;
 mod scope;
 mod session;

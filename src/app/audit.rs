@@ -1,17 +1,10 @@
 //! The log of changes: who changed what, and when. It is kept where requests need keys: without them everybody is nobody.
 
-use std::sync::Arc;
-use std::time::Duration;
-
 use uuid::Uuid;
 
 use super::{App, AppError, Caller};
-use crate::jobs::kept_since;
 use crate::records::AuditRecord;
-use crate::store::{Store, now};
-
-/// How often old entries are looked for.
-const PERIOD: Duration = Duration::from_hours(1);
+use crate::store::now;
 
 /// A change as it was answered.
 #[derive(Debug, Clone)]
@@ -20,7 +13,7 @@ pub struct AnsweredChange {
     pub operation: String,
     /// Path of what it was about, or of what was made.
     pub resource: String,
-    /// HTTP status.
+    /// HTTP status; 499 where the client did not wait for one.
     pub status: u16,
     /// Id of the request.
     pub request: String,
@@ -50,17 +43,5 @@ impl App {
         after: Option<Uuid>,
     ) -> Result<Vec<AuditRecord>, AppError> {
         Ok(self.store.audit().entries(caller.tenant(), limit, after).await?)
-    }
-}
-
-/// Removes entries once they are older than they are kept.
-pub(super) async fn forget_old_entries(store: Arc<dyn Store>, keep: Duration) {
-    loop {
-        match store.audit().forget_before(kept_since(keep)).await {
-            Ok(0) => {}
-            Ok(forgotten) => tracing::info!(forgotten, "removed old entries of the log of changes"),
-            Err(error) => tracing::warn!(%error, "old entries of the log of changes could not be removed"),
-        }
-        tokio::time::sleep(PERIOD).await;
     }
 }

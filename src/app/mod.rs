@@ -23,7 +23,7 @@
 //! | `routers`, `latest` | its routers and navigation graphs, the latest kept |
 //! | `exports` | its files for other programs |
 //! | `service` | what the use cases share, start and stop |
-//! | `caller`, `keyring`, `tokens`, `audit` | who asks, with which key, and who changed what |
+//! | `caller`, `keyring`, `sign_in`, `tokens`, `audit` | who asks, with which key, and who changed what |
 //! | `evaluations` | how well it fits the truth of its site |
 //!
 //! Every use case takes its [`Caller`] first. What concerns the service itself (readiness, metrics, the orderly stop)
@@ -62,6 +62,7 @@ mod rule_sets;
 mod semantics;
 mod semantics_change;
 mod service;
+mod sign_in;
 mod site_carrying;
 mod stored_blobs;
 #[cfg(test)]
@@ -82,7 +83,6 @@ pub use error::{AppError, FieldProblem};
 pub use file_context::FileMap;
 pub use geometric_level::AppliedCorrections;
 pub use grid::GridSource;
-pub use keyring::Credential;
 pub use label_preview::LabelPreview;
 pub use map_context::MapContext;
 pub use name_import::{NameChange, NameReport};
@@ -90,3 +90,4 @@ pub use names::{Nameable, area_kind};
 pub use proposals::Proposal;
 pub use semantics_change::{RuleSetChoice, SemanticsChange, Unnamed, WantedCorrection};
 pub use service::App;
+pub use sign_in::Credential;

@@ -7,7 +7,6 @@ use std::time::Duration;
 use tokio::sync::{Semaphore, watch};
 use tokio::task::JoinSet;
 
-use super::audit::forget_old_entries;
 use super::context_cache::ContextCache;
 use super::error::AppError;
 use super::geometric_level::LastCorrected;
@@ -16,7 +15,7 @@ use super::map_states::MapStates;
 use super::mending::Mending;
 use crate::config::Config;
 use crate::jobs::processes::{AnalysisProcess, Processes};
-use crate::jobs::{Signals, Worker};
+use crate::jobs::{Signals, Worker, forget_old_entries};
 use crate::store::{self, Capacity, Full, Outdated, Store, StoreError, now};
 
 /// A blob whose row never came is removed at a start after this time.

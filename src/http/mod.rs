@@ -188,14 +188,14 @@ pub fn router(app: Arc<App>) -> Router {
 fn of_worker(app: Arc<App>) -> Router {
     let metrics = Arc::new(guard::observe::Metrics::new());
     let guard = guard::access::AccessGuard::new(Arc::clone(&app), &document(routes(app.config())).1);
-    let door = guard::sign_in::Door::new(Arc::clone(&app));
+    let sign_in = guard::sign_in::SignIn::new(Arc::clone(&app));
     Router::new()
         .route("/health/live", axum::routing::get(admin::health::live))
         .route("/health/ready", axum::routing::get(admin::health::ready))
         .route("/metrics", axum::routing::get(guard::observe::metrics))
         .layer(from_fn_with_state(guard, guard::access::allowed))
         .layer(from_fn(problem::render))
-        .layer(from_fn_with_state(door, guard::sign_in::sign_in))
+        .layer(from_fn_with_state(sign_in, guard::sign_in::sign_in))
         .layer(Extension(metrics))
         .with_state(app)
 }
@@ -206,13 +206,13 @@ fn of_service(app: Arc<App>) -> Router {
     let guard = guard::access::AccessGuard::new(Arc::clone(&app), &document);
     let metrics = Arc::new(guard::observe::Metrics::new());
     let Config { trust_proxy, is_tls, .. } = *app.config();
-    let surroundings = public_address::Surroundings { trust_proxy, is_tls };
+    let listener = public_address::Listener { trust_proxy, is_tls };
     let layers = ServiceBuilder::new()
         .layer(from_fn(guard::observe::tell_route))
         .layer(from_fn(browser_headers))
         .layer(from_fn(extract::conditional::tag_encodings))
         .layer(CompressionLayer::new())
-        .layer(from_fn_with_state(surroundings, public_address::resolve))
+        .layer(from_fn_with_state(listener, public_address::resolve))
         .layer(from_fn(problem::render))
         .layer(from_fn_with_state(Arc::clone(&app), maps::deletion::tell_restorable))
         .layer_fn(shared_service::SharedService::new)
@@ -237,7 +237,7 @@ fn of_service(app: Arc<App>) -> Router {
     Router::new()
         .fallback_service(router)
         .layer(from_fn_with_state(answers::Again::new(Arc::clone(&app)), answers::again))
-        .layer(from_fn_with_state(guard::sign_in::Door::new(app), guard::sign_in::sign_in))
+        .layer(from_fn_with_state(guard::sign_in::SignIn::new(app), guard::sign_in::sign_in))
         .layer(from_fn_with_state(metrics, guard::observe::observe))
 }
 

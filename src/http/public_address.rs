@@ -11,9 +11,9 @@ use axum::http::{HeaderMap, HeaderValue, Uri, header};
 use axum::middleware::Next;
 use axum::response::Response;
 
-/// What decides whom the service believes about its address.
+/// What the service knows of the address that it listens on.
 #[derive(Debug, Clone, Copy)]
-pub struct Surroundings {
+pub struct Listener {
     /// Whether what a proxy says is believed.
     pub trust_proxy: bool,
     /// Whether the listener speaks TLS.
@@ -70,13 +70,13 @@ impl PublicAddress {
     }
 
     /// The address of a request.
-    fn of(headers: &HeaderMap, uri: &Uri, surroundings: Surroundings) -> Self {
+    fn of(headers: &HeaderMap, uri: &Uri, listener: Listener) -> Self {
         let host = text(headers, "host").or_else(|| uri.authority().map(Authority::as_str)).map(str::to_owned);
-        let said = if surroundings.trust_proxy { Said::by_proxies(headers) } else { Said::default() };
+        let said = if listener.trust_proxy { Said::by_proxies(headers) } else { Said::default() };
         let scheme = match said.scheme.as_deref() {
             Some("https") => Some("https"),
             Some("http") => Some("http"),
-            _ => surroundings.is_tls.then_some("https"),
+            _ => listener.is_tls.then_some("https"),
         };
         let is_valid = |host: &String| host.parse::<Authority>().is_ok();
         let authority = said.host.filter(is_valid).or(host).map(|host| match said.port {
@@ -138,8 +138,8 @@ fn text<'a>(headers: &'a HeaderMap, name: &str) -> Option<&'a str> {
 
 /// Middleware: finds the address, for links, for problems and for the check of origins, and puts the prefix before
 /// `Location`.
-pub async fn resolve(State(surroundings): State<Surroundings>, mut request: Request, next: Next) -> Response {
-    let address = PublicAddress::of(request.headers(), request.uri(), surroundings);
+pub async fn resolve(State(listener): State<Listener>, mut request: Request, next: Next) -> Response {
+    let address = PublicAddress::of(request.headers(), request.uri(), listener);
     request.extensions_mut().insert(address.clone());
     let mut response = next.run(request).await;
     if let Some(location) = text(response.headers(), "location").filter(|path| path.starts_with('/'))
@@ -155,14 +155,14 @@ mod tests {
     use super::*;
 
     fn address(trust_proxy: bool, headers: &[(&'static str, &'static str)]) -> PublicAddress {
-        address_in(Surroundings { trust_proxy, is_tls: false }, headers)
+        address_in(Listener { trust_proxy, is_tls: false }, headers)
     }
 
-    fn address_in(surroundings: Surroundings, headers: &[(&'static str, &'static str)]) -> PublicAddress {
+    fn address_in(listener: Listener, headers: &[(&'static str, &'static str)]) -> PublicAddress {
         let header = |&(name, value): &(&'static str, &'static str)| {
             (header::HeaderName::from_static(name), HeaderValue::from_static(value))
         };
-        PublicAddress::of(&headers.iter().map(header).collect(), &Uri::from_static("/v1/maps"), surroundings)
+        PublicAddress::of(&headers.iter().map(header).collect(), &Uri::from_static("/v1/maps"), listener)
     }
 
     #[test]
@@ -185,7 +185,7 @@ mod tests {
 
     #[test]
     fn a_listener_with_tls_has_links_with_https() {
-        let own = address_in(Surroundings { trust_proxy: false, is_tls: true }, &[("host", "maps.example.com:443")]);
+        let own = address_in(Listener { trust_proxy: false, is_tls: true }, &[("host", "maps.example.com:443")]);
         assert_eq!(own.root(), "https://maps.example.com");
         assert!(
             own.is_secure() && own.is_origin("https://maps.example.com") && !own.is_origin("http://maps.example.com")

@@ -1,10 +1,14 @@
-//! What is done while no job is.
+//! What is done while no job is, and beside the jobs.
 
+use std::sync::Arc;
 use std::time::Duration;
 
 use jiff::{SignedDuration, Timestamp};
 
 use crate::store::{Store, StoreError};
+
+/// How often old entries of the log of changes are looked for.
+const PERIOD: Duration = Duration::from_hours(1);
 
 /// Deletes the maps that were deleted by people as long ago as they are kept, or all of them where the disk is short.
 pub async fn delete_hidden(store: &dyn Store, keep: Duration) -> Result<(), StoreError> {
@@ -23,4 +27,16 @@ pub async fn delete_hidden(store: &dyn Store, keep: Duration) -> Result<(), Stor
 pub fn kept_since(keep: Duration, now: Timestamp) -> Timestamp {
     let keep = SignedDuration::try_from(keep).unwrap_or(SignedDuration::MAX);
     now.checked_sub(keep).unwrap_or(Timestamp::MIN)
+}
+
+/// Removes entries of the log of changes once they are older than they are kept. Never returns.
+pub async fn forget_old_entries(store: Arc<dyn Store>, keep: Duration) {
+    loop {
+        match store.audit().forget_before(kept_since(keep)).await {
+            Ok(0) => {}
+            Ok(forgotten) => tracing::info!(forgotten, "removed old entries of the log of changes"),
+            Err(error) => tracing::warn!(%error, "old entries of the log of changes could not be removed"),
+        }
+        tokio::time::sleep(PERIOD).await;
+    }
 }

@@ -26,7 +26,7 @@ pub struct AuditEntryView {
     /// Path of what it was about, or of what was made.
     #[schema(example = "/v1/maps/019ab3c2-0000-7000-8000-000000000000")]
     resource: String,
-    /// HTTP status of the answer.
+    /// HTTP status of the answer; 499 where the client did not wait for it.
     #[schema(example = 200)]
     status: u16,
     /// Id of the request (`X-Request-Id`).

@@ -3,7 +3,7 @@
 use jiff::{SignedDuration, Timestamp};
 use serde_json::{Map, Value};
 
-use super::{TokenBearer, TokenRefusal, TokenRules};
+use super::rules::{TokenBearer, TokenRefusal, TokenRules};
 use crate::access::Scopes;
 
 /// How far the clocks of the provider and of this machine may be apart.

@@ -9,7 +9,7 @@ use ring::signature::{
 };
 use serde::Deserialize;
 
-use super::TokenRefusal;
+use super::rules::TokenRefusal;
 
 /// A text that is no set of keys, or has none that is used here.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]

@@ -1,11 +1,16 @@
 //! Tokens that hold, and those that do not.
 
+use base64::Engine as _;
+use base64::prelude::BASE64_URL_SAFE_NO_PAD;
+use jiff::Timestamp;
 use ring::rand::SystemRandom;
 use ring::signature::{ECDSA_P256_SHA256_FIXED_SIGNING, EcdsaKeyPair, Ed25519KeyPair, KeyPair as _};
 use serde_json::{Value, json};
 
+use super::verify::MAX_BYTES;
 use super::*;
 use crate::access::Scope;
+use crate::records::Tenant;
 
 /// Modulus of an RSA key that was made with OpenSSL and thrown away.
 const RSA_MODULUS: &str = "uQqS7D5wi5_I8qeXvayPKEeF5a8wdNUDtTRIjTT2gg9E-jPM7j_d985DCieS055-6mhdy4Cxy2a7EHyDSpGaoUe7mvvegTiup6Hs\

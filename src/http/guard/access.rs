@@ -7,6 +7,7 @@ use axum::extract::{MatchedPath, Request, State};
 use axum::http::{Method, Uri, header};
 use axum::middleware::Next;
 use axum::response::{IntoResponse, Response};
+use tokio::runtime::Handle;
 use utoipa::openapi::OpenApi;
 
 use super::observe::RequestId;
@@ -16,6 +17,9 @@ use crate::app::{AnsweredChange, App, Caller};
 use crate::http::dashboard;
 use crate::http::docs::security;
 use crate::http::problem::Problem;
+
+/// What is recorded as the status where the client did not wait for one: that of nginx.
+const NOT_AWAITED: u16 = 499;
 
 /// Routes beside the document that need no key: the same bytes for everybody.
 const OPEN_ROUTES: [&str; 3] = [dashboard::ASSET_PATH, "/docs", "/docs/{*rest}"];
@@ -85,17 +89,45 @@ pub async fn allowed(
         let reason = extensions.get::<NotSignedIn>().map(|reason| reason.0.clone());
         return reason.unwrap_or_else(Problem::key_required).into_response();
     };
-    let id = extensions.get::<RequestId>().and_then(|id| id.0.to_str().ok()).unwrap_or_default().to_owned();
-    let path = request.uri().path().to_owned();
+    let pending = (scope == Scope::Write).then(|| PendingChange::new(&guard.app, &caller, operation, &request));
     let response =
         if caller.may(scope) { next.run(request).await } else { Problem::missing_scope(scope).into_response() };
-    if scope == Scope::Write {
-        let resource = made(&response).unwrap_or(path);
-        let status = response.status().as_u16();
-        let change = AnsweredChange { operation, resource, status, request: id };
-        guard.app.record_change(&caller, change).await;
+    if let Some(pending) = pending {
+        pending.answered(response.status().as_u16(), made(&response)).await;
     }
     response
+}
+
+/// A change that is under way. It is recorded, too, where its client does not wait for the answer, whatever became of it.
+struct PendingChange {
+    app: Arc<App>,
+    caller: Caller,
+    change: Option<AnsweredChange>,
+}
+
+impl PendingChange {
+    fn new(app: &Arc<App>, caller: &Caller, operation: String, request: &Request) -> Self {
+        let id = request.extensions().get::<RequestId>().and_then(|id| id.0.to_str().ok());
+        let (request, resource) = (id.unwrap_or_default().to_owned(), request.uri().path().to_owned());
+        let change = AnsweredChange { operation, resource, status: NOT_AWAITED, request };
+        Self { app: Arc::clone(app), caller: caller.clone(), change: Some(change) }
+    }
+
+    /// Records what was answered, and the path of what was made.
+    async fn answered(mut self, status: u16, made: Option<String>) {
+        if let Some(change) = self.change.take() {
+            let resource = made.unwrap_or(change.resource);
+            self.app.record_change(&self.caller, AnsweredChange { status, resource, ..change }).await;
+        }
+    }
+}
+
+impl Drop for PendingChange {
+    fn drop(&mut self) {
+        let (Some(change), Ok(runtime)) = (self.change.take(), Handle::try_current()) else { return };
+        let (app, caller) = (Arc::clone(&self.app), self.caller.clone());
+        runtime.spawn(async move { app.record_change(&caller, change).await });
+    }
 }
 
 /// The path of what a request made.

@@ -19,14 +19,14 @@ pub struct NotSignedIn(pub Problem);
 
 /// What the middleware works with.
 #[derive(Debug, Clone)]
-pub struct Door {
+pub struct SignIn {
     app: Arc<App>,
     /// `None` where a key may ask as often as it likes.
     limiter: Option<Arc<RateLimiter>>,
 }
 
-impl Door {
-    /// The door of a service. Where it needs no keys, nobody is counted.
+impl SignIn {
+    /// That of a service. Where it needs no keys, nobody is counted.
     #[must_use]
     pub fn new(app: Arc<App>) -> Self {
         let most = app.config().requests_per_minute;
@@ -38,7 +38,7 @@ impl Door {
 /// Middleware: gives a request its [`Caller`], or the reason why it has none: no key, a wrong one, or too many requests of it.
 /// What needs a caller refuses for that reason ([`super::access`]); what needs none is answered, whatever the request brought.
 /// Answers to a key tell how much it may ask still.
-pub async fn sign_in(State(Door { app, limiter }): State<Door>, mut request: Request, next: Next) -> Response {
+pub async fn sign_in(State(SignIn { app, limiter }): State<SignIn>, mut request: Request, next: Next) -> Response {
     if !app.needs_keys() {
         request.extensions_mut().insert(Caller::local());
         return next.run(request).await;

@@ -1,0 +1,76 @@
+//! Who shows a key, a token or a session.
+
+use super::keyring::Keyring;
+use super::{App, AppError, Caller};
+use crate::access::{ApiKey, KeyHash, SESSION, Session, is_token};
+use crate::records::KeyRecord;
+use crate::store::now;
+
+/// What somebody shows who asks.
+#[derive(Debug, Clone)]
+pub enum Credential {
+    /// A key, or a token of an identity provider.
+    Key(String),
+    /// A session of a browser.
+    Session(String),
+}
+
+impl App {
+    /// Whether requests need a key.
+    #[must_use]
+    pub const fn needs_keys(&self) -> bool {
+        self.keyring.is_some()
+    }
+
+    /// Who shows something; anybody where nothing is needed.
+    ///
+    /// # Errors
+    /// [`AppError::Unauthorized`] where it opens nothing.
+    pub async fn sign_in(&self, shown: &Credential) -> Result<Caller, AppError> {
+        let Some(keyring) = &self.keyring else { return Ok(Caller::local()) };
+        let refused = |reason: &str| AppError::Unauthorized(reason.to_owned());
+        let (id, hash) = match shown {
+            Credential::Key(text) if is_token(text) => {
+                let tokens = keyring.tokens.as_ref().ok_or_else(|| refused("no tokens are taken here: send a key"))?;
+                return tokens.caller(text).await;
+            }
+            Credential::Key(text) => {
+                let key = ApiKey::read(text).ok_or_else(|| refused("this key is not known here"))?;
+                (key.id().to_owned(), Some(key.hash(&keyring.secret)))
+            }
+            Credential::Session(text) => {
+                let session = Session::read(text, &keyring.secret, now());
+                (session.ok_or_else(|| refused("the session has ended: sign in again"))?.key, None)
+            }
+        };
+        // Two hashes are compared in constant time.
+        let found = self.known_key(keyring, &id).await?.filter(|(_, stored)| hash.is_none_or(|hash| hash == *stored));
+        let (record, _) = found.ok_or_else(|| refused("this key is not known here"))?;
+        if record.is_valid_at(now()) {
+            return Ok(Caller::with_key(&record));
+        }
+        Err(AppError::Unauthorized(match (record.revoked, record.expires) {
+            (None, Some(end)) => format!("key {} ended at {end}: ask for a new one", record.id),
+            _ => format!("key {} was revoked", record.id),
+        }))
+    }
+
+    /// A session for a caller who signed in with a key; `None` for others.
+    #[must_use]
+    pub fn session(&self, caller: &Caller) -> Option<String> {
+        let keyring = self.keyring.as_ref()?;
+        let end = now().checked_add(SESSION).ok()?;
+        Some(Session { key: caller.key()?.to_owned(), end }.seal(&keyring.secret))
+    }
+
+    async fn known_key(&self, keyring: &Keyring, id: &str) -> Result<Option<(KeyRecord, KeyHash)>, AppError> {
+        if let Some(known) = keyring.recall(id) {
+            return Ok(Some(known));
+        }
+        let found = self.store.keys().key(id).await?;
+        if let Some((record, hash)) = &found {
+            keyring.remember(record.clone(), hash.clone());
+        }
+        Ok(found)
+    }
+}
