@@ -4,6 +4,7 @@
 //! the input (one sentence says which, and how to mend it), or with 1 for a fault of the program or the system.
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "the command line talks to people")]
 
+mod access;
 mod analyze;
 mod compare;
 mod demo;
@@ -24,6 +25,7 @@ mod progress;
 mod quotas;
 mod server;
 mod storage;
+mod tls;
 mod tokens;
 
 use std::ffi::OsString;

@@ -2,7 +2,6 @@
 
 use std::io::{self, Write};
 use std::net::SocketAddr;
-use std::path::PathBuf;
 use std::time::Duration;
 
 use clap::{Args, ValueEnum};
@@ -13,14 +12,14 @@ use tracing_subscriber::filter::Targets;
 use tracing_subscriber::layer::SubscriberExt as _;
 use tracing_subscriber::util::SubscriberInitExt as _;
 
-use super::quotas::QuotaArgs;
+use super::access::AccessArgs;
 use super::storage::{BlobsNotShared, StorageArgs};
-use super::tokens::TokenArgs;
+use super::tls::TlsArgs;
 use crate::allowed_hosts::HostPattern;
 use crate::app::{App, AppError};
 use crate::config::{Config, DatabaseAddress, KeyRule, Role};
 use crate::ingest::Limits;
-use crate::server::tls::{self, TlsError};
+use crate::server::tls::TlsError;
 use crate::server::{self, ConnectionLimits, open_files};
 
 /// Serves the API. Everything can also be set in the environment.
@@ -33,29 +32,10 @@ pub(super) struct ServeArgs {
     /// delete every map.
     #[arg(long, env = "STILLAGE_ALLOW_PUBLIC")]
     pub(super) allow_public: bool,
-    /// Certificate in PEM, with those of its authorities behind it: the service then speaks HTTPS.
-    #[arg(long, env = "STILLAGE_TLS_CERT", value_name = "FILE", requires = "tls_key")]
-    pub(super) tls_cert: Option<PathBuf>,
-    /// Private key of the certificate in PEM.
-    #[arg(long, env = "STILLAGE_TLS_KEY", value_name = "FILE", requires = "tls_cert")]
-    pub(super) tls_key: Option<PathBuf>,
-    /// Whether requests need a key, which `stillage key create` makes.
-    #[arg(long, env = "STILLAGE_KEYS", default_value = "none", value_name = "RULE")]
-    pub(super) keys: KeyRule,
-    /// File of the secret that keys are hashed with; `key-secret` in the data folder when absent. Processes that share a
-    /// database need one that all of them read.
-    #[arg(long, env = "STILLAGE_KEY_SECRET_FILE", value_name = "FILE")]
-    pub(super) key_secret_file: Option<PathBuf>,
-    /// Requests that a key may send in a minute; 0 for any number.
-    #[arg(long, env = "STILLAGE_REQUESTS_PER_MINUTE", default_value_t = 6_000, value_name = "N")]
-    pub(super) requests_per_minute: u32,
     #[command(flatten)]
-    pub(super) tokens: TokenArgs,
+    pub(super) tls: TlsArgs,
     #[command(flatten)]
-    pub(super) quotas: QuotaArgs,
-    /// How long the log of changes is kept, days.
-    #[arg(long, env = "STILLAGE_KEEP_AUDIT_DAYS", default_value_t = 365, value_name = "DAYS")]
-    pub(super) keep_audit_days: u32,
+    pub(super) access: AccessArgs,
     #[command(flatten)]
     pub(super) storage: StorageArgs,
     /// What this process does. Several processes share a database of `--database postgres://...`.
@@ -203,19 +183,13 @@ impl ServeArgs {
     /// # Errors
     /// When they contradict one another.
     pub fn config(&self) -> Result<Config, ServeError> {
-        let defaults = self.storage.config()?;
+        let defaults = self.access.config(self.storage.config()?);
         if self.role != Role::All && !defaults.database.is_shared() {
             return Err(ServeError::OneProcess(defaults.database));
         }
         Ok(Config {
             role: self.role,
-            is_tls: self.tls_cert.is_some(),
-            keys: self.keys,
-            key_secret_file: self.key_secret_file.clone(),
-            tokens: self.tokens.config(),
-            requests_per_minute: self.requests_per_minute,
-            quotas: self.quotas.quotas(self.keys),
-            keep_audit: Duration::from_hours(u64::from(self.keep_audit_days) * 24),
+            is_tls: self.tls.is_given(),
             lease: Duration::from_secs(self.lease_s),
             limits: Limits {
                 max_bytes: self.max_upload_mib.saturating_mul(1 << 20),
@@ -257,7 +231,7 @@ impl ServeArgs {
 
 /// Serves until SIGTERM or SIGINT; a second one ends the process at once (jobs survive that too).
 pub(super) fn run(args: &ServeArgs) -> Result<(), ServeError> {
-    if args.keys == KeyRule::None && !args.allow_public && !args.listen.ip().is_loopback() {
+    if args.access.keys == KeyRule::None && !args.allow_public && !args.listen.ip().is_loopback() {
         return Err(ServeError::Public(args.listen));
     }
     start_logging(&args.log, args.log_format)?;
@@ -268,8 +242,7 @@ async fn serve(args: &ServeArgs) -> Result<(), ServeError> {
     let address = args.listen;
     let listener = TcpListener::bind(address).await.map_err(|source| ServeError::Listen { address, source })?;
     let mut signals = StopSignals::listen()?;
-    let files = args.tls_cert.as_deref().zip(args.tls_key.as_deref());
-    let tls = files.map(|(certificate, key)| tls::acceptor(certificate, key)).transpose()?;
+    let tls = args.tls.acceptor()?;
     let app = App::open(args.config()?).await?;
     // Whoever started the service may not listen any more.
     let _ = writeln!(

@@ -27,7 +27,8 @@ async fn a_browser_signs_in_with_a_key_and_then_has_a_cookie() {
     assert!(cookie.ends_with("; Path=/; HttpOnly; SameSite=Strict") && !cookie.contains(&key), "{cookie}");
     let pair = cookie.split(';').next().expect("name and value").to_owned();
     let maps = Sent::new(Method::GET, "/v1/maps").with("cookie", format!("theme=dark; {pair}"));
-    assert_eq!(maps.to(&api).await.status, StatusCode::OK);
+    let listed = maps.to(&api).await;
+    assert_eq!((listed.status, listed.header("cache-control")), (StatusCode::OK, "private, no-cache"));
     let upload = Sent::new(Method::POST, "/v1/maps").with("cookie", &pair);
     upload.to(&api).await.problem(403, "missing-scope");
     let forged = maps.clone().with("cookie", format!("{pair}0"));

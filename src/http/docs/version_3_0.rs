@@ -33,7 +33,7 @@ pub fn down_convert(document: &Value) -> Value {
     if let Some(license) = document.pointer_mut("/info/license").and_then(Value::as_object_mut) {
         license.remove("identifier");
     }
-    let items = document["paths"].as_object_mut().into_iter().flat_map(Map::values_mut);
+    let items = document.get_mut("paths").and_then(Value::as_object_mut).into_iter().flat_map(Map::values_mut);
     for operation in items.filter_map(Value::as_object_mut).flat_map(Map::values_mut) {
         forget_scopes(operation);
     }

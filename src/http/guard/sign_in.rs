@@ -61,9 +61,21 @@ pub async fn sign_in(State(SignIn { app, limiter }): State<SignIn>, mut request:
         Ok(caller) => drop(request.extensions_mut().insert(caller)),
         Err(problem) => drop(request.extensions_mut().insert(NotSignedIn(problem))),
     }
+    let is_signed_in = request.extensions().get::<Caller>().is_some();
     let mut response = next.run(request).await;
     response.headers_mut().extend(left);
+    if is_signed_in {
+        keep_private(response.headers_mut());
+    }
     response
+}
+
+/// An answer to somebody is for nobody else who asks the same cache, and is asked for again after they signed out. Those that may
+/// not be kept at all, or are the same for everybody, say so.
+fn keep_private(headers: &mut HeaderMap) {
+    if headers.get(header::CACHE_CONTROL).is_none_or(|known| known == "no-cache") {
+        headers.insert(header::CACHE_CONTROL, HeaderValue::from_static("private, no-cache"));
+    }
 }
 
 /// What is left of a limit (draft-ietf-httpapi-ratelimit-headers-10, 3 and 4).

@@ -187,7 +187,7 @@ async fn a_newer_database_is_refused() {
     drop(store);
     let refusal = SqlStore::open(&fixture.config).await.expect_err("it is newer").to_string();
     assert!(
-        refusal.contains("was written by a newer stillage (schema 9999, this program knows up to 10)"),
+        refusal.contains("was written by a newer stillage (schema 9999, this program knows up to 11)"),
         "{refusal}"
     );
 }
