@@ -46,7 +46,7 @@ struct Cli {
 #[derive(Debug, Subcommand)]
 enum Command {
     /// Serves the REST API.
-    Serve(serve::ServeArgs),
+    Serve(Box<serve::ServeArgs>),
     /// Analyses one map file and writes GeoJSON layers, pictures and a report.
     Analyze(analyze::AnalyzeArgs),
     /// Analyses one map file and writes files for other programs: fleet managers, planners, inventory systems.

@@ -2,10 +2,13 @@
 
 use axum::http::{Method, StatusCode};
 use serde_json::json;
-use stillage::config::{BlobAddress, Config, DatabaseAddress, Role};
+use stillage::access::{KeySecret, Scope};
+use stillage::app::App;
+use stillage::config::{BlobAddress, Config, DatabaseAddress, KeyRule, Role};
 use stillage::store;
 
 use crate::client::Api;
+use crate::key_client;
 use crate::postgres;
 
 const FACES: &str = "collections/faces/items?crs=EPSG:3857";
@@ -114,4 +117,30 @@ async fn a_deployment_moves_to_another_database_and_back_and_answers_the_same() 
     let back = store::move_all(&shared, &after, |_| ()).await.expect("it moves back");
     assert_eq!(back.maps, 1);
     assert_eq!(answers(&service_on(&after.database, &after.blobs).await).await, told);
+}
+
+#[tokio::test]
+async fn a_key_opens_every_service_of_a_deployment_and_its_secret_must_be_named() {
+    let Some(address) = postgres::new_database() else { return };
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let (database, blobs) = (DatabaseAddress::Postgres(address), BlobAddress::Folder(folder.path().join("blobs")));
+    let file = folder.path().join("key-secret");
+    let config = Config { database, blobs, keys: KeyRule::Required, job_slots: 0, ..Config::new(folder.path()) };
+    let refusal = App::open(config.clone()).await.expect_err("nobody said where the secret is");
+    assert!(format!("{refusal:?}").contains("NotNamed"), "{refusal:?}");
+
+    KeySecret::read_or_make(&file).expect("it is made");
+    let guarded = async || {
+        Api::with(|service| {
+            *service = Config { key_secret_file: Some(file.clone()), min_free_bytes: 0, ..config.clone() }
+        })
+        .await
+    };
+    let (first, second) = (guarded().await, guarded().await);
+    let key = key_client::key(&first, "north", Scope::ALL).await;
+    for api in [&first, &second] {
+        let headers = [("host", "localhost"), ("authorization", &format!("Bearer {key}"))];
+        assert_eq!(api.get_with("/v1/maps", &headers).await.status, StatusCode::OK);
+        assert_eq!(api.get_with("/v1/maps", &headers[..1]).await.status, StatusCode::UNAUTHORIZED);
+    }
 }

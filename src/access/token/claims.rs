@@ -9,7 +9,7 @@ use crate::access::Scopes;
 /// How far the clocks of the provider and of this machine may be apart.
 const LEEWAY: SignedDuration = SignedDuration::from_mins(1);
 
-/// Longest subject that is kept, characters (OpenID Connect Core, 2).
+/// Longest subject that is kept, characters: as much as `OpenID` Connect allows (Core, 2).
 const MAX_SUBJECT: usize = 255;
 
 /// Reads the claims of a token whose signature was checked.

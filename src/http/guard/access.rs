@@ -117,7 +117,7 @@ impl PendingChange {
     async fn answered(mut self, status: u16, made: Option<String>) {
         if let Some(change) = self.change.take() {
             let resource = made.unwrap_or(change.resource);
-            self.app.record_change(&self.caller, AnsweredChange { status, resource, ..change }).await;
+            self.app.record_change(&self.caller, AnsweredChange { resource, status, ..change }).await;
         }
     }
 }

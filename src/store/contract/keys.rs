@@ -28,7 +28,7 @@ pub async fn a_key_is_found_by_its_id_and_revoked_for_good(engine: &impl Engine)
     assert_eq!(keys.key(ours.id()).await.unwrap(), Some((record.clone(), ours.hash(&secret))));
     assert_eq!(keys.key("0000000000000000").await.unwrap(), None);
     assert_eq!(keys.keys(None).await.unwrap(), [record.clone(), other]);
-    assert_eq!(keys.keys(Some(&record.tenant)).await.unwrap(), [record.clone()]);
+    assert_eq!(keys.keys(Some(&record.tenant)).await.unwrap(), std::slice::from_ref(&record));
 
     let revoked = KeyRecord { revoked: Some(later(5)), ..record };
     for time in [5, 9] {
@@ -62,7 +62,7 @@ pub async fn the_log_of_changes_is_read_by_its_tenant_and_forgotten_by_age(engin
     }
     let ours = Tenant::new("ours");
     assert_eq!(log.entries(&ours, 9, None).await.unwrap(), [second.clone(), first.clone()]);
-    assert_eq!(log.entries(&ours, 1, None).await.unwrap(), [second.clone()]);
+    assert_eq!(log.entries(&ours, 1, None).await.unwrap(), std::slice::from_ref(&second));
     assert_eq!(log.entries(&ours, 9, Some(second.id)).await.unwrap(), [first]);
     assert_eq!(log.forget_before(later(5)).await.unwrap(), 2);
     assert_eq!(log.entries(&ours, 9, None).await.unwrap(), [second]);
