@@ -6,6 +6,7 @@
 
 mod access;
 mod analyze;
+mod backup;
 mod compare;
 mod demo;
 mod evaluate;
@@ -17,6 +18,7 @@ mod route;
 mod serve;
 
 mod computation;
+mod counting_bar;
 mod failure;
 mod findings;
 mod input;
@@ -65,6 +67,10 @@ enum Command {
     Openapi(openapi::OpenapiArgs),
     /// Brings the database up to date (`serve` does so by itself), or moves a deployment from one storage to another.
     Migrate(migrate::MigrateArgs),
+    /// Copies the data folder of a service, which may go on working, into a new folder with checksums.
+    Backup(backup::BackupArgs),
+    /// Checks a backup and makes a data folder of it.
+    Restore(backup::RestoreArgs),
 }
 
 /// Runs the command line.
@@ -81,6 +87,8 @@ pub fn run() -> ExitCode {
         Command::Key(arguments) => key::run(&arguments).map_err(Failure::setup),
         Command::Openapi(arguments) => openapi::run(&arguments).map_err(Failure::setup),
         Command::Migrate(arguments) => migrate::run(&arguments).map_err(Failure::setup),
+        Command::Backup(arguments) => backup::back_up(&arguments).map_err(Failure::setup),
+        Command::Restore(arguments) => backup::restore(&arguments).map_err(Failure::setup),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

@@ -25,6 +25,12 @@ pub enum StoreError {
         /// The error of the system.
         source: io::Error,
     },
+    /// A restore has begun and not ended.
+    #[error(
+        "the data folder {} holds a part of a backup, because its restore was interrupted: run the same restore again",
+        .0.display()
+    )]
+    RestoreUnfinished(PathBuf),
     /// The database knows migrations that this program does not.
     #[error(
         "the database {database} was written by a newer stillage (schema {found}, this program knows up to {known}): \

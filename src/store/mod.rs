@@ -15,6 +15,7 @@
 //! | `blobs` | bytes by their hash, and the formats of stored values |
 //! | `sql` | the store: all SQL, for both databases |
 //! | `sqlite`, `postgres` | how each database is opened, and what only it has |
+//! | `backup` | a copy of the store of one process, and a store made of the copy |
 //! | `contract` | the tests that every engine must pass |
 //!
 //! What every engine keeps, whatever dies and when:
@@ -28,6 +29,7 @@
 
 mod analyses;
 mod audit;
+mod backup;
 mod blobs;
 mod capacity;
 mod clock;
@@ -59,6 +61,7 @@ use sql::SqlStore;
 
 pub use analyses::{Analyses, MapState, NewAnalysis, Outdated, Request, Snapshot};
 pub use audit::AuditLog;
+pub use backup::{BackupContents, BackupError, CopyProgress, back_up, check_backup, restore};
 pub use blobs::{Blob, BlobId, Blobs, LocalBlobs, Stored};
 pub use capacity::{Capacity, Full, Quotas};
 pub use clock::now;

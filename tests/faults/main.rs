@@ -2,6 +2,7 @@
 
 #![allow(clippy::panic, reason = "a test is read from top to bottom: no detours")]
 
+mod backup;
 mod framing;
 mod server;
 mod slow_clients;

@@ -2,33 +2,45 @@
 
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::{SocketAddr, TcpStream};
+use std::path::Path;
 use std::process::{Child, Command, ExitStatus, Stdio};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use rustix::process::{Pid, Signal, kill_process};
+use serde_json::{Value, json};
 
 /// Longest wait for bytes of an answer.
 const PATIENCE: Duration = Duration::from_secs(30);
+
+/// Longest wait for jobs, on a busy machine and by a debug build.
+const IDLE_PATIENCE: Duration = Duration::from_mins(3);
 
 /// A running server on a folder of its own. Killed when dropped.
 pub struct Server {
     process: Child,
     pub address: SocketAddr,
-    _folder: tempfile::TempDir,
+    /// Its own folder, where it was given none.
+    folder: Option<tempfile::TempDir>,
 }
 
 impl Server {
     pub fn start(arguments: &[&str]) -> Self {
         let folder = tempfile::tempdir().expect("a temporary folder");
-        let mut command = Command::new(env!("CARGO_BIN_EXE_stillage"));
-        command.args(["serve", "--listen", "127.0.0.1:0", "--min-free-mib", "0", "--log", "error", "--data"]);
-        command.arg(folder.path()).args(arguments);
-        let mut process = command.stdout(Stdio::piped()).spawn().expect("the binary runs");
+        let mut server = Self::start_in(folder.path(), arguments);
+        server.folder = Some(folder);
+        server
+    }
+
+    /// The same on a folder that outlives it.
+    pub fn start_in(folder: &Path, arguments: &[&str]) -> Self {
+        let mut command = stillage(&["serve", "--listen", "127.0.0.1:0", "--min-free-mib", "0", "--log", "error"]);
+        let mut process =
+            command.arg("--data").arg(folder).args(arguments).stdout(Stdio::piped()).spawn().expect("runs");
         let mut line = String::new();
         let output = process.stdout.take().expect("it is piped");
         BufReader::new(output).read_line(&mut line).expect("its output is text");
         let address = line.trim().strip_prefix("listening on http://").expect("it listens").parse();
-        Self { process, address: address.expect("is an address"), _folder: folder }
+        Self { process, address: address.expect("is an address"), folder: None }
     }
 
     /// A connection on which something was sent.
@@ -42,6 +54,40 @@ impl Server {
     /// The answer to what is sent on a connection of its own, up to the end of the connection.
     pub fn answer(&self, bytes: &[u8]) -> String {
         rest(self.connect(bytes))
+    }
+
+    /// What uploading a map answers: head and body.
+    pub fn upload(&self, message: &str) -> String {
+        let request = format!(
+            "POST /v1/maps HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nConnection: close\r\n\
+             Content-Length: {}\r\n\r\n{message}",
+            message.len()
+        );
+        self.answer(request.as_bytes())
+    }
+
+    /// A JSON document.
+    pub fn json(&self, path: &str) -> Value {
+        serde_json::from_str(body(&self.get(path))).expect("is JSON")
+    }
+
+    /// Ids of the maps, newest first.
+    pub fn maps(&self) -> Vec<String> {
+        let maps = self.json("/v1/maps?limit=1000");
+        let maps = maps["maps"].as_array().expect("a list of maps");
+        maps.iter().map(|map| map["id"].as_str().expect("an id").to_owned()).collect()
+    }
+
+    /// Waits until no job waits or runs.
+    pub fn wait_until_idle(&self) {
+        let begun = Instant::now();
+        while self.json("/v1/jobs?status=accepted,running&limit=1")["jobs"]
+            .as_array()
+            .is_none_or(|jobs| !jobs.is_empty())
+        {
+            assert!(begun.elapsed() < IDLE_PATIENCE, "jobs do not end");
+            std::thread::sleep(Duration::from_millis(20));
+        }
     }
 
     /// The answer to a plain GET.
@@ -75,6 +121,13 @@ impl Server {
     }
 }
 
+/// The program, to be run with these arguments.
+pub fn stillage(arguments: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_stillage"));
+    command.args(arguments);
+    command
+}
+
 impl Drop for Server {
     fn drop(&mut self) {
         let _ = self.process.kill();
@@ -102,6 +155,25 @@ pub fn is_closed(stream: &mut TcpStream) -> bool {
             Err(error) => return error.kind() != std::io::ErrorKind::WouldBlock,
         }
     }
+}
+
+/// The body of an answer.
+#[track_caller]
+pub fn body(answer: &str) -> &str {
+    answer.split_once("\r\n\r\n").map(|(_, body)| body).unwrap_or_else(|| panic!("no answer: {answer:?}"))
+}
+
+/// A hall with two rows of racks as an `OccupancyGrid` message; a different one for each index.
+pub fn hall(index: u64) -> String {
+    let (width, height) = (30 + index % 7, 24 + index / 7);
+    let is_rack = |column: u64, row: u64| [6, 7, 16, 17].contains(&row) && (5..width - 5).contains(&column);
+    let is_wall = |column: u64, row: u64| column == 0 || row == 0 || column == width - 1 || row == height - 1;
+    let cell = |column, row| if is_wall(column, row) || is_rack(column, row) { 100 } else { 0 };
+    let data: Vec<u8> = (0..height).flat_map(|row| (0..width).map(move |column| cell(column, row))).collect();
+    let pose =
+        json!({"position": {"x": 0.0, "y": 0.0, "z": 0.0}, "orientation": {"x": 0.0, "y": 0.0, "z": 0.0, "w": 1.0}});
+    let info = json!({"resolution": 0.25, "width": width, "height": height, "origin": pose});
+    json!({"header": {"frame_id": "map"}, "info": info, "data": data}).to_string()
 }
 
 /// The status of an answer.

@@ -34,4 +34,4 @@ mod store;
 
 pub use copying::{Moved, move_all};
 pub use database::Database;
-pub use store::SqlStore;
+pub use store::{SqlStore, open_blobs};

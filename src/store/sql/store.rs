@@ -32,11 +32,7 @@ impl SqlStore {
     /// What stands against it, for whoever configured it.
     pub async fn open(config: &Config) -> Result<Self, StoreError> {
         let database = Database::open(&config.database).await?;
-        let blobs: Box<dyn Blobs> = match &config.blobs {
-            BlobAddress::Folder(folder) => Box::new(LocalBlobs::open(folder)?),
-            #[cfg(feature = "s3")]
-            BlobAddress::Bucket(address) => Box::new(BucketBlobs::open(address)?),
-        };
+        let blobs = open_blobs(&config.blobs)?;
         let space_in = match (&database, &config.blobs) {
             (Database::Sqlite(engine), _) => Some(engine.folder.path().to_owned()),
             #[cfg(feature = "postgres")]
@@ -46,6 +42,18 @@ impl SqlStore {
         };
         Ok(Self { database, blobs, space_in, min_free_bytes: config.min_free_bytes })
     }
+}
+
+/// Opens the blobs at an address.
+///
+/// # Errors
+/// When they cannot be reached, or the address makes no sense.
+pub fn open_blobs(address: &BlobAddress) -> Result<Box<dyn Blobs>, StoreError> {
+    Ok(match address {
+        BlobAddress::Folder(folder) => Box::new(LocalBlobs::open(folder)?),
+        #[cfg(feature = "s3")]
+        BlobAddress::Bucket(address) => Box::new(BucketBlobs::open(address)?),
+    })
 }
 
 #[async_trait]

@@ -8,9 +8,15 @@ use rustix::fs::{FlockOperation, flock};
 
 use crate::store::StoreError;
 
+/// The file of the rows in a data folder.
+pub(super) const DATABASE_FILE: &str = "stillage.sqlite3";
+
 /// Space set aside. Deleting rows from a full disk needs some for the write-ahead log: 1 MiB was measured to be enough
 /// for a small delete, the rest is margin.
 const RESERVE_BYTES: u64 = 4 << 20;
+
+/// The file that says that a restore has begun and not ended.
+const RESTORING: &str = "restore-unfinished";
 
 /// The folder, locked until this value is dropped (or the process dies, however it dies), unless another process has it.
 #[derive(Debug)]
@@ -24,7 +30,7 @@ impl DataFolder {
     ///
     /// # Errors
     /// [`StoreError::FolderInUse`] when another process holds the lock.
-    pub fn open(path: &Path) -> Result<Self, StoreError> {
+    fn take(path: &Path) -> Result<Self, StoreError> {
         fs::create_dir_all(path).map_err(|error| StoreError::folder(path, error))?;
         let path = fs::canonicalize(path).map_err(|error| StoreError::folder(path, error))?;
         let lock = take_lock(&path)?;
@@ -40,10 +46,64 @@ impl DataFolder {
         Ok(Self { path, _lock: None })
     }
 
+    /// Takes the folder for a service.
+    ///
+    /// # Errors
+    /// What [`Self::take`] answers, and [`StoreError::RestoreUnfinished`] where only a part of a backup is there.
+    pub fn open(path: &Path) -> Result<Self, StoreError> {
+        let folder = Self::take(path)?;
+        if folder.restoring().exists() {
+            return Err(StoreError::RestoreUnfinished(folder.path));
+        }
+        Ok(folder)
+    }
+
+    /// Whether there is more in a folder than a restore may find there: what an interrupted one left, and what every disk has.
+    #[must_use]
+    pub fn holds_something(path: &Path) -> bool {
+        let Ok(entries) = fs::read_dir(path) else { return path.exists() };
+        let harmless = ["lock", "lost+found"];
+        let mut others = entries.flatten().filter(|entry| !harmless.iter().any(|name| entry.file_name() == *name));
+        !path.join(RESTORING).exists() && others.next().is_some()
+    }
+
+    /// Takes the folder for a restore. Until [`Self::end_restore`] no service opens it.
+    ///
+    /// # Errors
+    /// What [`Self::take`] answers, and when the folder cannot be written.
+    pub fn begin_restore(path: &Path) -> Result<Self, StoreError> {
+        let folder = Self::take(path)?;
+        let marked = File::create(folder.restoring()).and_then(|file| file.sync_all()).and_then(|()| folder.sync());
+        marked.map_err(|error| StoreError::folder(&folder.path, error))?;
+        Ok(folder)
+    }
+
+    /// Puts the rows where the blobs are, and lets services open the folder.
+    ///
+    /// # Errors
+    /// When the folder cannot be written.
+    pub fn end_restore(&self, rows: &Path) -> Result<(), StoreError> {
+        let database = self.database();
+        let copied = fs::copy(rows, &database)
+            .and_then(|_| File::open(&database)?.sync_all())
+            .and_then(|()| self.sync())
+            .and_then(|()| fs::remove_file(self.restoring()))
+            .and_then(|()| self.sync());
+        copied.map_err(|error| StoreError::folder(&database, error))
+    }
+
+    fn sync(&self) -> io::Result<()> {
+        File::open(&self.path)?.sync_all()
+    }
+
+    fn restoring(&self) -> PathBuf {
+        self.path.join(RESTORING)
+    }
+
     /// The database file.
     #[must_use]
     pub fn database(&self) -> PathBuf {
-        self.path.join("stillage.sqlite3")
+        self.path.join(DATABASE_FILE)
     }
 
     /// The folder itself.

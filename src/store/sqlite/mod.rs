@@ -13,6 +13,7 @@
 //!   committed snapshot.
 //! - Blobs are removed under a lock in memory ([`Sqlite::blob_gate`]), because no other process has the folder.
 
+mod database_copy;
 mod folder;
 #[cfg(test)]
 pub(crate) mod tests;
@@ -30,6 +31,7 @@ use tokio::sync::RwLock;
 use super::StoreError;
 use super::migrations::{check_migrated, migration, run_migrations};
 
+pub use database_copy::DatabaseCopy;
 pub use folder::DataFolder;
 
 /// How long a statement waits for a database that another process holds.
