@@ -29,6 +29,7 @@ mod storage_address;
 pub mod store;
 
 pub mod jobs;
+pub mod measures;
 pub mod stage_clock;
 
 pub mod app;

@@ -5,10 +5,10 @@
 use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
-use rustix::time::{ClockId, clock_gettime};
 use stillage_core::stage_shares::StageShares;
 use stillage_core::watch::{Observer, Stage};
 
+use crate::measures::cpu_time;
 use crate::records::StageReport;
 
 /// An observer with a clock: wall time and CPU time of the process, by stage.
@@ -106,20 +106,6 @@ impl Observer for StageClock {
             None => times.finished.push(report),
         }
     }
-}
-
-/// CPU time of the process so far, all threads.
-fn cpu_time() -> Duration {
-    Duration::try_from(clock_gettime(ClockId::ProcessCPUTime)).unwrap_or_default()
-}
-
-/// Most memory the process ever held, MiB; `None` where the system does not tell (`/proc/self/status` does on Linux).
-#[must_use]
-pub fn peak_rss_mib() -> Option<f64> {
-    let status = std::fs::read_to_string("/proc/self/status").ok()?;
-    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
-    let kibibytes: f64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
-    Some(kibibytes / 1024.0)
 }
 
 #[cfg(test)]

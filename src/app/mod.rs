@@ -24,6 +24,7 @@
 //! | `exports` | its files for other programs |
 //! | `service` | what the use cases share, start and stop |
 //! | `caller`, `keyring`, `sign_in`, `tokens`, `audit` | who asks, with which key, and who changed what |
+//! | `operation` | the figures that operators read |
 //! | `evaluations` | how well it fits the truth of its site |
 //!
 //! Every use case takes its [`Caller`] first. What concerns the service itself (readiness, metrics, the orderly stop)
@@ -55,6 +56,7 @@ mod maps;
 mod mending;
 mod name_import;
 mod names;
+mod operation;
 mod proposals;
 mod registries;
 mod routers;

@@ -16,6 +16,7 @@ use super::mending::Mending;
 use crate::config::Config;
 use crate::jobs::processes::{AnalysisProcess, Processes};
 use crate::jobs::{Signals, Worker, forget_old_entries};
+use crate::measures::Measures;
 use crate::store::{self, Capacity, Full, Outdated, Store, StoreError, now};
 
 /// A blob whose row never came is removed at a start after this time.
@@ -37,6 +38,7 @@ pub struct App {
     pub(super) mending: Arc<Mending>,
     /// `None` where requests need no key.
     pub(super) keyring: Option<Keyring>,
+    pub(super) measures: Arc<Measures>,
     /// Bounds how many uploads and contexts are decoded at the same time, and with that their memory.
     pub(super) decoders: Semaphore,
     is_stopping: AtomicBool,
@@ -65,7 +67,8 @@ impl App {
         processes: Processes,
     ) -> Arc<Self> {
         let signals = Arc::new(Signals::default());
-        let worker = Worker::start(&config, Arc::clone(&store), processes, Arc::clone(&signals));
+        let measures = Arc::new(Measures::new());
+        let worker = Worker::start(&config, Arc::clone(&store), processes, Arc::clone(&signals), Arc::clone(&measures));
         let mut background = JoinSet::new();
         if store.is_shared() {
             background.spawn(pass_on_changes(Arc::clone(&store), Arc::clone(&signals)));
@@ -85,6 +88,7 @@ impl App {
             last_corrected: LastCorrected::default(),
             mending: Mending::new(),
             keyring,
+            measures,
             decoders,
             is_stopping: AtomicBool::new(false),
             _background: background,

@@ -22,6 +22,7 @@ mod counting_bar;
 mod failure;
 mod findings;
 mod input;
+mod logging;
 mod output;
 mod progress;
 mod quotas;

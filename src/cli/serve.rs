@@ -4,15 +4,12 @@ use std::io::{self, Write};
 use std::net::SocketAddr;
 use std::time::Duration;
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 use tokio::net::TcpListener;
 use tokio::signal::unix::{Signal, SignalKind, signal};
-use tracing_subscriber::Layer as _;
-use tracing_subscriber::filter::Targets;
-use tracing_subscriber::layer::SubscriberExt as _;
-use tracing_subscriber::util::SubscriberInitExt as _;
 
 use super::access::AccessArgs;
+use super::logging::LogArgs;
 use super::storage::{BlobsNotShared, StorageArgs};
 use super::tls::TlsArgs;
 use crate::allowed_hosts::HostPattern;
@@ -115,21 +112,8 @@ pub(super) struct ServeArgs {
     /// How long running jobs may go on after a request to stop, seconds; then they are put back.
     #[arg(long, env = "STILLAGE_SHUTDOWN_GRACE_S", default_value_t = 25, value_name = "S")]
     pub(super) shutdown_grace_s: u64,
-    /// What to log to standard error: a level, or directives such as `stillage=debug,sqlx=warn`.
-    #[arg(long, env = "STILLAGE_LOG", default_value = "info", value_name = "FILTER")]
-    pub(super) log: String,
-    /// The form of log lines.
-    #[arg(long, env = "STILLAGE_LOG_FORMAT", default_value = "text")]
-    pub(super) log_format: LogFormat,
-}
-
-/// The form of log lines.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(super) enum LogFormat {
-    /// For people.
-    Text,
-    /// One JSON object a line.
-    Json,
+    #[command(flatten)]
+    logging: LogArgs,
 }
 
 /// Why the service did not start.
@@ -234,7 +218,7 @@ pub(super) fn run(args: &ServeArgs) -> Result<(), ServeError> {
     if args.access.keys == KeyRule::None && !args.allow_public && !args.listen.ip().is_loopback() {
         return Err(ServeError::Public(args.listen));
     }
-    start_logging(&args.log, args.log_format)?;
+    args.logging.start()?;
     tokio::runtime::Builder::new_multi_thread().enable_all().build()?.block_on(serve(args))
 }
 
@@ -251,6 +235,7 @@ async fn serve(args: &ServeArgs) -> Result<(), ServeError> {
         if tls.is_some() { "https" } else { "http" },
         listener.local_addr()?
     );
+    tracing::info!(version = env!("CARGO_PKG_VERSION"), role = ?args.role, "started");
     let stop = async {
         signals.next().await;
         tracing::info!("stopping: running requests and jobs may end");
@@ -282,18 +267,6 @@ impl StopSignals {
             _ = self.interrupt.recv() => {}
         }
     }
-}
-
-fn start_logging(filter: &str, format: LogFormat) -> Result<(), ServeError> {
-    let targets: Targets = filter.parse()?;
-    let lines = tracing_subscriber::fmt::layer().with_writer(io::stderr);
-    let lines = match format {
-        LogFormat::Text => lines.boxed(),
-        LogFormat::Json => lines.json().boxed(),
-    };
-    // Set already only when a test starts two services in one process.
-    let _ = tracing_subscriber::registry().with(lines.with_filter(targets)).try_init();
-    Ok(())
 }
 
 #[cfg(test)]

@@ -41,6 +41,7 @@ pub use docs::Texts as OpenApiTexts;
 
 use crate::app::App;
 use crate::config::{Config, Role};
+use crate::measures::Measures;
 
 /// Bytes that a body may have where nothing else is said: overrides for a hundred thousand faces.
 const BODY_BYTES: usize = 8 << 20;
@@ -49,9 +50,9 @@ const BODY_BYTES: usize = 8 << 20;
 ///
 /// What holds for one route only stands at the route: the length of its body, the time for its answer and how much it
 /// computes here, the refusals it can answer and its headers at its handler. The document is made from both.
-fn routes(config: &Config) -> OpenApiRouter<Arc<App>> {
+fn routes(config: &Config, measures: &Measures) -> OpenApiRouter<Arc<App>> {
     let upload_bytes = config.limits.max_bytes + maps::upload::FORM_OVERHEAD_BYTES;
-    let entrances = guard::admission::Entrances::new(config, BODY_BYTES, upload_bytes);
+    let entrances = guard::admission::Entrances::new(config, BODY_BYTES, upload_bytes, measures);
     let admit = |entrance| from_fn_with_state(entrance, guard::admission::admit);
     // The length of their bodies is checked at the entrance. No clock runs for their answers, which may wait for a job.
     let uploads = OpenApiRouter::new()
@@ -164,7 +165,7 @@ fn reading_and_writing() -> OpenApiRouter<Arc<App>> {
 /// The OpenAPI documents of the service, as they are served and as they lie in `openapi/`.
 #[must_use]
 pub fn openapi_texts() -> OpenApiTexts {
-    OpenApiTexts::of(&docs::openapi::value(&document(routes(&Config::new("data"))).1))
+    OpenApiTexts::of(&docs::openapi::value(&document(routes(&Config::new("data"), &Measures::new())).1))
 }
 
 fn document<S: Clone + Send + Sync + 'static>(routes: OpenApiRouter<S>) -> (Router<S>, utoipa::openapi::OpenApi) {
@@ -186,27 +187,28 @@ pub fn router(app: Arc<App>) -> Router {
 
 /// The routes of a process that works on jobs: its health and its metrics.
 fn of_worker(app: Arc<App>) -> Router {
-    let metrics = Arc::new(guard::observe::Metrics::new());
-    let guard = guard::access::AccessGuard::new(Arc::clone(&app), &document(routes(app.config())).1);
+    let measures = Arc::new(guard::observe::RequestMeasures::new(Arc::clone(app.measures())));
+    let guard = guard::access::AccessGuard::new(Arc::clone(&app), &document(routes(app.config(), app.measures())).1);
     let sign_in = guard::sign_in::SignIn::new(Arc::clone(&app));
     Router::new()
         .route("/health/live", axum::routing::get(admin::health::live))
         .route("/health/ready", axum::routing::get(admin::health::ready))
         .route("/metrics", axum::routing::get(guard::observe::metrics))
         .layer(from_fn_with_state(guard, guard::access::allowed))
+        .layer(from_fn(guard::observe::tell_route))
         .layer(from_fn(problem::render))
         .layer(from_fn_with_state(sign_in, guard::sign_in::sign_in))
-        .layer(Extension(metrics))
+        .layer(from_fn_with_state(measures, guard::observe::observe))
         .with_state(app)
 }
 
 fn of_service(app: Arc<App>) -> Router {
-    let (router, document) = document(routes(app.config()));
+    let (router, document) = document(routes(app.config(), app.measures()));
     let known = Arc::new(guard::KnownParameters::of(&document));
     let guard = guard::access::AccessGuard::new(Arc::clone(&app), &document);
-    let metrics = Arc::new(guard::observe::Metrics::new());
     let Config { trust_proxy, is_tls, .. } = *app.config();
     let listener = public_address::Listener { trust_proxy, is_tls };
+    let measures = Arc::new(guard::observe::RequestMeasures::new(Arc::clone(app.measures())));
     let layers = ServiceBuilder::new()
         .layer(from_fn(guard::observe::tell_route))
         .layer(from_fn(browser_headers))
@@ -227,7 +229,6 @@ fn of_service(app: Arc<App>) -> Router {
         .layer(from_fn_with_state(known, guard::known_parameters))
         .layer(from_fn(extract::negotiation::negotiate))
         .layer(DefaultBodyLimit::max(BODY_BYTES))
-        .layer(Extension(Arc::clone(&metrics)))
         .layer(Extension(ogc::event_streams::EventStreams::new(app.config())))
         .layer(Extension(Arc::new(docs::Documents::of(&docs::openapi::value(&document)))))
         .layer_fn(shared_service::SharedService::new);
@@ -238,7 +239,7 @@ fn of_service(app: Arc<App>) -> Router {
         .fallback_service(router)
         .layer(from_fn_with_state(answers::Again::new(Arc::clone(&app)), answers::again))
         .layer(from_fn_with_state(guard::sign_in::SignIn::new(app), guard::sign_in::sign_in))
-        .layer(from_fn_with_state(metrics, guard::observe::observe))
+        .layer(from_fn_with_state(measures, guard::observe::observe))
 }
 
 /// Middleware: nothing is sniffed, framed or loaded from elsewhere.

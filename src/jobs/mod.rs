@@ -13,6 +13,7 @@
 mod compute;
 mod contact;
 mod housekeeping;
+mod job_counts;
 pub mod processes;
 mod retry;
 mod running;

@@ -8,6 +8,7 @@ use tokio::sync::oneshot;
 use tokio::time::MissedTickBehavior;
 
 use super::compute::{ComputePool, Task};
+use super::job_counts::AttemptEnd;
 use super::processes::{ComputeError, Process};
 use super::retry::backoff;
 use super::shared::Shared;
@@ -26,6 +27,7 @@ pub(super) struct Running<'a> {
     claim: Claim,
     clock: Arc<StageClock>,
     stop: StopFlag,
+    began: Instant,
     /// What the row says, and since when.
     written: Progress,
     renewed: Instant,
@@ -35,11 +37,14 @@ impl<'a> Running<'a> {
     pub(super) fn new(shared: &'a Shared, claim: Claim) -> Self {
         let clock = Arc::new(StageClock::new());
         let (stop, written) = (StopFlag::default(), Progress::default());
-        Self { shared, claim, clock, stop, written, renewed: Instant::now() }
+        let now = Instant::now();
+        Self { shared, claim, clock, stop, began: now, written, renewed: now }
     }
 
     /// Sees the job to its end. An error means that its end could not be written; the lease will bring it back.
     pub(super) async fn run(mut self, pool: &ComputePool) -> Result<(), StoreError> {
+        tracing::info!("job begun");
+        self.shared.counts.begun();
         fail_point::pass("before-compute");
         let process = match self.shared.processes.find(&self.claim.process) {
             Ok(process) => Arc::clone(process),
@@ -85,6 +90,7 @@ impl<'a> Running<'a> {
                         return dismissed.map(|()| None);
                     }
                     Err(_) => {
+                        self.count(AttemptEnd::Lost);
                         self.drain(result).await;
                         return Ok(None);
                     }
@@ -124,11 +130,11 @@ impl<'a> Running<'a> {
             }
             // A store that is out of reach for a while is no reason to throw work away, as long as the lease holds.
             Err(error) if error.is_transient() && self.renewed.elapsed() < lease => {
-                tracing::warn!(%error, job = %self.claim.job, "heartbeat failed");
+                tracing::warn!(%error, "heartbeat failed");
                 Ok(false)
             }
             Err(error) => {
-                tracing::warn!(%error, job = %self.claim.job, "the job was taken away");
+                tracing::warn!(%error, "the job was taken away");
                 Err(error)
             }
         }
@@ -147,15 +153,18 @@ impl<'a> Running<'a> {
             () = async {
                 self.shared.grace_is_over().await;
                 tokio::time::sleep(LAST_MOMENTS).await;
-            } => tracing::warn!(job = %self.claim.job, "the computation did not stop in time"),
+            } => tracing::warn!("the computation did not stop in time"),
         }
     }
 
     /// Stores the blob, then commits the result with the end of the job.
     async fn store_result(&self, made: &JobResult) -> Result<(), StoreError> {
         let store = &self.shared.store;
-        store.finish(&self.claim, made, &self.clock.reports(), store.clock().await?).await?;
-        tracing::info!(job = %self.claim.job, map = %self.claim.map, process = self.claim.process, "job finished");
+        let stages = self.clock.reports();
+        store.finish(&self.claim, made, &stages, store.clock().await?).await?;
+        self.count(AttemptEnd::Job(JobState::Successful));
+        self.shared.counts.stages(&stages);
+        tracing::info!(seconds = self.began.elapsed().as_secs_f64(), "job finished");
         self.shared.signals.changed();
         Ok(())
     }
@@ -176,21 +185,22 @@ impl<'a> Running<'a> {
         }
         let wait = backoff(self.claim.job, attempt);
         let message = format!("attempt {attempt} of {most} failed: {error}");
-        tracing::warn!(job = %self.claim.job, attempt, ?wait, %error, "job will be tried again");
-        self.requeue(attempt, wait, &message).await
+        tracing::warn!(?wait, %error, "job will be tried again");
+        self.requeue(attempt, wait, &message, AttemptEnd::Requeued).await
     }
 
     /// Puts the job back as if this attempt had not been: the service was asked to stop.
     async fn give_back(&self) -> Result<(), StoreError> {
         let attempt = self.claim.attempt.saturating_sub(1);
         let message = "put back because the service was stopped";
-        self.requeue(attempt, Duration::ZERO, message).await
+        tracing::info!(message);
+        self.requeue(attempt, Duration::ZERO, message, AttemptEnd::GivenBack).await
     }
 
-    async fn requeue(&self, attempt: u32, wait: Duration, message: &str) -> Result<(), StoreError> {
+    async fn requeue(&self, attempt: u32, wait: Duration, message: &str, end: AttemptEnd) -> Result<(), StoreError> {
         let store = &self.shared.store;
         let requeued = store.requeue(&self.claim, attempt, wait, message, store.clock().await?).await;
-        self.settled(requeued)
+        self.settled(requeued, end)
     }
 
     async fn dismiss(&self) -> Result<(), StoreError> {
@@ -198,19 +208,25 @@ impl<'a> Running<'a> {
     }
 
     async fn end(&self, state: JobState, message: &str) -> Result<(), StoreError> {
-        tracing::info!(job = %self.claim.job, state = state.name(), message, "job ended");
+        tracing::info!(state = state.name(), reason = message, "job ended");
         let store = &self.shared.store;
         let ended = store.end(&self.claim, state, message, store.clock().await?).await;
-        self.settled(ended)
+        self.settled(ended, AttemptEnd::Job(state))
     }
 
     /// A claim that was lost is settled as well: by somebody else.
-    fn settled(&self, outcome: Result<(), StoreError>) -> Result<(), StoreError> {
+    fn settled(&self, outcome: Result<(), StoreError>, end: AttemptEnd) -> Result<(), StoreError> {
         self.shared.signals.changed();
         match outcome {
-            Err(StoreError::ClaimLost) => Ok(()),
-            other => other,
+            Err(StoreError::ClaimLost) => self.count(AttemptEnd::Lost),
+            Ok(()) => self.count(end),
+            Err(error) => return Err(error),
         }
+        Ok(())
+    }
+
+    fn count(&self, end: AttemptEnd) {
+        self.shared.counts.ended(end, self.began.elapsed());
     }
 }
 

@@ -8,6 +8,7 @@ use tokio::sync::watch;
 use tokio::time::Instant;
 
 use super::contact::Contact;
+use super::job_counts::JobCounts;
 use super::processes::Processes;
 use super::retry::backoff;
 use super::signals::Signals;
@@ -39,15 +40,22 @@ pub(super) struct Shared {
     pub(super) signals: Arc<Signals>,
     pub(super) settings: Settings,
     contact: Contact,
+    pub(super) counts: JobCounts,
     /// Set once: from when on running jobs are put back.
     stop_at: watch::Sender<Option<Instant>>,
 }
 
 impl Shared {
-    pub(super) fn new(store: Arc<dyn Store>, processes: Processes, signals: Arc<Signals>, settings: Settings) -> Self {
+    pub(super) fn new(
+        store: Arc<dyn Store>,
+        processes: Processes,
+        signals: Arc<Signals>,
+        settings: Settings,
+        counts: JobCounts,
+    ) -> Self {
         // Claims are renewed after a third of their lease, and idle slots ask once in a while.
         let contact = Contact::new((settings.lease / 2).max(3 * POLL));
-        Self { store, processes, signals, settings, contact, stop_at: watch::Sender::new(None) }
+        Self { store, processes, signals, settings, contact, counts, stop_at: watch::Sender::new(None) }
     }
 
     /// The time by the clock of the store, and the terms of a claim at this time.

@@ -72,7 +72,7 @@ async fn service_of(fixture: &Fixture, job_slots: usize, script: Arc<Script>, pr
         Config { job_slots, compute_threads: 2, heartbeat: Duration::from_millis(50), ..fixture.config.clone() };
     let store: Arc<dyn Store> = fixture.open().await;
     let signals = Arc::new(Signals::default());
-    let worker = Worker::start(&config, Arc::clone(&store), processes, Arc::clone(&signals));
+    let worker = Worker::start(&config, Arc::clone(&store), processes, Arc::clone(&signals), Arc::default());
     Service { store, worker, signals, script }
 }
 

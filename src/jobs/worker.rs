@@ -4,14 +4,17 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
 use tokio::task::JoinHandle;
+use tracing::Instrument as _;
 
 use super::compute::ComputePool;
 use super::housekeeping::delete_hidden;
+use super::job_counts::JobCounts;
 use super::processes::Processes;
 use super::running::Running;
 use super::shared::{POLL, Settings, Shared};
 use super::signals::Signals;
 use crate::config::Config;
+use crate::measures::Measures;
 use crate::store::{Store, StoreError};
 
 /// Works on the queue of a store.
@@ -25,7 +28,13 @@ pub struct Worker {
 impl Worker {
     /// A worker with its job slots running.
     #[must_use]
-    pub fn start(config: &Config, store: Arc<dyn Store>, processes: Processes, signals: Arc<Signals>) -> Arc<Self> {
+    pub fn start(
+        config: &Config,
+        store: Arc<dyn Store>,
+        processes: Processes,
+        signals: Arc<Signals>,
+        measures: Arc<Measures>,
+    ) -> Arc<Self> {
         let settings = Settings {
             lease: config.lease,
             max_attempts: config.max_attempts,
@@ -34,7 +43,7 @@ impl Worker {
             keep_deleted: config.keep_deleted,
         };
         let worker = Arc::new(Self {
-            shared: Shared::new(store, processes, signals, settings),
+            shared: Shared::new(store, processes, signals, settings, JobCounts::new(measures)),
             threads_per_slot: (config.compute_threads / config.job_slots.max(1)).max(1),
             slots: Mutex::new(Vec::new()),
         });
@@ -89,10 +98,12 @@ impl Worker {
         }
         let (now, terms) = self.shared.now().await?;
         let Some(claim) = store.claim(&terms, now).await? else { return Ok(false) };
-        tracing::info!(job = %claim.job, process = claim.process, map = %claim.map, attempt = claim.attempt, "job begun");
+        // Of the highest level, so that every line about the job has its ids.
+        let (job, map, attempt) = (claim.job, claim.map, claim.attempt);
+        let span = tracing::error_span!("job", %job, %map, process = claim.process, attempt);
         // More may wait: several that were queued at once are told of once, and another slot may be idle.
         signals.queued();
-        Running::new(&self.shared, claim).run(pool).await?;
+        Running::new(&self.shared, claim).run(pool).instrument(span).await?;
         Ok(true)
     }
 

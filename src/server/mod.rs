@@ -48,6 +48,7 @@ use tower::ServiceExt as _;
 
 use crate::app::App;
 use crate::http::{self, ClientAddress};
+use crate::measures::{HTTP_CONNECTIONS, HTTP_SHED, Present};
 use crate::pace::PaceLimits;
 
 use body::AwaitedBody;
@@ -128,7 +129,9 @@ impl Acceptor {
 
     /// Serves a connection, or refuses it where all others are at work: in words where no handshake comes first.
     fn begin(&self, stream: TcpStream, address: IpAddr) {
+        let measures = self.app.measures();
         let Some(place) = self.places.take(address) else {
+            measures.counter(HTTP_SHED, &[("reason", "connections")]).increment(1);
             if self.tls.is_none() {
                 self.refusals.refuse(stream);
             }
@@ -142,6 +145,7 @@ impl Acceptor {
             protocol: self.protocol.clone(),
             watcher: self.connections.watcher(),
             address: ClientAddress(address),
+            open: Present::new(measures.gauge(HTTP_CONNECTIONS, &[])),
         };
         match self.tls.clone() {
             None => tokio::spawn(connection.serve(stream, place)),
@@ -157,6 +161,7 @@ struct Connection {
     protocol: http1::Builder,
     watcher: Watcher,
     address: ClientAddress,
+    open: Present,
 }
 
 impl Connection {
@@ -174,7 +179,7 @@ impl Connection {
     }
 
     async fn serve(self, stream: impl AsyncRead + AsyncWrite + Unpin + Send + 'static, place: ConnectionPlace) {
-        let Self { app, router, protocol, watcher, address } = self;
+        let Self { app, router, protocol, watcher, address, open: _open } = self;
         let waiting = Arc::clone(&place.waiting);
         let stream = WatchedStream::new(stream, Arc::clone(&waiting), PaceLimits::default());
         let answer =

@@ -10,6 +10,15 @@ use super::{
     Analyses, AuditLog, Blobs, HiddenMaps, Jobs, Keys, Maps, Queue, Registries, RuleSets, SemanticsVersions, StoreError,
 };
 
+/// What the files of a store take, and what is free beside them.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct DiskUse {
+    /// Bytes that may still be written; `None` where nothing is written to disks of this machine.
+    pub free_bytes: Option<u64>,
+    /// Length of the write-ahead log, where the engine has a file of it.
+    pub log_bytes: Option<u64>,
+}
+
 /// An open store.
 #[async_trait]
 pub trait Store:
@@ -47,6 +56,12 @@ pub trait Store:
     /// # Errors
     /// [`StoreError::NoSpace`] below the configured floor.
     fn check_space(&self) -> Result<(), StoreError>;
+
+    /// What its files take, and what is free beside them.
+    ///
+    /// # Errors
+    /// When the disk does not answer.
+    fn disk_use(&self) -> Result<DiskUse, StoreError>;
 
     /// Whether the database answers and there is room.
     ///

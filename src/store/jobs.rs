@@ -62,4 +62,7 @@ pub trait Jobs {
 
     /// How many jobs of all tenants are in a state, for every state that has some.
     async fn job_counts(&self) -> Result<Vec<(JobState, u64)>, StoreError>;
+
+    /// When the oldest job of all tenants that waits was asked for.
+    async fn oldest_waiting(&self) -> Result<Option<Timestamp>, StoreError>;
 }

@@ -46,6 +46,7 @@ mod maps;
 mod migrations;
 #[cfg(feature = "postgres")]
 mod postgres;
+mod process_counts;
 pub mod queue;
 mod registries;
 mod result_address;
@@ -65,12 +66,13 @@ pub use backup::{BackupContents, BackupError, CopyProgress, back_up, check_backu
 pub use blobs::{Blob, BlobId, Blobs, LocalBlobs, Stored};
 pub use capacity::{Capacity, Full, Quotas};
 pub use clock::now;
-pub use engine::Store;
+pub use engine::{DiskUse, Store};
 pub use error::StoreError;
 pub use hidden_maps::{HiddenMap, HiddenMaps};
 pub use jobs::{Jobs, NewJob, Retry};
 pub use keys::Keys;
 pub use maps::{IdempotencyKey, Maps, NewMapRow, Upload};
+pub use process_counts::{busy_calls, rescued_jobs};
 pub use queue::Queue;
 pub use registries::{Registries, SiteRegistry};
 pub use result_address::ResultAddress;

@@ -24,5 +24,6 @@ mod outages;
 mod postgres;
 #[path = "../servers/proxy.rs"]
 mod proxy;
+mod rolling;
 mod server;
 mod settings;

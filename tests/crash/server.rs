@@ -5,7 +5,7 @@ use std::os::unix::process::ExitStatusExt;
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
-use rustix::process::{Pid, Signal, kill_process};
+use rustix::process::{Pid, Signal, WaitId, WaitIdOptions, kill_process, waitid};
 use serde_json::{Value, json};
 
 use crate::deployment::Deployment;
@@ -179,11 +179,31 @@ impl Server {
     }
 
     /// SIGTERM, and an orderly end.
-    pub fn stop(mut self) {
-        let pid = Pid::from_child(&self.process);
-        kill_process(pid, Signal::TERM).expect("it runs");
+    pub fn stop(self) {
+        self.ask_to_stop();
+        self.wait_for_success();
+    }
+
+    /// SIGTERM.
+    pub fn ask_to_stop(&self) {
+        kill_process(Pid::from_child(&self.process), Signal::TERM).expect("it runs");
+    }
+
+    /// Waits until the process has ended; its status is for [`Self::wait_for_success`].
+    pub fn wait_for_end(&self) {
+        let options = WaitIdOptions::EXITED | WaitIdOptions::NOWAIT;
+        waitid(WaitId::Pid(Pid::from_child(&self.process)), options).expect("it is a child");
+    }
+
+    /// The orderly end of a process that was asked to stop.
+    pub fn wait_for_success(mut self) {
         let status = self.process.wait().expect("it ends");
         assert!(status.success(), "told to stop, it ended with {status}");
+    }
+
+    /// `http://` and its address.
+    pub fn address(&self) -> &str {
+        &self.address
     }
 }
 

@@ -1,10 +1,15 @@
-//! The real server under clients that mean no good, and under an orderly stop. `docs/reliability.md` lists what must hold.
+//! The real server under clients that mean no good, under an orderly stop, and as its operators see it. `docs/reliability.md` lists what must hold.
 
 #![allow(clippy::panic, reason = "a test is read from top to bottom: no detours")]
 
 mod backup;
 mod framing;
+mod logs;
+mod metrics;
 mod server;
 mod slow_clients;
+mod soak;
 mod stop;
+mod storage;
+mod upgrade;
 mod uploads;

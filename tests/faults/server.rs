@@ -3,7 +3,7 @@
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::{SocketAddr, TcpStream};
 use std::path::Path;
-use std::process::{Child, Command, ExitStatus, Stdio};
+use std::process::{Child, ChildStderr, Command, ExitStatus, Stdio};
 use std::time::{Duration, Instant};
 
 use rustix::process::{Pid, Signal, kill_process};
@@ -33,9 +33,15 @@ impl Server {
 
     /// The same on a folder that outlives it.
     pub fn start_in(folder: &Path, arguments: &[&str]) -> Self {
-        let mut command = stillage(&["serve", "--listen", "127.0.0.1:0", "--min-free-mib", "0", "--log", "error"]);
-        let mut process =
-            command.arg("--data").arg(folder).args(arguments).stdout(Stdio::piped()).spawn().expect("runs");
+        let arguments = [&["--log", "error"], arguments].concat();
+        Self::start_with(folder, &arguments, Stdio::inherit())
+    }
+
+    /// The same with its log somewhere.
+    pub fn start_with(folder: &Path, arguments: &[&str], log: Stdio) -> Self {
+        let mut command = stillage(&["serve", "--listen", "127.0.0.1:0", "--min-free-mib", "0"]);
+        command.arg("--data").arg(folder).args(arguments).stdout(Stdio::piped()).stderr(log);
+        let mut process = command.spawn().expect("the binary runs");
         let mut line = String::new();
         let output = process.stdout.take().expect("it is piped");
         BufReader::new(output).read_line(&mut line).expect("its output is text");
@@ -108,6 +114,11 @@ impl Server {
         let files = std::fs::read_dir(format!("/proc/{}/fd", self.process.id())).expect("it runs");
         let targets = files.filter_map(|file| std::fs::read_link(file.ok()?.path()).ok());
         targets.filter(|target| target.to_string_lossy().starts_with("socket:")).count()
+    }
+
+    /// Its log, where it is piped and was not taken before.
+    pub const fn log(&mut self) -> Option<ChildStderr> {
+        self.process.stderr.take()
     }
 
     /// SIGTERM.

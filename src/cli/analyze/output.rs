@@ -18,8 +18,8 @@ use crate::coordinates::Transform;
 use crate::features::Collection;
 use crate::features::query::PropertySelection;
 use crate::formats::{csv, geojson};
+use crate::measures::peak_rss_mib;
 use crate::render;
-use crate::stage_clock::peak_rss_mib;
 use crate::views::correction::ListedCorrection;
 
 /// Checks that the folder can be written, before the long work.

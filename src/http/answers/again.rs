@@ -1,5 +1,6 @@
 //! The middleware that gives answers again.
 
+use std::fmt;
 use std::sync::Arc;
 
 use axum::body::{Body, to_bytes};
@@ -7,6 +8,7 @@ use axum::extract::{Request, State};
 use axum::http::{HeaderValue, Method, StatusCode, header};
 use axum::middleware::Next;
 use axum::response::{IntoResponse, Response};
+use metrics::{Counter, Gauge};
 use tokio::runtime::Handle;
 
 use super::answer_cache::AnswerCache;
@@ -16,19 +18,32 @@ use crate::access::Scope;
 use crate::app::{App, Caller};
 use crate::blocking::off_the_runtime;
 use crate::http::extract::conditional::{EntityTag, IfNoneMatch};
+use crate::measures::{CACHE_ANSWERS, CACHE_BYTES};
 
 /// What the middleware works with.
-#[derive(Debug, Clone)]
+#[derive(Clone)]
 pub struct Again {
     app: Arc<App>,
     answers: Arc<AnswerCache>,
+    hits: Counter,
+    misses: Counter,
+    bytes: Gauge,
+}
+
+impl fmt::Debug for Again {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.debug_struct("Again").field("answers", &self.answers).finish_non_exhaustive()
+    }
 }
 
 impl Again {
     /// No answers yet.
     pub fn new(app: Arc<App>) -> Self {
         let answers = Arc::new(AnswerCache::new(app.config().cached_answer_bytes));
-        Self { app, answers }
+        let [hits, misses] = ["hit", "miss"].map(|found| app.measures().counter(CACHE_ANSWERS, &[("found", found)]));
+        let bytes = app.measures().gauge(CACHE_BYTES, &[]);
+        bytes.set(0.0);
+        Self { app, answers, hits, misses, bytes }
     }
 
     /// The answer that was kept for a question, if its map is still in the state it was made of.
@@ -54,12 +69,18 @@ pub async fn again(State(again): State<Again>, mut request: Request, next: Next)
 async fn answer(again: &Again, question: Question, caller: &Caller, request: Request, next: Next) -> Response {
     let if_none_match = IfNoneMatch::read(request.headers());
     if let Some(answer) = again.find(&question, caller).await.and_then(|remembered| remembered.answer(&if_none_match)) {
+        again.hits.increment(1);
         return answer;
     }
     let response = next.run(request).await;
     let is_kept = matches!(response.status(), StatusCode::OK | StatusCode::NOT_MODIFIED);
     match response.extensions().get::<EntityTag>().cloned() {
-        Some(tag) if is_kept => kept(&again.answers, question, tag, response).await,
+        Some(tag) if is_kept => {
+            again.misses.increment(1);
+            let response = kept(&again.answers, question, tag, response).await;
+            again.bytes.set(again.answers.bytes() as f64);
+            response
+        }
         _ => response,
     }
 }

@@ -60,6 +60,11 @@ impl AnswerCache {
         kept.answers.insert(question, (now, Arc::new(answer)));
     }
 
+    /// Bytes of all questions and answers that are kept.
+    pub fn bytes(&self) -> usize {
+        self.kept().bytes
+    }
+
     fn kept(&self) -> MutexGuard<'_, Kept> {
         // A panic can leave the sum of bytes wrong by one answer, nothing else.
         self.kept.lock().unwrap_or_else(PoisonError::into_inner)
@@ -120,7 +125,7 @@ mod tests {
         cache.keep(question(4), answer(20_000));
         let found: Vec<u32> = (0..5).filter(|&number| cache.find(&question(number)).is_some()).collect();
         assert_eq!(found, [0, 3, 4]);
-        assert!(cache.kept().bytes <= 100_000);
+        assert!(cache.bytes() <= 100_000);
     }
 
     #[test]

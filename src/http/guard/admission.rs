@@ -9,6 +9,7 @@ use axum::response::{IntoResponse, Response};
 use super::bodies::BodyRoom;
 use super::gate::Gate;
 use crate::config::Config;
+use crate::measures::{HTTP_BODIES, Measures};
 
 pub use super::gate::Turn;
 
@@ -38,8 +39,9 @@ pub struct Entrances {
 impl Entrances {
     /// The entrances of a configuration, for bodies of these lengths.
     #[must_use]
-    pub fn new(config: &Config, body_bytes: usize, upload_bytes: usize) -> Self {
-        let bodies = BodyRoom::new(config.upload_folder(), config.max_uploading_bytes);
+    pub fn new(config: &Config, body_bytes: usize, upload_bytes: usize, measures: &Measures) -> Self {
+        let held = measures.gauge(HTTP_BODIES, &[]);
+        let bodies = BodyRoom::new(config.upload_folder(), config.max_uploading_bytes, held);
         let cores = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
         let entrance = |turns: usize, places: usize, body_bytes| {
             let gate = Arc::new(Gate::new(turns, places.max(turns)));

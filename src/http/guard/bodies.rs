@@ -14,6 +14,7 @@ use axum::body::{Body, Bytes};
 use axum::extract::Request;
 use axum::http::header;
 use futures::TryStreamExt as _;
+use metrics::Gauge;
 
 use crate::blocking::off_the_runtime;
 use crate::http::extract::broken_body;
@@ -31,12 +32,15 @@ pub struct BodyRoom {
     folder: PathBuf,
     most: u64,
     held: AtomicU64,
+    /// Tells the same to operators.
+    gauge: Gauge,
 }
 
 impl BodyRoom {
-    /// Room for `most` bytes, with files in a folder.
-    pub fn new(folder: PathBuf, most: u64) -> Arc<Self> {
-        Arc::new(Self { folder, most, held: AtomicU64::new(0) })
+    /// Room for `most` bytes, with files in a folder; the gauge says how much is held.
+    pub fn new(folder: PathBuf, most: u64, gauge: Gauge) -> Arc<Self> {
+        gauge.set(0.0);
+        Arc::new(Self { folder, most, held: AtomicU64::new(0), gauge })
     }
 
     /// Receives the body of a request, up to a length.
@@ -99,6 +103,7 @@ impl Held {
         let (bytes, most) = (bytes as u64, self.room.most);
         let grown = |held: u64| held.checked_add(bytes).filter(|held| *held <= most);
         self.room.held.fetch_update(Ordering::Relaxed, Ordering::Relaxed, grown).map_err(|_| ())?;
+        self.room.gauge.increment(bytes as f64);
         self.bytes += bytes;
         Ok(())
     }
@@ -107,6 +112,7 @@ impl Held {
 impl Drop for Held {
     fn drop(&mut self) {
         self.room.held.fetch_sub(self.bytes, Ordering::Relaxed);
+        self.room.gauge.decrement(self.bytes as f64);
     }
 }
 
@@ -165,7 +171,7 @@ mod tests {
 
     fn room(most: u64) -> (Arc<BodyRoom>, tempfile::TempDir) {
         let folder = tempfile::tempdir().expect("a temporary folder");
-        (BodyRoom::new(folder.path().to_owned(), most), folder)
+        (BodyRoom::new(folder.path().to_owned(), most, Gauge::noop()), folder)
     }
 
     #[tokio::test]

@@ -128,7 +128,7 @@ impl Problem {
     }
 
     /// The kind of the problem.
-    #[cfg(test)]
+    #[must_use]
     pub const fn kind(&self) -> ProblemType {
         self.kind
     }

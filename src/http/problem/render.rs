@@ -33,6 +33,8 @@ pub async fn render(request: Request, next: Next) -> Response {
     let body =
         serde_json::to_vec(&problem.document(&address.path(uri.path()))).expect("strings and numbers can be written");
     let (mut parts, _) = response.into_parts();
+    // For the metrics, which lie around this.
+    parts.extensions.insert(problem.kind());
     parts.headers.remove(header::CONTENT_LENGTH);
     parts.headers.insert(header::CONTENT_TYPE, HeaderValue::from_static(PROBLEM_JSON));
     parts.headers.insert(header::CACHE_CONTROL, HeaderValue::from_static("no-store"));

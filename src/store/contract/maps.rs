@@ -46,6 +46,7 @@ pub async fn lists_are_newest_first_and_paged_by_the_last_seen(engine: &impl Eng
     let mut counts = store.job_counts().await.unwrap();
     counts.sort_by_key(|(state, _)| state.name());
     assert_eq!(counts, [(JobState::Accepted, 4), (JobState::Running, 1)]);
+    assert_eq!(store.oldest_waiting().await.unwrap(), Some(jobs[3].created), "the one before runs");
 }
 
 pub async fn a_map_is_changed_only_from_the_version_that_was_read(engine: &impl Engine) {

@@ -119,6 +119,12 @@ impl Jobs for SqlStore {
         let count = |row: &SqlRow| Ok((row.state()?, row.whole("jobs")?));
         rows.iter().map(count).collect()
     }
+
+    async fn oldest_waiting(&self) -> Result<Option<Timestamp>, StoreError> {
+        let oldest =
+            query("SELECT created FROM jobs WHERE state = 'accepted' AND tenant <> '' ORDER BY created LIMIT 1");
+        oldest.fetch_optional(&self.database).await?.map(|row| row.time("created")).transpose()
+    }
 }
 
 /// Words between spaces, among which a pattern finds a whole one; no text for none.

@@ -14,6 +14,7 @@ use super::statement::{of_free_rows, query};
 use super::store::SqlStore;
 use crate::fail_point;
 use crate::records::{JobState, StageReport};
+use crate::store::process_counts::count_rescued_job;
 use crate::store::queue::{Claim, JobResult, Progress, Queue, Terms};
 use crate::store::{ResultAddress, StoreError};
 
@@ -253,6 +254,7 @@ async fn end_claim(
         (JobState::Accepted, format!("attempt {attempt} of {max_attempts} was cut off"))
     };
     tracing::warn!(job = row.text("id")?, attempt, state = state.name(), "took a job from a worker that is gone");
+    count_rescued_job();
     query(
         "UPDATE jobs SET state = $2, message = $3, run_at = $4, lease_until = NULL, stage = NULL, \
              updated = CASE WHEN updated < $5 THEN $5 ELSE updated + 1 END, \

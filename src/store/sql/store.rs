@@ -13,7 +13,7 @@ use crate::config::{BlobAddress, Config};
 use crate::store::blobs::BucketBlobs;
 use crate::store::blobs::LocalBlobs;
 use crate::store::free_space::free_bytes;
-use crate::store::{AuditLog, Blobs, Keys, Store, StoreError, now};
+use crate::store::{AuditLog, Blobs, DiskUse, Keys, Store, StoreError, now};
 
 /// Rows in a database, blobs beside them.
 #[derive(Debug)]
@@ -88,6 +88,15 @@ impl Store for SqlStore {
             Some(folder) if free_bytes(folder)? < self.min_free_bytes => Err(StoreError::NoSpace),
             _ => Ok(()),
         }
+    }
+
+    fn disk_use(&self) -> Result<DiskUse, StoreError> {
+        let log_bytes = match &self.database {
+            Database::Sqlite(engine) => Some(engine.folder.log_bytes()),
+            #[cfg(feature = "postgres")]
+            Database::Postgres(_) => None,
+        };
+        Ok(DiskUse { free_bytes: self.space_in.as_deref().map(free_bytes).transpose()?, log_bytes })
     }
 
     async fn check(&self) -> Result<(), StoreError> {

@@ -106,6 +106,12 @@ impl DataFolder {
         self.path.join(DATABASE_FILE)
     }
 
+    /// Length of the write-ahead log; none where it is empty.
+    #[must_use]
+    pub fn log_bytes(&self) -> u64 {
+        fs::metadata(self.path.join(format!("{DATABASE_FILE}-wal"))).map_or(0, |metadata| metadata.len())
+    }
+
     /// The folder itself.
     #[must_use]
     pub fn path(&self) -> &Path {

@@ -111,7 +111,9 @@ impl Sqlite {
 
     /// Begins a write. The transaction is rolled back when it is dropped.
     pub(super) async fn write(&self) -> Result<Transaction<'static, sqlx::Sqlite>, StoreError> {
-        let transaction = self.writer.begin_with("BEGIN IMMEDIATE").await?;
+        // Who waited in the queue has not all of the time once more for the database.
+        let begun = tokio::time::timeout(ACQUIRE_TIMEOUT, self.writer.begin_with("BEGIN IMMEDIATE")).await;
+        let transaction = begun.unwrap_or(Err(sqlx::Error::PoolTimedOut))?;
         self.writes.fetch_add(1, Ordering::SeqCst);
         Ok(transaction)
     }
