@@ -30,6 +30,8 @@ mod server;
 mod storage;
 mod tls;
 mod tokens;
+#[cfg(feature = "otel")]
+mod traces;
 
 use std::ffi::OsString;
 use std::process::ExitCode;

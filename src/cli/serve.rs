@@ -9,7 +9,7 @@ use tokio::net::TcpListener;
 use tokio::signal::unix::{Signal, SignalKind, signal};
 
 use super::access::AccessArgs;
-use super::logging::LogArgs;
+use super::logging::{LogArgs, LoggingError};
 use super::storage::{BlobsNotShared, StorageArgs};
 use super::tls::TlsArgs;
 use crate::allowed_hosts::HostPattern;
@@ -139,9 +139,9 @@ pub(super) enum ServeError {
         /// What the system says.
         source: io::Error,
     },
-    /// The logging directives make no sense.
-    #[error("--log: {0}")]
-    Log(#[from] tracing_subscriber::filter::ParseError),
+    /// What is asked of the log makes no sense.
+    #[error(transparent)]
+    Log(#[from] LoggingError),
     /// The files of TLS.
     #[error("--tls-cert and --tls-key: {0}")]
     Tls(#[from] TlsError),
@@ -218,7 +218,7 @@ pub(super) fn run(args: &ServeArgs) -> Result<(), ServeError> {
     if args.access.keys == KeyRule::None && !args.allow_public && !args.listen.ip().is_loopback() {
         return Err(ServeError::Public(args.listen));
     }
-    args.logging.start()?;
+    let _logging = args.logging.start()?;
     tokio::runtime::Builder::new_multi_thread().enable_all().build()?.block_on(serve(args))
 }
 

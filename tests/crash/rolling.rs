@@ -21,6 +21,9 @@ const LOOK: Duration = Duration::from_millis(100);
 /// How many clients there are.
 const CLIENTS: usize = 4;
 
+/// Of so many requests of a client one is an upload.
+const UPLOAD_PERIOD: u64 = 24;
+
 /// What clients did.
 #[derive(Default)]
 struct Traffic {
@@ -40,7 +43,7 @@ enum Told {
 impl Traffic {
     /// Reads, and uploads now and then; answers whether the connection goes on.
     fn ask(&self, client: &ureq::Agent, address: &str, turn: u64) -> Told {
-        let is_upload = turn % 8 == 0;
+        let is_upload = turn % UPLOAD_PERIOD == 0;
         let index = if is_upload { self.uploads.fetch_add(1, Ordering::Relaxed) } else { 0 };
         let answer = if is_upload {
             let request =
@@ -69,6 +72,11 @@ impl Traffic {
     fn lose(&self, what: String) -> Told {
         self.lost.lock().expect("nobody panicked").push(what);
         Told::Nothing
+    }
+
+    /// How long the jobs may take that were accepted.
+    fn patience(&self) -> Duration {
+        PATIENCE + Duration::from_millis(500 * self.uploads.load(Ordering::Relaxed))
     }
 
     /// Nothing was lost, and every job that was accepted ended with its first attempt.
@@ -117,7 +125,7 @@ fn stopped_under_load_it_ends_soon_and_drops_nothing() {
         longest = longest.max(begun.elapsed());
     }
     let server = Server::start(&folder, None, &[]).expect("it starts");
-    server.wait_until_idle(PATIENCE);
+    server.wait_until_idle(traffic.patience());
     server.stop();
     let (answered, jobs) = traffic.check(&folder);
     assert!(longest < LONGEST_STOP, "{longest:?}");
@@ -188,11 +196,31 @@ fn processes_that_are_restarted_one_after_the_other_lose_no_request() {
     });
     for server in servers {
         let server = server.into_inner().expect("nobody panicked").expect("it runs");
-        server.wait_until_idle(PATIENCE);
+        server.wait_until_idle(traffic.patience());
         server.stop();
     }
     let (answered, jobs) = traffic.check(&deployment);
     println!(
         "{restarts} rolling restarts of two processes: {answered} requests answered, {jobs} jobs accepted, 0 lost"
     );
+}
+
+#[test]
+fn every_role_tells_when_it_is_ready_and_when_it_stops() {
+    let Some(deployment) = Deployment::shared() else { return };
+    for role in ["all", "api", "worker"] {
+        let arguments = ["--role", role, "--shutdown-notice-s", "3"];
+        let server = Server::start(&deployment, None, &arguments).expect("it starts");
+        let health = || {
+            ["live", "ready"].map(|path| {
+                let answer = client().get(format!("{}/health/{path}", server.address())).call().expect("it answers");
+                answer.status().as_u16()
+            })
+        };
+        assert_eq!(health(), [200, 200], "{role}");
+        server.ask_to_stop();
+        std::thread::sleep(Duration::from_millis(500));
+        assert_eq!(health(), [200, 503], "{role} is there and takes nothing more");
+        server.wait_for_success();
+    }
 }

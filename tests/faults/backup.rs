@@ -6,6 +6,8 @@ use std::process::{Output, Stdio};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
+use stillage::config::Config;
+
 use crate::server::{Server, body, hall, status, stillage};
 
 /// `stillage backup` of a data folder.
@@ -65,11 +67,7 @@ fn backups_of_a_service_that_works_are_whole_and_answer_the_same() {
             for index in 0.. {
                 assert_eq!(status(&server.upload(&hall(index % 500))), 202);
                 if index % 3 == 2 {
-                    let map = server.maps().pop().expect("some are there");
-                    server.answer(
-                        format!("DELETE /v1/maps/{map} HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n")
-                            .as_bytes(),
-                    );
+                    delete(&server, &server.maps().pop().expect("some are there"));
                 }
                 if is_over.load(Ordering::Relaxed) {
                     return;
@@ -102,6 +100,59 @@ fn backups_of_a_service_that_works_are_whole_and_answer_the_same() {
         if index == 5 {
             assert_eq!(answers(&server), before);
         }
+    }
+}
+
+/// A map goes for good.
+fn delete(server: &Server, map: &str) {
+    let request = format!("DELETE /v1/maps/{map} HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n");
+    assert!([200, 204].contains(&status(&server.answer(request.as_bytes()))));
+}
+
+#[test]
+fn blobs_that_are_deleted_while_they_are_copied_are_not_missed() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let (data, backup) = (folder.path().join("data"), folder.path().join("backup"));
+    let server = Server::start_in(&data, &["--keep-deleted-minutes", "0"]);
+    (0..3).for_each(|index| assert_eq!(status(&server.upload(&hall(index))), 202));
+    server.wait_until_idle();
+    let is_first = AtomicBool::new(true);
+    let config = Config::new(&data);
+    let copy = stillage::store::back_up(&config, &backup, |_| {
+        // The rows are copied and no blob is.
+        if is_first.swap(false, Ordering::Relaxed) {
+            delete(&server, &server.maps()[1]);
+            assert_eq!(status(&server.upload(&hall(9))), 202);
+        }
+    });
+    let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build().expect("a runtime");
+    let contents = runtime.block_on(copy).expect("it succeeds");
+    assert_eq!((contents.maps, contents.damaged.as_slice()), (3, [].as_slice()), "two are left, one came");
+    assert_eq!(fault_of(&backup), None);
+}
+
+#[test]
+fn a_blob_that_is_damaged_in_the_store_is_told_and_left_out() {
+    let (folder, _) = a_backup(1);
+    let (data, backup) = (folder.path().join("data"), folder.path().join("second"));
+    let mut blobs = Vec::new();
+    list(&data.join("blobs"), &mut blobs);
+    let analysis = blobs.iter().max_by_key(|blob| fs::metadata(blob).expect("is there").len()).expect("there are two");
+    fs::write(analysis, "half of").expect("can be changed");
+    let output = back_up(&data, &backup);
+    succeeds(&output);
+    let warning = String::from_utf8_lossy(&output.stderr).into_owned();
+    let name = analysis.file_name().expect("has one").to_string_lossy();
+    assert!(warning.contains(&format!("warning: the blob {name} is missing or damaged")), "{warning}");
+    let restored = folder.path().join("restored");
+    succeeds(&restore(&backup, &restored));
+    let server = Server::start_in(&restored, &[]);
+    let faces = format!("/v1/maps/{}/collections/faces/items", server.maps()[0]);
+    assert_eq!(status(&server.get(&faces)), 503, "it is made again");
+    let begun = std::time::Instant::now();
+    while status(&server.get(&faces)) != 200 {
+        assert!(begun.elapsed() < Duration::from_secs(60), "its upload is there");
+        std::thread::sleep(Duration::from_millis(50));
     }
 }
 

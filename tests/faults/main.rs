@@ -1,4 +1,5 @@
-//! The real server under clients that mean no good, under an orderly stop, and as its operators see it. `docs/reliability.md` lists what must hold.
+//! The real server under clients that mean no good, under an orderly stop, and as its operators see it. `docs/reliability.md`
+//! lists what must hold.
 
 #![allow(clippy::panic, reason = "a test is read from top to bottom: no detours")]
 
@@ -11,5 +12,7 @@ mod slow_clients;
 mod soak;
 mod stop;
 mod storage;
+#[cfg(feature = "otel")]
+mod traces;
 mod upgrade;
 mod uploads;

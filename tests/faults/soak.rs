@@ -2,8 +2,6 @@
 //!
 //! `STILLAGE_SOAK_JOBS=5000 cargo test --test faults soak -- --nocapture` runs the long one.
 
-#![allow(clippy::print_stdout, reason = "who runs the long one is told its figures")]
-
 use std::collections::BTreeMap;
 
 use crate::server::{Server, body, hall, status};

@@ -7,9 +7,9 @@
 //! blobs/ab/abcd...     the blobs that these rows name
 //! ```
 //!
-//! The state of the rows is taken after the blobs: blobs are copied, the rows are copied, and where these name blobs that came
-//! meanwhile, both once more. So nothing has to be held in the service, and a blob that is deleted meanwhile is either copied or
-//! not named any more.
+//! The rows are copied first, as one committed state, and then the blobs that they name. Where a blob was deleted meanwhile, a
+//! newer state of the rows does not name it any more: the rows are copied once more, and what they name beyond what is there. So
+//! nothing has to be held up in the service.
 //!
 //! A backup is written beside its place and gets its name when it is whole.
 
