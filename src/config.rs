@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use crate::access::{KeySecretError, TokenRules};
+use crate::access::{KEY_SECRET_FILE, KeySecretError, TokenRules};
 use crate::allowed_hosts::AllowedHosts;
 use crate::ingest::Limits;
 pub use crate::storage_address::{BlobAddress, DatabaseAddress};
@@ -155,7 +155,7 @@ impl Config {
     /// # Errors
     /// Processes that share a database share the file, too, so it has to be named.
     pub fn key_secret_path(&self) -> Result<PathBuf, KeySecretError> {
-        let in_folder = || self.database.folder().map(|folder| folder.join("key-secret"));
+        let in_folder = || self.database.folder().map(|folder| folder.join(KEY_SECRET_FILE));
         self.key_secret_file.clone().or_else(in_folder).ok_or(KeySecretError::NotNamed)
     }
 

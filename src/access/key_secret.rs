@@ -6,6 +6,9 @@ use std::path::{Path, PathBuf};
 
 use super::random::random_digits;
 
+/// The name of its file in a data folder.
+pub const KEY_SECRET_FILE: &str = "key-secret";
+
 /// Length of the secret, bytes: what keyed blake3 takes.
 const BYTES: usize = 32;
 

@@ -21,7 +21,7 @@ mod token;
 
 pub use api_key::{ApiKey, KeyHash};
 pub use expiry::Expiry;
-pub use key_secret::{KeySecret, KeySecretError};
+pub use key_secret::{KEY_SECRET_FILE, KeySecret, KeySecretError};
 pub use rate::{Allowance, RateLimiter, WINDOW};
 pub use scope::{Scope, Scopes};
 pub use session::{SESSION, Session};

@@ -70,7 +70,7 @@ pub(super) fn restore(args: &RestoreArgs) -> Result<(), CopyingError> {
     }
     let config = args.storage.config()?;
     let contents = with_bar(async |tell| store::restore(&args.from, &config, tell).await)?;
-    say(&contents, "restored to", config.database.folder().unwrap_or(&args.storage.data))
+    say(&contents, "restored to", config.database.folder().unwrap_or(&args.storage.rows.data))
 }
 
 fn with_bar(

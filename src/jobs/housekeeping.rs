@@ -32,11 +32,15 @@ pub fn kept_since(keep: Duration, now: Timestamp) -> Timestamp {
 /// Removes entries of the log of changes once they are older than they are kept. Never returns.
 pub async fn forget_old_entries(store: Arc<dyn Store>, keep: Duration) {
     loop {
-        match store.audit().forget_before(kept_since(keep)).await {
+        match forget(&*store, keep).await {
             Ok(0) => {}
             Ok(forgotten) => tracing::info!(forgotten, "removed old entries of the log of changes"),
             Err(error) => tracing::warn!(%error, "old entries of the log of changes could not be removed"),
         }
         tokio::time::sleep(PERIOD).await;
     }
+}
+
+async fn forget(store: &dyn Store, keep: Duration) -> Result<u64, StoreError> {
+    store.audit().forget_before(kept_since(keep, store.clock().await?)).await
 }

@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 use crate::audit::{self, Ledger};
 use crate::deployment::Deployment;
 use crate::server::{Server, map_message};
-use crate::{PATIENCE, setting};
+use crate::settings::{PATIENCE, setting};
 
 /// Longest time from the signal to the end of the process.
 const LONGEST_STOP: Duration = Duration::from_secs(30);

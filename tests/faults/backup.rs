@@ -248,3 +248,24 @@ fn nothing_is_restored_over_something_and_nothing_backed_up_over_something() {
     fs::create_dir(&empty).expect("can be made");
     succeeds(&restore(&backup, &empty));
 }
+
+#[test]
+fn keys_open_what_was_restored() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let [data, backup, restored] = ["data", "backup", "restored"].map(|name| folder.path().join(name));
+    drop(Server::start_in(&data, &[]));
+    let created = stillage(&["key", "create", "--tenant", "acme", "--scopes", "read", "--data"]).arg(&data).output();
+    let created = created.expect("it runs");
+    succeeds(&created);
+    let key = String::from_utf8(created.stdout).expect("text").trim().to_owned();
+    succeeds(&back_up(&data, &backup));
+    succeeds(&restore(&backup, &restored));
+    let server = Server::start_in(&restored, &["--keys", "required"]);
+    let ask = |key: &str| {
+        let request = format!(
+            "GET /v1/maps HTTP/1.1\r\nHost: localhost\r\nAuthorization: Bearer {key}\r\nConnection: close\r\n\r\n"
+        );
+        status(&server.answer(request.as_bytes()))
+    };
+    assert_eq!([ask(&key), ask(&key.replace(char::is_numeric, "0"))], [200, 401]);
+}

@@ -5,9 +5,10 @@ use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 
 use super::error::BackupError;
-use super::layout::{BLOBS, DATABASE, blob_name};
+use super::layout::{BLOBS, DATABASE, blob_name, copy_synced};
 use super::manifest::{self, BackupContents, Checksum, CopiedRows};
 use super::progress::CopyProgress;
+use crate::access::KEY_SECRET_FILE;
 use crate::blocking::off_the_runtime;
 use crate::config::Config;
 use crate::store::sql::open_blobs;
@@ -43,7 +44,8 @@ pub async fn back_up(config: &Config, to: &Path, tell: impl Fn(CopyProgress)) ->
             forget_others(&copied_to, &rows, &mut blobs).await?;
             let damaged = missing.iter().map(ToString::to_string).collect();
             let rows = CopiedRows { schema: rows.schema, made, maps: rows.maps, damaged };
-            return off_the_runtime(move || finish(place, rows, &blobs)).await;
+            let secret = data.join(KEY_SECRET_FILE);
+            return off_the_runtime(move || finish(place, rows, &blobs, &secret)).await;
         }
         missing_before = Some(missing);
     }
@@ -90,15 +92,25 @@ async fn forget_others(
     Ok(())
 }
 
-/// Writes the lists, and gives the backup its name.
-fn finish(place: BackupPlace, rows: CopiedRows, blobs: &BTreeMap<BlobId, u64>) -> Result<BackupContents, BackupError> {
+/// Copies the secret of the keys, where there is one, writes the lists, and gives the backup its name.
+fn finish(
+    place: BackupPlace,
+    rows: CopiedRows,
+    blobs: &BTreeMap<BlobId, u64>,
+    secret: &Path,
+) -> Result<BackupContents, BackupError> {
     let unfinished = place.unfinished.path();
     let database = unfinished.join(DATABASE);
     File::open(&database).and_then(|file| file.sync_all()).map_err(BackupError::file(&database))?;
     let mut files: BTreeMap<String, Checksum> =
         blobs.iter().map(|(id, &bytes)| (blob_name(id), Checksum { hash: id.to_string(), bytes })).collect();
     files.insert(DATABASE.to_owned(), manifest::checksum(&database).map_err(BackupError::file(&database))?);
-    let contents = manifest::write(unfinished, rows, &files)?;
+    if secret.exists() {
+        let copy = unfinished.join(KEY_SECRET_FILE);
+        copy_synced(secret, &copy).map_err(BackupError::file(&copy))?;
+        files.insert(KEY_SECRET_FILE.to_owned(), manifest::checksum(&copy).map_err(BackupError::file(&copy))?);
+    }
+    let contents = manifest::write(unfinished, rows, blobs.len() as u64, &files)?;
     place.finish()?;
     Ok(contents)
 }

@@ -63,6 +63,7 @@ pub(super) struct Checksum {
 pub(super) fn write(
     folder: &Path,
     rows: CopiedRows,
+    blobs: u64,
     files: &BTreeMap<String, Checksum>,
 ) -> Result<BackupContents, BackupError> {
     let list: String = files.iter().map(|(name, checksum)| format!("{}  {name}\n", checksum.hash)).collect();
@@ -73,7 +74,7 @@ pub(super) fn write(
         schema,
         made,
         maps,
-        blobs: files.len() as u64 - 1,
+        blobs,
         bytes: files.values().map(|checksum| checksum.bytes).sum(),
         damaged,
         checksums: blake3::hash(list.as_bytes()).to_hex().to_string(),

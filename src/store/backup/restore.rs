@@ -4,9 +4,10 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use super::error::BackupError;
-use super::layout::{BLOBS, DATABASE, blob_name};
+use super::layout::{BLOBS, DATABASE, blob_name, copy_synced};
 use super::manifest::{self, BackupContents, damaged};
 use super::progress::CopyProgress;
+use crate::access::KEY_SECRET_FILE;
 use crate::blocking::off_the_runtime;
 use crate::config::Config;
 use crate::store::sql::open_blobs;
@@ -82,7 +83,14 @@ pub async fn restore(
             blobs.put(&copies.get(id).await?).await?;
         }
     }
+    let (secret, its_place) = (backup.join(KEY_SECRET_FILE), data.join(KEY_SECRET_FILE));
     let database = backup.join(DATABASE);
-    off_the_runtime(move || folder.end_restore(&database)).await?;
+    off_the_runtime(move || {
+        if secret.exists() {
+            copy_synced(&secret, &its_place).map_err(BackupError::file(&its_place))?;
+        }
+        Ok::<_, BackupError>(folder.end_restore(&database)?)
+    })
+    .await?;
     Ok(contents)
 }
