@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 use crate::serving::Serving;
 
 /// A pause between two looks.
-pub const TICK: Duration = Duration::from_millis(5);
+const TICK: Duration = Duration::from_millis(5);
 
 /// Columns and rows of a map whose job takes milliseconds, and of one whose job takes seconds.
 pub const SMALL: [usize; 2] = [30, 24];
@@ -62,14 +62,25 @@ impl Client {
         }
     }
 
+    /// Waits until a job runs for the n-th time.
+    pub fn wait_for_attempt(&self, job: &str, attempt: u64) {
+        while (self.job(job)["status"].as_str(), self.job(job)["attempt"].as_u64()) != (Some("running"), Some(attempt))
+        {
+            std::thread::sleep(TICK);
+        }
+    }
+
+    fn job(&self, path: &str) -> Value {
+        self.get(path.strip_prefix(&self.address).unwrap_or(path))
+    }
+
     fn has_jobs(&self, states: &str) -> bool {
         self.get(&format!("/v1/jobs?status={states}&limit=1"))["jobs"].as_array().is_some_and(|jobs| !jobs.is_empty())
     }
 
     /// How long a job waited before it began.
     pub fn wait_of(&self, job: &str) -> Duration {
-        let path = job.strip_prefix(&self.address).unwrap_or(job);
-        let job = self.get(path);
+        let job = self.job(job);
         let time = |name: &str| -> Timestamp { job[name].as_str().expect("a time").parse().expect("a time") };
         time("started").duration_since(time("created")).unsigned_abs()
     }

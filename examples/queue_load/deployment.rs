@@ -1,5 +1,6 @@
 //! Where processes keep what they store, and how they are started.
 
+use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use sqlx::{AssertSqlSafe, Connection, Executor, PgConnection};
@@ -35,7 +36,9 @@ impl Deployment {
         if let Some(database) = &self.database {
             all.extend(["--database", database, "--blobs", &blobs]);
         }
-        Serving::start(&[&all, arguments].concat())
+        let own = || std::env::current_exe().expect("this program has a path");
+        let program = std::env::var_os("STILLAGE_BINARY").map_or_else(own, PathBuf::from);
+        Serving::start_program(&program, &[&all, arguments].concat())
     }
 }
 

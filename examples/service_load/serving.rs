@@ -2,6 +2,7 @@
 
 use std::io::{BufRead, BufReader};
 use std::net::SocketAddr;
+use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::time::Duration;
 
@@ -14,7 +15,11 @@ pub struct Serving {
 impl Serving {
     /// Starts it with these arguments and waits for the address in its first line.
     pub fn start(arguments: &[&str]) -> Self {
-        let program = std::env::current_exe().expect("this program has a path");
+        Self::start_program(&std::env::current_exe().expect("this program has a path"), arguments)
+    }
+
+    /// [`Self::start`] with another program.
+    pub fn start_program(program: &Path, arguments: &[&str]) -> Self {
         let mut command = Command::new(program);
         let mut process =
             command.args(arguments).stdout(Stdio::piped()).stderr(Stdio::null()).spawn().expect("it starts");

@@ -14,6 +14,10 @@ use crate::stage_clock::StageClock;
 use crate::store::Blob;
 use crate::store::queue::JobResult;
 
+/// By how much the system prefers the threads that answer requests. A read waits for no time slice of a job then.
+#[cfg(target_os = "linux")]
+const NICENESS: i32 = 10;
+
 /// The threads of one job slot.
 ///
 /// Each slot has its own, because a thread of a shared pool that waits for its part of one job may pick up another job
@@ -25,7 +29,8 @@ impl ComputePool {
     pub(super) fn new(threads: usize) -> Self {
         let build = |threads| {
             let name = |thread| format!("compute-{thread}");
-            rayon::ThreadPoolBuilder::new().num_threads(threads).thread_name(name).build()
+            let builder = rayon::ThreadPoolBuilder::new().num_threads(threads).thread_name(name);
+            builder.start_handler(|_| let_others_go_first()).build()
         };
         Self(build(threads.max(1)).expect("the operating system gives a few threads at the start"))
     }
@@ -43,6 +48,14 @@ impl ComputePool {
             let _ = sender.send(result.unwrap_or_else(|panic| Err(panicked(panic))));
         });
         receiver
+    }
+}
+
+/// Linux keeps a niceness for each thread, and 0 means the one that asks; elsewhere it is that of the whole process.
+fn let_others_go_first() {
+    #[cfg(target_os = "linux")]
+    if let Err(error) = rustix::process::setpriority_process(None, NICENESS) {
+        tracing::debug!(%error, "jobs compete with requests");
     }
 }
 

@@ -46,7 +46,7 @@ const SEAWEEDFS: [&str; 7] = [
 ];
 
 /// Runs the command in its arguments until the standard input ends. Nothing of it is wanted then, so it is not asked.
-const SCRIPT: &str = r#""$@" >"$PWD/log" 2>&1 </dev/null & cat >/dev/null; kill -KILL $!; wait $! 2>"$PWD/log"; true"#;
+const SCRIPT: &str = r#""$@" >"$PWD/log" 2>&1 </dev/null & cat >/dev/null; kill -KILL $!; wait $! 2>/dev/null; true"#;
 
 impl ObjectStore {
     /// The name of the bucket.
