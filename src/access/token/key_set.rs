@@ -67,12 +67,6 @@ impl TokenKeySet {
         if keys.is_empty() { Err(NoKeySet) } else { Ok(Self(keys)) }
     }
 
-    /// Whether a key of this id is among them.
-    #[must_use]
-    pub fn has(&self, id: &str) -> bool {
-        self.0.iter().any(|key| key.id.as_deref() == Some(id))
-    }
-
     /// Checks a signature with the keys that fit: of the id, where the token names one, and of the algorithm, which only the key
     /// decides.
     pub(super) fn verify(
