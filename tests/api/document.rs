@@ -463,8 +463,9 @@ async fn every_operation_answers_as_documented_and_every_refusal_occurs() {
         }
         let documented = operation["responses"].as_object().expect("responses").keys().map(String::as_str);
         let is_read = good.method == Method::GET;
-        let provoked = documented
-            .filter(|status| !FAULTS.contains(status) && !WITH_KEYS.contains(status) && !(is_read && *status == "403"));
+        let is_elsewhere =
+            |status: &str| FAULTS.contains(&status) || WITH_KEYS.contains(&status) || (is_read && status == "403");
+        let provoked = documented.filter(|status| !is_elsewhere(status));
         never.extend(provoked.filter(|status| !seen.contains(*status)).map(|status| format!("{id}: {status}")));
     }
     assert!(never.is_empty(), "documented and never answered: {never:?}");
