@@ -123,7 +123,7 @@ async fn jobs_are_there_and_those_not_done_are_done() {
 async fn idempotency_keys_are_remembered() {
     let folder = old_folder();
     let store = store::open(&config(&folder)).await.expect("the folder is upgraded");
-    assert_eq!(store.schema_version().await.expect("it answers"), 10);
+    assert_eq!(store.schema_version().await.expect("it answers"), 11);
     let jobs = store.jobs(&Tenant::local(), &JobFilter { limit: 99, ..JobFilter::default() }).await.expect("jobs");
     for (key, job) in [("upload-1", &jobs[4]), ("upload-2", &jobs[0])] {
         let key = IdempotencyKey { key: key.into(), content: String::new() };
