@@ -31,7 +31,9 @@ impl App {
         let jobs = self.measure_jobs().await;
         measures.gauge(DATABASE_UP, &[]).set(f64::from(u8::from(jobs.is_ok())));
         if jobs.is_err() {
-            JobState::ALL.iter().for_each(|state| measures.gauge(JOBS, &[("state", state.name())]).set(f64::NAN));
+            for state in JobState::ALL {
+                measures.gauge(JOBS, &[("state", state.name())]).set(f64::NAN);
+            }
             measures.gauge(JOBS_OLDEST, &[]).set(f64::NAN);
         }
         if let Ok(disk) = self.store.disk_use() {

@@ -33,7 +33,7 @@ impl AttemptEnd {
         match self {
             Self::Job(state) => state.name(),
             Self::Requeued => "requeued",
-            Self::GivenBack => "given_back",
+            Self::GivenBack => "given-back",
             Self::Lost => "lost",
         }
     }

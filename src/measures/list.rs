@@ -48,7 +48,7 @@ metrics! {
     JOBS_OLDEST = "jobs_oldest_waiting_seconds", Gauge, "How long ago the oldest waiting job was asked for; 0 without one.";
     JOB_ATTEMPTS = "job_attempts_total", Counter, "Jobs that this process began to work on.";
     JOB_ENDS = "job_ends_total", Counter,
-        "How that ended: successful, failed, dismissed, requeued (to be tried again), given_back (the process stops), or lost.";
+        "How that ended: successful, failed, dismissed, requeued (to be tried again), given-back (the process stops), or lost.";
     JOB_RESCUES = "job_rescues_total", Counter, "Jobs that this process took from a worker that was gone.";
     JOB_DURATION = "job_duration_seconds", Histogram, "Time from the beginning of an attempt to its end.";
     JOB_STAGES = "job_stage_duration_seconds", Histogram, "Time of each stage of successful jobs.";

@@ -27,14 +27,7 @@ impl Measures {
     /// Metrics that start at zero.
     #[must_use]
     pub fn new() -> Self {
-        let mut builder = PrometheusBuilder::new();
-        for (name, buckets) in
-            [(HTTP_DURATION, &ANSWER_BUCKETS[..]), (JOB_DURATION, &JOB_BUCKETS), (JOB_STAGES, &JOB_BUCKETS)]
-        {
-            builder =
-                builder.set_buckets_for_metric(Matcher::Full(name.to_owned()), buckets).expect("there are buckets");
-        }
-        let recorder = builder.build_recorder();
+        let recorder = builder().build_recorder();
         let handle = recorder.handle();
         metrics::with_local_recorder(&recorder, || {
             for metric in METRICS {
@@ -49,19 +42,16 @@ impl Measures {
     }
 
     /// A counter with its labels, to be looked up once where it counts often.
-    #[must_use]
     pub fn counter(&self, name: &'static str, labels: &[Label<'_>]) -> Counter {
         metrics::with_local_recorder(&self.recorder, || metrics::counter!(name, &owned(labels)))
     }
 
     /// A gauge with its labels.
-    #[must_use]
     pub fn gauge(&self, name: &'static str, labels: &[Label<'_>]) -> Gauge {
         metrics::with_local_recorder(&self.recorder, || metrics::gauge!(name, &owned(labels)))
     }
 
     /// A histogram with its labels.
-    #[must_use]
     pub fn histogram(&self, name: &'static str, labels: &[Label<'_>]) -> Histogram {
         metrics::with_local_recorder(&self.recorder, || metrics::histogram!(name, &owned(labels)))
     }
@@ -96,6 +86,14 @@ impl std::fmt::Debug for Measures {
     fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         formatter.debug_struct("Measures").finish_non_exhaustive()
     }
+}
+
+/// A builder that knows the bounds of the histograms.
+fn builder() -> PrometheusBuilder {
+    let bounds = [(HTTP_DURATION, &ANSWER_BUCKETS[..]), (JOB_DURATION, &JOB_BUCKETS), (JOB_STAGES, &JOB_BUCKETS)];
+    bounds.into_iter().fold(PrometheusBuilder::new(), |builder, (name, bounds)| {
+        builder.set_buckets_for_metric(Matcher::Full(name.to_owned()), bounds).expect("there are bounds")
+    })
 }
 
 fn owned(labels: &[Label<'_>]) -> Vec<(&'static str, String)> {

@@ -43,7 +43,7 @@ enum Told {
 impl Traffic {
     /// Reads, and uploads now and then; answers whether the connection goes on.
     fn ask(&self, client: &ureq::Agent, address: &str, turn: u64) -> Told {
-        let is_upload = turn % UPLOAD_PERIOD == 0;
+        let is_upload = turn.is_multiple_of(UPLOAD_PERIOD);
         let index = if is_upload { self.uploads.fetch_add(1, Ordering::Relaxed) } else { 0 };
         let answer = if is_upload {
             let request =

@@ -171,7 +171,8 @@ pub fn is_closed(stream: &mut TcpStream) -> bool {
 /// The body of an answer.
 #[track_caller]
 pub fn body(answer: &str) -> &str {
-    answer.split_once("\r\n\r\n").map(|(_, body)| body).unwrap_or_else(|| panic!("no answer: {answer:?}"))
+    let Some((_, body)) = answer.split_once("\r\n\r\n") else { panic!("no answer: {answer:?}") };
+    body
 }
 
 /// A hall with two rows of racks as an `OccupancyGrid` message; a different one for each index.

@@ -37,7 +37,8 @@ fn round(server: &Server, first: u64, jobs: u64) {
 fn thousands_of_jobs_leave_memory_files_and_log_as_they_are() {
     let jobs: u64 = std::env::var("STILLAGE_SOAK_JOBS").ok().and_then(|jobs| jobs.parse().ok()).unwrap_or(60);
     let in_a_round = (jobs / 6).clamp(1, 100);
-    let server = Server::start(&["--keep-deleted-minutes", "0"]);
+    // Answers are kept as long as there is room for them, which is soon full.
+    let server = Server::start(&["--keep-deleted-minutes", "0", "--cached-answer-mib", "1"]);
     // Caches, pools and threads fill in the first third.
     let rounds = jobs / in_a_round;
     let mut warm = None;
