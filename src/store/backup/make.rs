@@ -12,7 +12,7 @@ use crate::access::KEY_SECRET_FILE;
 use crate::blocking::off_the_runtime;
 use crate::config::Config;
 use crate::store::sql::open_blobs;
-use crate::store::sqlite::DatabaseCopy;
+use crate::store::sqlite::{DatabaseCopy, newest_schema};
 use crate::store::{BlobId, Blobs, LocalBlobs, StoreError, now};
 
 /// How often the rows are copied again because blobs of theirs were deleted before they were read. Each round has only what
@@ -37,7 +37,7 @@ pub async fn back_up(config: &Config, to: &Path, tell: impl Fn(CopyProgress)) ->
     let mut missing_before = None;
     for _ in 0..MOST_ROUNDS {
         let made = now();
-        let rows = DatabaseCopy::take(data, &unfinished.join(DATABASE)).await?;
+        let rows = DatabaseCopy::take(data, &unfinished.join(DATABASE), newest_schema()).await?;
         let missing = copy_blobs(&*source, &copied_to, &rows, &mut blobs, &tell).await?;
         // A blob that rows name again and again and nobody can read was not deleted: it is damaged.
         if missing.is_empty() || missing_before.as_ref() == Some(&missing) {

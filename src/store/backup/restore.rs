@@ -11,7 +11,7 @@ use crate::access::KEY_SECRET_FILE;
 use crate::blocking::off_the_runtime;
 use crate::config::Config;
 use crate::store::sql::open_blobs;
-use crate::store::sqlite::{DataFolder, DatabaseCopy};
+use crate::store::sqlite::{DataFolder, DatabaseCopy, newest_schema};
 use crate::store::{BlobId, Blobs as _, LocalBlobs};
 
 /// Reads all of a backup and compares it with its checksums.
@@ -51,7 +51,7 @@ async fn check_rows(
     if !files.contains_key(DATABASE) {
         return Err(BackupError::Incomplete { folder: backup.to_owned(), file: DATABASE });
     }
-    let rows = DatabaseCopy::read(&database).await?;
+    let rows = DatabaseCopy::read(&database, newest_schema()).await?;
     let is_there = |id: &BlobId| files.contains_key(&blob_name(id)) || contents.damaged.contains(&id.to_string());
     match rows.blobs.iter().find(|id| !is_there(id)) {
         Some(id) => Err(damaged(&database, &format!("it names the blob {id}, which the backup does not have"))),
@@ -76,7 +76,7 @@ pub async fn restore(
     let contents = check_backup(backup, &tell).await?;
     let folder = DataFolder::begin_restore(data)?;
     let (copies, blobs) = (LocalBlobs::open(&backup.join(BLOBS))?, open_blobs(&config.blobs)?);
-    let rows = DatabaseCopy::read(&backup.join(DATABASE)).await?;
+    let rows = DatabaseCopy::read(&backup.join(DATABASE), newest_schema()).await?;
     for (done, id) in rows.blobs.iter().enumerate() {
         tell(CopyProgress { done: done as u64, of: rows.blobs.len() as u64 });
         if !contents.damaged.contains(&id.to_string()) {

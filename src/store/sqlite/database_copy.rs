@@ -7,7 +7,6 @@ use std::time::Duration;
 use sqlx::sqlite::{SqliteConnectOptions, SqliteConnection};
 use sqlx::{Connection as _, Row as _};
 
-use super::MIGRATIONS;
 use super::folder::DATABASE_FILE;
 use crate::store::{BlobId, StoreError};
 
@@ -37,7 +36,7 @@ impl DatabaseCopy {
     ///
     /// # Errors
     /// What the database or the disk answers.
-    pub async fn take(data: &Path, file: &Path) -> Result<Self, StoreError> {
+    pub async fn take(data: &Path, file: &Path, newest_schema: i64) -> Result<Self, StoreError> {
         if file.exists() {
             std::fs::remove_file(file).map_err(|error| StoreError::folder(file, error))?;
         }
@@ -47,14 +46,14 @@ impl DatabaseCopy {
         // One read transaction, which holds up nobody who writes: https://sqlite.org/lang_vacuum.html#vacuum_with_an_into_clause
         sqlx::query("VACUUM INTO ?").bind(file.to_string_lossy().into_owned()).execute(&mut source).await?;
         source.close().await?;
-        Self::read(file).await
+        Self::read(file, newest_schema).await
     }
 
-    /// Reads a copy, and checks that it is whole.
+    /// Reads a copy of a schema up to the newest that is known, and checks that it is whole.
     ///
     /// # Errors
     /// [`StoreError::NewerDatabase`], and what the database answers.
-    pub async fn read(file: &Path) -> Result<Self, StoreError> {
+    pub async fn read(file: &Path, newest_schema: i64) -> Result<Self, StoreError> {
         let options = SqliteConnectOptions::new().filename(file).read_only(true).immutable(true);
         let mut copy = SqliteConnection::connect_with(&options).await?;
         let integrity: String = sqlx::query_scalar("PRAGMA integrity_check(1)").fetch_one(&mut copy).await?;
@@ -62,9 +61,9 @@ impl DatabaseCopy {
             return Err(StoreError::BadValue { column: "integrity_check", value: integrity });
         }
         let schema = sqlx::query_scalar("SELECT max(version) FROM _sqlx_migrations").fetch_one(&mut copy).await?;
-        let known = MIGRATIONS.iter().map(|migration| migration.version).max().unwrap_or(0);
-        if schema > known {
-            return Err(StoreError::NewerDatabase { database: file.display().to_string(), found: schema, known });
+        if schema > newest_schema {
+            let database = file.display().to_string();
+            return Err(StoreError::NewerDatabase { database, found: schema, known: newest_schema });
         }
         let maps: i64 = sqlx::query_scalar("SELECT count(*) FROM maps").fetch_one(&mut copy).await?;
         let rows = sqlx::query("SELECT source FROM maps UNION SELECT blob FROM analyses").fetch_all(&mut copy).await?;
