@@ -60,8 +60,10 @@ fn of_postgres(code: &str) -> Meaning {
     match code {
         "53100" => Meaning::Full,
         // Two transactions waited for one another, or one for something too long. Too many connections. The server is shut
-        // down, starts, recovers, or stands by.
-        "40001" | "40P01" | "55P03" | "57014" | "53300" | "57P01" | "57P02" | "57P03" | "25006" => Meaning::Busy,
+        // down, starts, recovers, or stands by. A transaction stood still for too long.
+        "40001" | "40P01" | "55P03" | "57014" | "53300" | "57P01" | "57P02" | "57P03" | "25006" | "25P03" => {
+            Meaning::Busy
+        }
         // No connection.
         _ if code.starts_with("08") => Meaning::Busy,
         _ => Meaning::Other,

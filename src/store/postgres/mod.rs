@@ -29,6 +29,10 @@ const CONNECTIONS: u32 = 16;
 /// How long a statement may wait for a row or a lock that another transaction holds.
 const LOCK_TIMEOUT: &str = "10s";
 
+/// After this time the server ends a transaction whose process says nothing: one that stands still, or is cut off, may hold the row
+/// of its job, which nobody else could take. Longer than a look at the blobs takes.
+const IDLE_TIMEOUT: &str = "20s";
+
 /// How long the server may take for an answer; a little longer than for a lock. Who is cut off would otherwise wait until the
 /// system gives the connection up, after a quarter of an hour.
 const ANSWER_TIMEOUT: Duration = Duration::from_secs(12);
@@ -64,7 +68,11 @@ impl Postgres {
         let name = format!("{} on {}", options.get_database().unwrap_or("its database"), options.get_host());
         let options = options
             .application_name("stillage")
-            .options([("synchronous_commit", "on"), ("lock_timeout", LOCK_TIMEOUT)])
+            .options([
+                ("synchronous_commit", "on"),
+                ("lock_timeout", LOCK_TIMEOUT),
+                ("idle_in_transaction_session_timeout", IDLE_TIMEOUT),
+            ])
             .log_slow_statements(tracing::log::LevelFilter::Off, Duration::MAX);
         let pool = PgPoolOptions::new().max_connections(CONNECTIONS).acquire_timeout(ACQUIRE_TIMEOUT);
         let pool = pool.connect_with(options).await.map_err(|error| StoreError::Unreachable(name.clone(), error))?;
