@@ -80,7 +80,7 @@ fn kill_and_freeze(deployment: &Deployment, ledger: &mut Ledger, jobs: u64, kill
 fn wakes_after_its_job_was_done(deployment: &Deployment, ledger: &mut Ledger) {
     let sleeper = Server::start(deployment, None, &PATIENT).expect("it starts");
     let other = Server::start(deployment, None, &["--role", "api"]).expect("it starts");
-    let job = other.upload(&hall_message(1_000, 600), "hall").expect("accepted");
+    let job = other.upload(&hall_message(500, 300), "hall").expect("accepted");
     ledger.accepted("hall", &job);
     other.wait_until_busy(PATIENCE);
     sleeper.freeze();
