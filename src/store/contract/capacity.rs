@@ -28,6 +28,10 @@ pub async fn a_tenant_has_no_more_than_it_may_and_others_do_not_notice(engine: &
 
     let held = claim(store, now()).await.unwrap();
     assert_eq!(upload_within(store, &local(), "third", quotas).await, Upload::Full(Full::Maps), "a job less waits");
+    let fewer = Capacity { of_tenant: Quotas { maps: 1, ..quotas }, ..capacity };
+    let source = store.map_source(&local(), held.map).await.unwrap().unwrap();
+    let again = store.request_analysis(&local(), &with_seed(2), &job_of(held.map, &source, 2), &fewer, now()).await;
+    assert!(matches!(again.unwrap(), Some(Request::New(_))), "no map is added");
     store.delete_map(&local(), held.map, None).await.unwrap();
     assert_eq!(store.full(&local(), &capacity).await.unwrap(), None);
     assert!(matches!(upload_within(store, &local(), "third", quotas).await, Upload::New(_)), "there is room again");

@@ -37,8 +37,8 @@ impl Transaction {
         if !self.has_room(waiting, tenant, quotas.queued_jobs, 1).await? {
             return Ok(Some(Full::QueuedJobs));
         }
-        if !self.has_room("SELECT count(*) AS found FROM maps WHERE tenant = $1", tenant, quotas.maps, new.maps).await?
-        {
+        let maps = "SELECT count(*) AS found FROM maps WHERE tenant = $1";
+        if new.maps > 0 && !self.has_room(maps, tenant, quotas.maps, new.maps).await? {
             return Ok(Some(Full::Maps));
         }
         let bytes = "SELECT CAST(coalesce(sum(bytes), 0) AS bigint) AS found FROM ( \
