@@ -17,7 +17,7 @@ fn collector() -> (String, mpsc::Receiver<Vec<u8>>) {
         for stream in listener.incoming() {
             let (mut stream, sender) = (stream.expect("it comes"), sender.clone());
             std::thread::spawn(move || {
-                let mut buffer = [0; 65_536];
+                let mut buffer = [0; 8_192];
                 while let Ok(read @ 1..) = stream.read(&mut buffer) {
                     let bytes = buffer[..read].to_vec();
                     if bytes.starts_with(b"POST") {
