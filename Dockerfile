@@ -20,6 +20,7 @@ USER stillage
 VOLUME /data
 EXPOSE 8080
 HEALTHCHECK --interval=10s --timeout=3s --start-period=5s CMD ["curl", "--fail", "--silent", "http://127.0.0.1:8080/health/ready"]
-# There are no API keys yet: publish the port on loopback only, or behind a proxy that authenticates.
+# Whoever reaches the port may do everything, unless STILLAGE_KEYS is `required` (docs/security.md): without that, publish it on
+# loopback only, or behind a proxy that knows its users.
 ENTRYPOINT ["stillage"]
 CMD ["serve", "--listen", "0.0.0.0:8080", "--allow-public", "--data", "/data"]
