@@ -7,6 +7,7 @@
 
 use std::net::{SocketAddr, TcpListener};
 use std::process::{Child, Command, Stdio};
+use std::sync::atomic::{AtomicU16, Ordering};
 use std::time::{Duration, Instant};
 
 use tempfile::TempDir;
@@ -130,15 +131,18 @@ fn runs(program: &str, arguments: &[&str]) -> bool {
     command.status().is_ok_and(|status| status.success())
 }
 
+/// How many ports were looked at: two servers that start at the same time have none in common.
+static LOOKED_AT: AtomicU16 = AtomicU16::new(0);
+
 /// Ports below those that the system gives out: `SeaweedFS` takes each of them and the one 10,000 above.
 fn free_ports<const COUNT: usize>() -> [String; COUNT] {
-    let mut next = 10_000 + (std::process::id() % 1_000) as u16 * 10;
+    let first = 10_000 + (std::process::id() % 200) as u16 * 50;
     std::array::from_fn(|_| {
         loop {
-            next += 1;
+            let port = first + LOOKED_AT.fetch_add(1, Ordering::Relaxed);
             let is_free = |port| TcpListener::bind(("127.0.0.1", port)).is_ok();
-            if is_free(next) && is_free(next + 10_000) {
-                return next.to_string();
+            if is_free(port) && is_free(port + 10_000) {
+                return port.to_string();
             }
         }
     })
