@@ -1,5 +1,6 @@
 //! The OpenAPI 3.1 document: collected from the routes, completed by rules that hold for every operation.
 
+use axum::http::Method;
 use serde_json::Value;
 use stillage_core::AnalysisOptions;
 use utoipa::openapi::path::{Operation, Parameter, ParameterBuilder, ParameterIn};
@@ -49,6 +50,20 @@ struct Api;
 #[must_use]
 pub fn head() -> OpenApi {
     Api::openapi()
+}
+
+/// The operations of a document, with the path and method of each.
+pub fn operations(document: &OpenApi) -> impl Iterator<Item = (&str, Method, &Operation)> {
+    document.paths.paths.iter().flat_map(|(path, item)| {
+        let of_path = [
+            (Method::GET, &item.get),
+            (Method::PUT, &item.put),
+            (Method::POST, &item.post),
+            (Method::PATCH, &item.patch),
+            (Method::DELETE, &item.delete),
+        ];
+        of_path.into_iter().filter_map(move |(method, operation)| Some((path.as_str(), method, operation.as_ref()?)))
+    })
 }
 
 /// Completes the document once all routes are in it.

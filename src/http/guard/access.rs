@@ -9,12 +9,14 @@ use axum::middleware::Next;
 use axum::response::{IntoResponse, Response};
 use tokio::runtime::Handle;
 use utoipa::openapi::OpenApi;
+use utoipa::openapi::path::Operation;
 
 use super::observe::RequestId;
 use super::sign_in::NotSignedIn;
 use crate::access::Scope;
 use crate::app::{AnsweredChange, App, Caller};
 use crate::http::dashboard;
+use crate::http::docs::openapi::operations;
 use crate::http::docs::security;
 use crate::http::problem::Problem;
 
@@ -43,22 +45,11 @@ impl AccessGuard {
     /// The rules of a document that is complete.
     #[must_use]
     pub fn new(app: Arc<App>, document: &OpenApi) -> Self {
-        let mut rules = HashMap::new();
-        for (path, item) in &document.paths.paths {
-            let operations = [
-                (Method::GET, &item.get),
-                (Method::PUT, &item.put),
-                (Method::POST, &item.post),
-                (Method::PATCH, &item.patch),
-                (Method::DELETE, &item.delete),
-            ];
-            for (method, operation) in operations {
-                let Some(operation) = operation else { continue };
-                let (scope, operation) = (security::scope(operation), operation.operation_id.clone());
-                rules.insert((path.clone(), method), Rule { operation: operation.unwrap_or_default(), scope });
-            }
-        }
-        Self { app, rules: Arc::new(rules) }
+        let rule = |(path, method, operation): (&str, Method, &Operation)| {
+            let (scope, operation) = (security::scope(operation), operation.operation_id.clone());
+            ((path.to_owned(), method), Rule { operation: operation.unwrap_or_default(), scope })
+        };
+        Self { app, rules: Arc::new(operations(document).map(rule).collect()) }
     }
 
     /// The scope that a request to a route needs, and the name of its operation. A route that the document does not have needs

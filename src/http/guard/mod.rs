@@ -20,6 +20,7 @@ use axum::response::{IntoResponse, Response};
 use utoipa::openapi::path::ParameterIn;
 use utoipa::openapi::{OpenApi, RefOr};
 
+use crate::http::docs::openapi::operations;
 use crate::http::problem::{Problem, ProblemType};
 use crate::http::public_address::PublicAddress;
 
@@ -81,23 +82,13 @@ impl KnownParameters {
     #[must_use]
     pub fn of(document: &OpenApi) -> Self {
         let mut known = HashMap::new();
-        for (path, item) in &document.paths.paths {
-            let operations = [
-                (Method::GET, &item.get),
-                (Method::PUT, &item.put),
-                (Method::POST, &item.post),
-                (Method::PATCH, &item.patch),
-                (Method::DELETE, &item.delete),
-            ];
-            for (method, operation) in operations {
-                let Some(operation) = operation else { continue };
-                let parameters = operation.parameters.iter().flatten().filter_map(|parameter| match parameter {
-                    RefOr::T(parameter) => Some(parameter),
-                    RefOr::Ref(_) => None,
-                });
-                let names = parameters.filter(|parameter| parameter.parameter_in == ParameterIn::Query);
-                known.insert((path.clone(), method), names.map(|parameter| parameter.name.clone()).collect());
-            }
+        for (path, method, operation) in operations(document) {
+            let parameters = operation.parameters.iter().flatten().filter_map(|parameter| match parameter {
+                RefOr::T(parameter) => Some(parameter),
+                RefOr::Ref(_) => None,
+            });
+            let names = parameters.filter(|parameter| parameter.parameter_in == ParameterIn::Query);
+            known.insert((path.to_owned(), method), names.map(|parameter| parameter.name.clone()).collect());
         }
         Self(known)
     }
