@@ -3,15 +3,14 @@
 use std::sync::Arc;
 
 use axum::extract::State;
-use axum::http::{HeaderMap, header};
 use axum::response::{IntoResponse, Response};
 
 use crate::app::{App, Caller};
 use crate::http::extract::negotiation::Accept;
 use crate::http::extract::{Paging, Query};
-use crate::http::links::{Base, JSON, header as link_header};
+use crate::http::links::{Base, JSON};
 use crate::http::page;
-use crate::http::paging::cut;
+use crate::http::paging::{cut, next_header};
 use crate::http::problem::Problem;
 use crate::views::audit::{AuditEntryView, AuditLogPage};
 
@@ -36,7 +35,7 @@ pub async fn list(
     let (entries, more) = cut(app.changes_recorded(&caller, limit + 1, after).await?, limit);
     let next = entries.last().filter(|_| more).map(|last| format!("/v1/audit-log?limit={limit}&after={}", last.id));
     let next = next.map(|path| base.link("next", &path, JSON));
-    let headers: HeaderMap = next.iter().map(|link| (header::LINK, link_header(link))).collect();
+    let headers = next_header(next.as_ref());
     let links = std::iter::once(base.link("self", "/v1/audit-log", JSON)).chain(next).collect();
     let list = AuditLogPage { entries: entries.into_iter().map(AuditEntryView::from).collect(), links };
     Ok((headers, page::answer(&accept, "Log of changes", &list)).into_response())

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use axum::Json;
 use axum::extract::{Request, State};
-use axum::http::{HeaderMap, StatusCode, header};
+use axum::http::{StatusCode, header};
 use axum::middleware::Next;
 use axum::response::{IntoResponse, Response};
 use jiff::{RoundMode, TimestampRound, Unit};
@@ -16,9 +16,9 @@ use crate::http::docs::refusals::NotFound;
 use crate::http::extract::conditional::{EntityTag, IfMatch};
 use crate::http::extract::negotiation::Accept;
 use crate::http::extract::{MapPath, Paging, Path, Query};
-use crate::http::links::{Base, JSON, header as link_header};
+use crate::http::links::{Base, JSON};
 use crate::http::page;
-use crate::http::paging::cut;
+use crate::http::paging::{cut, next_header};
 use crate::http::problem::Problem;
 use crate::views::deleted_map::{DeletedMapList, DeletedMapView};
 use crate::views::map::MapView;
@@ -62,7 +62,7 @@ pub async fn list(
     let next = maps.last().filter(|_| more);
     let next = next.map(|last| format!("/v1/deleted-maps?limit={limit}&after={}", last.map.id));
     let next = next.map(|path| base.link("next", &path, JSON));
-    let headers: HeaderMap = next.iter().map(|link| (header::LINK, link_header(link))).collect();
+    let headers = next_header(next.as_ref());
     let links = std::iter::once(base.link("self", "/v1/deleted-maps", JSON)).chain(next).collect();
     let view = |deleted: DeletedMap| {
         let restore = base.link("related", &format!("/v1/maps/{}/restore", deleted.map.id), JSON);

@@ -16,10 +16,10 @@ use crate::http::extract::conditional::{EntityTag, IfMatch, IfNoneMatch};
 use crate::http::extract::negotiation::Accept;
 use crate::http::extract::prefer::Prefer;
 use crate::http::extract::{JsonBody, MapPath, Paging, Path, Query, present};
-use crate::http::links::{Base, GEO_JSON, GEO_PACKAGE, HTML, JSON, OPENAPI_3_0, header as link_header};
+use crate::http::links::{Base, GEO_JSON, GEO_PACKAGE, HTML, JSON, OPENAPI_3_0};
 use crate::http::ogc::jobs;
 use crate::http::page::{self, Markup};
-use crate::http::paging::cut;
+use crate::http::paging::{cut, next_header};
 use crate::http::problem::Problem;
 use crate::views::georeference::GeoreferenceView;
 use crate::views::id::Id;
@@ -139,7 +139,7 @@ pub async fn list(
     let (maps, more) = cut(app.maps(&caller, limit + 1, paging.after.map(|id| id.0)).await?, limit);
     let next = maps.last().filter(|_| more).map(|last| format!("/v1/maps?limit={limit}&after={}", last.id));
     let next = next.map(|path| base.link("next", &path, JSON));
-    let headers: axum::http::HeaderMap = next.iter().map(|link| (header::LINK, link_header(link))).collect();
+    let headers = next_header(next.as_ref());
     let own = [
         base.link("self", "/v1/maps", JSON),
         base.link("related", "/v1/deleted-maps", JSON).titled("Deleted maps that can be restored"),

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use axum::extract::{RawQuery, Request, State};
-use axum::http::{HeaderMap, HeaderValue, StatusCode, header};
+use axum::http::{HeaderValue, StatusCode, header};
 use axum::response::sse::{Event, KeepAlive, Sse};
 use axum::response::{IntoResponse, Response};
 use axum::{Extension, Json};
@@ -21,9 +21,9 @@ use crate::http::docs::refusals::{Conflict, NotFound};
 use crate::http::extract::datetime::Datetime;
 use crate::http::extract::negotiation::Accept;
 use crate::http::extract::{ListLimit, Path, Query};
-use crate::http::links::{Base, JSON, header as link_header};
+use crate::http::links::{Base, JSON};
 use crate::http::page;
-use crate::http::paging::cut;
+use crate::http::paging::{cut, next_header};
 use crate::http::problem::Problem;
 use crate::views::id::Id;
 use crate::views::job::{JobStatus, JobView};
@@ -176,7 +176,7 @@ pub async fn list(
         let pairs: Vec<String> = kept.map(str::to_owned).chain([format!("after={}", last.id)]).collect();
         base.link("next", &format!("/v1/jobs?{}", pairs.join("&")), JSON)
     });
-    let headers: HeaderMap = next.iter().map(|link| (header::LINK, link_header(link))).collect();
+    let headers = next_header(next.as_ref());
     let links = std::iter::once(base.link("self", "/v1/jobs", JSON)).chain(next).collect();
     let jobs = jobs.into_iter().map(|job| view(&base, job)).collect();
     Ok((headers, page::answer(&accept, "Jobs", &JobList { jobs, links })).into_response())
