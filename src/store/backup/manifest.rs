@@ -81,8 +81,7 @@ pub(super) fn write(
     };
     let json = serde_json::to_string_pretty(&contents).expect("has plain members") + "\n";
     for (name, text) in [(CHECKSUMS, &list), (CONTENTS, &json)] {
-        let path = folder.join(name);
-        write_synced(&path, text.as_bytes()).map_err(BackupError::file(&path))?;
+        write_whole(folder, name, text.as_bytes()).map_err(BackupError::file(&folder.join(name)))?;
     }
     Ok(contents)
 }
@@ -125,8 +124,11 @@ pub(super) fn damaged(path: &Path, reason: &str) -> BackupError {
     BackupError::Damaged { file: path.to_owned(), reason: reason.to_owned() }
 }
 
-fn write_synced(path: &Path, bytes: &[u8]) -> io::Result<()> {
-    let mut file = File::create(path)?;
+/// Writes a file that gets its name when all of it is on disk.
+fn write_whole(folder: &Path, name: &str, bytes: &[u8]) -> io::Result<()> {
+    let mut file = tempfile::NamedTempFile::new_in(folder)?;
     file.write_all(bytes)?;
-    file.sync_all()
+    file.as_file().sync_all()?;
+    file.persist(folder.join(name))?;
+    Ok(())
 }
