@@ -5,6 +5,7 @@ use std::time::Duration;
 
 use crate::access::{KEY_SECRET_FILE, KeySecretError, TokenRules};
 use crate::allowed_hosts::AllowedHosts;
+use crate::core_split::JobCores;
 use crate::ingest::Limits;
 pub use crate::storage_address::{BlobAddress, DatabaseAddress};
 use crate::store::Quotas;
@@ -67,6 +68,8 @@ pub struct Config {
     pub job_slots: usize,
     /// Threads of the compute pool (shared by all jobs).
     pub compute_threads: usize,
+    /// The cores of these threads; those of requests, too, when absent.
+    pub job_cores: Option<JobCores>,
     /// How long a claim lasts without a heartbeat.
     pub lease: Duration,
     /// How often a running job reports and asks whether it was cancelled.
@@ -127,6 +130,7 @@ impl Config {
             limits: Limits::default(),
             job_slots: 1,
             compute_threads: cores,
+            job_cores: None,
             lease: Duration::from_secs(30),
             heartbeat: Duration::from_millis(250),
             max_attempts: 5,

@@ -8,6 +8,7 @@
 pub mod access;
 pub mod allowed_hosts;
 pub mod config;
+pub mod core_split;
 pub mod ingest;
 pub mod options;
 

@@ -57,8 +57,13 @@ impl Client {
 
     /// Waits until no job waits or runs.
     pub fn wait_until_idle(&self) {
+        self.wait_until_idle_with(TICK);
+    }
+
+    /// The same with another pause between two looks.
+    pub fn wait_until_idle_with(&self, pause: Duration) {
         while self.has_jobs("accepted,running") {
-            std::thread::sleep(TICK);
+            std::thread::sleep(pause);
         }
     }
 

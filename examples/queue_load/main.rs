@@ -27,7 +27,7 @@ const SINGLE_JOBS: usize = 200;
 /// Jobs that one or two workers finish.
 const SHARED_JOBS: usize = 100;
 /// Reads of a measurement, one after the other, and jobs that take longer than those.
-const READS: usize = 1_000;
+const READS: usize = 5_000;
 const LONG_JOBS: usize = 10;
 
 fn main() -> ExitCode {
@@ -47,10 +47,12 @@ fn measure(server: Option<&str>) {
     let mut waits = waits(&new());
     let [median, slow] = quantiles(&mut waits);
     println!("| from the upload of a job to its start | p50 {median:.1} ms, p99 {slow:.1} ms |");
-    let (mut idle, mut busy) = reads(&new());
-    let ([median, slow], [median_busy, slow_busy]) = (quantiles(&mut idle), quantiles(&mut busy));
-    println!("| reads, idle | p50 {median:.2} ms, p99 {slow:.2} ms |");
-    println!("| reads, while jobs run | p50 {median_busy:.2} ms, p99 {slow_busy:.2} ms |");
+    for (cores, arguments) in [("all cores", &[][..]), ("a core of their own", &["--request-cores", "1"])] {
+        let (mut idle, mut busy) = reads(&new(), arguments);
+        let ([median, slow], [median_busy, slow_busy]) = (quantiles(&mut idle), quantiles(&mut busy));
+        println!("| reads on {cores}, idle | p50 {median:.2} ms, p99 {slow:.2} ms |");
+        println!("| reads on {cores}, while jobs run | p50 {median_busy:.2} ms, p99 {slow_busy:.2} ms |");
+    }
     if server.is_some() {
         let [one, two] = [1, 2].map(|workers| shared_jobs(&new(), workers).as_secs_f64());
         println!("| {SHARED_JOBS} jobs by one worker, by two | {one:.2} s, {two:.2} s: {:.2} |", two / one);
@@ -99,15 +101,17 @@ fn waits(deployment: &Deployment) -> Vec<Duration> {
     waits
 }
 
-/// Times of reads without jobs, and with a job on all cores all the time.
-fn reads(deployment: &Deployment) -> (Vec<Duration>, Vec<Duration>) {
-    let service = deployment.start(&[]);
+/// Times of reads without jobs, and with a job all the time on all cores that jobs may use.
+fn reads(deployment: &Deployment, arguments: &[&str]) -> (Vec<Duration>, Vec<Duration>) {
+    let service = deployment.start(arguments);
     let client = Client::of(&service);
     client.upload(SMALL, 0);
     client.wait_until_idle();
+    let maps = client.get("/v1/maps");
+    let map = format!("/v1/maps/{}", maps["maps"][0]["id"].as_str().expect("one is there"));
     let read = |_| {
         let asked = Instant::now();
-        client.get("/v1/maps");
+        client.get(&map);
         asked.elapsed()
     };
     let idle = (0..READS).map(read).collect();
@@ -125,9 +129,11 @@ fn shared_jobs(deployment: &Deployment, workers: usize) -> Duration {
     let begun = Instant::now();
     let start = |_| deployment.start(&["--role", "worker", "--compute-threads", "1"]);
     let workers: Vec<_> = (0..workers).map(start).collect();
-    client.wait_until_idle();
+    // A look takes time of the cores that the workers need.
+    client.wait_until_idle_with(Duration::from_millis(25));
+    let took = begun.elapsed();
     drop(workers);
-    begun.elapsed()
+    took
 }
 
 /// How long it takes from the death of a worker, with the default lease, until another one has its job.

@@ -2,6 +2,7 @@
 
 use std::io::{self, Write};
 use std::net::SocketAddr;
+use std::num::NonZero;
 use std::time::Duration;
 
 use clap::Args;
@@ -15,6 +16,7 @@ use super::tls::TlsArgs;
 use crate::allowed_hosts::HostPattern;
 use crate::app::{App, AppError};
 use crate::config::{Config, DatabaseAddress, KeyRule, Role};
+use crate::core_split::{CoreSplitError, JobCores};
 use crate::ingest::Limits;
 use crate::server::tls::TlsError;
 use crate::server::{self, ConnectionLimits, open_files};
@@ -47,6 +49,10 @@ pub(super) struct ServeArgs {
     /// Compute threads, shared out among the job slots; all cores when absent.
     #[arg(long, env = "STILLAGE_COMPUTE_THREADS", value_name = "N")]
     pub(super) compute_threads: Option<usize>,
+    /// Cores that requests have for themselves while jobs have all others: answers come as fast as without jobs, and jobs take
+    /// as much longer as they have fewer cores. All do without.
+    #[arg(long, env = "STILLAGE_REQUEST_CORES", value_name = "N")]
+    pub(super) request_cores: Option<NonZero<usize>>,
     /// Jobs that may wait; further uploads are answered 503.
     #[arg(long, env = "STILLAGE_MAX_QUEUED_JOBS", default_value_t = 1_000, value_name = "N")]
     pub(super) max_queued_jobs: u64,
@@ -142,6 +148,14 @@ pub(super) enum ServeError {
     /// What is asked of the log makes no sense.
     #[error(transparent)]
     Log(#[from] LoggingError),
+    /// Requests and jobs cannot have cores of their own.
+    #[error(transparent)]
+    Cores(#[from] CoreSplitError),
+    /// Cores are split between two kinds of work, and the process has one.
+    #[error(
+        "--request-cores is for a process that answers requests and works on jobs: choose --role all, or leave it out"
+    )]
+    OneKindOfWork,
     /// The files of TLS.
     #[error("--tls-cert and --tls-key: {0}")]
     Tls(#[from] TlsError),
@@ -162,14 +176,18 @@ fn root(error: &AppError) -> &dyn std::fmt::Display {
 }
 
 impl ServeArgs {
-    /// The configuration that the arguments mean.
+    /// The configuration that the arguments mean, with the cores that jobs have for themselves.
     ///
     /// # Errors
     /// When they contradict one another.
-    pub fn config(&self) -> Result<Config, ServeError> {
+    pub fn config(&self, job_cores: Option<JobCores>) -> Result<Config, ServeError> {
         let defaults = self.access.config(self.storage.config()?);
+        let threads = job_cores.as_ref().map_or(defaults.compute_threads, |cores| cores.count().get());
         if self.role != Role::All && !defaults.database.is_shared() {
             return Err(ServeError::OneProcess(defaults.database));
+        }
+        if self.role != Role::All && self.request_cores.is_some() {
+            return Err(ServeError::OneKindOfWork);
         }
         Ok(Config {
             role: self.role,
@@ -181,7 +199,8 @@ impl ServeArgs {
                 ..defaults.limits
             },
             job_slots: if self.role == Role::Api { 0 } else { self.job_slots },
-            compute_threads: self.compute_threads.unwrap_or(defaults.compute_threads),
+            compute_threads: self.compute_threads.unwrap_or(threads),
+            job_cores,
             max_attempts: self.max_attempts,
             max_queued_jobs: self.max_queued_jobs,
             max_requests: self.max_requests,
@@ -219,15 +238,17 @@ pub(super) fn run(args: &ServeArgs) -> Result<(), ServeError> {
         return Err(ServeError::Public(args.listen));
     }
     let _logging = args.logging.start()?;
-    tokio::runtime::Builder::new_multi_thread().enable_all().build()?.block_on(serve(args))
+    // Before the threads of the runtime, which stay on the cores of this one.
+    let job_cores = args.request_cores.map(JobCores::beside_requests).transpose()?;
+    tokio::runtime::Builder::new_multi_thread().enable_all().build()?.block_on(serve(args, job_cores))
 }
 
-async fn serve(args: &ServeArgs) -> Result<(), ServeError> {
+async fn serve(args: &ServeArgs, job_cores: Option<JobCores>) -> Result<(), ServeError> {
     let address = args.listen;
     let listener = TcpListener::bind(address).await.map_err(|source| ServeError::Listen { address, source })?;
     let mut signals = StopSignals::listen()?;
     let tls = args.tls.acceptor()?;
-    let app = App::open(args.config()?).await?;
+    let app = App::open(args.config(job_cores)?).await?;
     // Whoever started the service may not listen any more.
     let _ = writeln!(
         io::stdout(),
@@ -284,14 +305,14 @@ mod tests {
     #[test]
     fn the_defaults_of_the_command_line_are_those_of_the_configuration() {
         let args = Line::parse_from(["stillage"]).serve;
-        assert_eq!(format!("{:?}", args.config().unwrap()), format!("{:?}", Config::new("data")));
+        assert_eq!(format!("{:?}", args.config(None).unwrap()), format!("{:?}", Config::new("data")));
     }
 
     #[test]
     fn what_processes_share_must_be_shared_whole() {
         let refusal = |arguments: &[&str]| {
             let args = Line::parse_from(["stillage"].iter().chain(arguments)).serve;
-            args.config().expect_err("it contradicts itself").to_string()
+            args.config(None).expect_err("it contradicts itself").to_string()
         };
         assert!(refusal(&["--role", "worker"]).starts_with("sqlite:data is of one process"));
         #[cfg(feature = "postgres")]
@@ -301,6 +322,17 @@ mod tests {
                 refusal.starts_with("postgres://host/maps is shared by processes, and its blobs must be"),
                 "{refusal}"
             );
+        }
+    }
+
+    #[cfg(feature = "postgres")]
+    #[test]
+    fn cores_are_split_between_two_kinds_of_work() {
+        let shared =
+            ["--database", "postgres://host/maps", "--blobs", "file:///maps", "--request-cores", "1", "--role"];
+        for (role, is_split) in [("all", true), ("api", false), ("worker", false)] {
+            let args = Line::parse_from(["stillage"].iter().chain(&shared).chain(&[role])).serve;
+            assert_eq!(args.config(None).is_ok(), is_split, "{role}");
         }
     }
 

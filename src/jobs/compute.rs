@@ -9,6 +9,7 @@ use stillage_core::{StopFlag, Watch};
 use tokio::sync::oneshot;
 
 use super::processes::{ComputeError, Process, Work};
+use crate::core_split::JobCores;
 use crate::ingest::{IngestError, MapSource, Refusal};
 use crate::stage_clock::StageClock;
 use crate::store::Blob;
@@ -26,13 +27,16 @@ const NICENESS: i32 = 10;
 pub(super) struct ComputePool(rayon::ThreadPool);
 
 impl ComputePool {
-    pub(super) fn new(threads: usize) -> Self {
-        let build = |threads| {
-            let name = |thread| format!("compute-{thread}");
-            let builder = rayon::ThreadPoolBuilder::new().num_threads(threads).thread_name(name);
-            builder.start_handler(|_| let_others_go_first()).build()
+    /// So many threads, on cores of their own where jobs have such.
+    pub(super) fn new(threads: usize, cores: Option<&JobCores>) -> Self {
+        let cores = cores.cloned();
+        let begin = move |_| {
+            cores.iter().for_each(JobCores::bind);
+            let_others_go_first();
         };
-        Self(build(threads.max(1)).expect("the operating system gives a few threads at the start"))
+        let name = |thread| format!("compute-{thread}");
+        let builder = rayon::ThreadPoolBuilder::new().num_threads(threads.max(1)).thread_name(name);
+        Self(builder.start_handler(begin).build().expect("the operating system gives a few threads at the start"))
     }
 
     /// Starts a computation; its result comes through the channel, a panic as an error.

@@ -76,7 +76,8 @@ impl<'a> Running<'a> {
         let inputs = self.claim.inputs.clone();
         let mut result =
             pool.start(Task { process, inputs, source, stop: self.stop.clone(), clock: Arc::clone(&self.clock) });
-        let mut ticks = tokio::time::interval(self.shared.settings.heartbeat);
+        let heartbeat = self.shared.settings.heartbeat;
+        let mut ticks = tokio::time::interval_at(tokio::time::Instant::now() + heartbeat, heartbeat);
         ticks.set_missed_tick_behavior(MissedTickBehavior::Delay);
         loop {
             tokio::select! {

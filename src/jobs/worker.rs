@@ -14,6 +14,7 @@ use super::running::Running;
 use super::shared::{POLL, Settings, Shared};
 use super::signals::Signals;
 use crate::config::Config;
+use crate::core_split::JobCores;
 use crate::measures::Measures;
 use crate::store::{Store, StoreError};
 
@@ -22,6 +23,7 @@ use crate::store::{Store, StoreError};
 pub struct Worker {
     shared: Shared,
     threads_per_slot: usize,
+    cores: Option<JobCores>,
     slots: Mutex<Vec<JoinHandle<()>>>,
 }
 
@@ -45,6 +47,7 @@ impl Worker {
         let worker = Arc::new(Self {
             shared: Shared::new(store, processes, signals, settings, JobCounts::new(measures)),
             threads_per_slot: (config.compute_threads / config.job_slots.max(1)).max(1),
+            cores: config.job_cores.clone(),
             slots: Mutex::new(Vec::new()),
         });
         let slots = (0..config.job_slots).map(|_| tokio::spawn(Arc::clone(&worker).slot())).collect();
@@ -54,7 +57,7 @@ impl Worker {
 
     /// Works in the calling task until no job is due. For tests and one-off commands.
     pub async fn run_until_empty(&self) -> Result<(), StoreError> {
-        let pool = ComputePool::new(self.threads_per_slot);
+        let pool = self.pool();
         while self.work(&pool).await? {}
         Ok(())
     }
@@ -71,7 +74,7 @@ impl Worker {
     }
 
     async fn slot(self: Arc<Self>) {
-        let pool = ComputePool::new(self.threads_per_slot);
+        let pool = self.pool();
         while !self.shared.is_stopping() {
             match self.work(&pool).await {
                 Ok(true) => continue,
@@ -105,6 +108,10 @@ impl Worker {
         signals.queued();
         Running::new(&self.shared, claim).run(pool).instrument(span).await?;
         Ok(true)
+    }
+
+    fn pool(&self) -> ComputePool {
+        ComputePool::new(self.threads_per_slot, self.cores.as_ref())
     }
 
     fn slots(&self) -> std::sync::MutexGuard<'_, Vec<JoinHandle<()>>> {
