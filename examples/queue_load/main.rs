@@ -29,6 +29,8 @@ const SHARED_JOBS: usize = 100;
 /// Reads of a measurement, one after the other, and jobs that take longer than those.
 const READS: usize = 5_000;
 const LONG_JOBS: usize = 10;
+/// Maps of a list.
+const LISTED: usize = 10;
 
 fn main() -> ExitCode {
     match std::env::args().nth(1).as_deref() {
@@ -48,10 +50,11 @@ fn measure(server: Option<&str>) {
     let [median, slow] = quantiles(&mut waits);
     println!("| from the upload of a job to its start | p50 {median:.1} ms, p99 {slow:.1} ms |");
     for (cores, arguments) in [("all cores", &[][..]), ("a core of their own", &["--request-cores", "1"])] {
-        let (mut idle, mut busy) = reads(&new(), arguments);
-        let ([median, slow], [median_busy, slow_busy]) = (quantiles(&mut idle), quantiles(&mut busy));
-        println!("| reads on {cores}, idle | p50 {median:.2} ms, p99 {slow:.2} ms |");
-        println!("| reads on {cores}, while jobs run | p50 {median_busy:.2} ms, p99 {slow_busy:.2} ms |");
+        for (what, mut idle, mut busy) in reads(&new(), arguments) {
+            let ([median, slow], [median_busy, slow_busy]) = (quantiles(&mut idle), quantiles(&mut busy));
+            println!("| {what} on {cores}, idle | p50 {median:.2} ms, p99 {slow:.2} ms |");
+            println!("| {what} on {cores}, while jobs run | p50 {median_busy:.2} ms, p99 {slow_busy:.2} ms |");
+        }
     }
     if server.is_some() {
         let [one, two] = [1, 2].map(|workers| shared_jobs(&new(), workers).as_secs_f64());
@@ -102,23 +105,27 @@ fn waits(deployment: &Deployment) -> Vec<Duration> {
 }
 
 /// Times of reads without jobs, and with a job all the time on all cores that jobs may use.
-fn reads(deployment: &Deployment, arguments: &[&str]) -> (Vec<Duration>, Vec<Duration>) {
+fn reads(deployment: &Deployment, arguments: &[&str]) -> [(&'static str, Vec<Duration>, Vec<Duration>); 2] {
     let service = deployment.start(arguments);
     let client = Client::of(&service);
-    client.upload(SMALL, 0);
+    (0..LISTED).for_each(|index| drop(client.upload(SMALL, index)));
     client.wait_until_idle();
-    let maps = client.get("/v1/maps");
+    let list = format!("/v1/maps?limit={LISTED}");
+    let maps = client.get(&list);
     let map = format!("/v1/maps/{}", maps["maps"][0]["id"].as_str().expect("one is there"));
-    let read = |_| {
-        let asked = Instant::now();
-        client.get(&map);
-        asked.elapsed()
+    let read = |path: &str| {
+        let time = |_| {
+            let asked = Instant::now();
+            client.get(path);
+            asked.elapsed()
+        };
+        (0..READS).map(time).collect()
     };
-    let idle = (0..READS).map(read).collect();
-    (0..LONG_JOBS).for_each(|index| drop(client.upload(LARGE, index)));
-    let busy = (0..READS).map(read).collect();
+    let (idle_map, idle_list) = (read(&map), read(&list));
+    (0..LONG_JOBS).for_each(|index| drop(client.upload(LARGE, LISTED + index)));
+    let (busy_map, busy_list) = (read(&map), read(&list));
     assert!(client.is_busy(), "the jobs ended before the reads");
-    (idle, busy)
+    [("reads of a map", idle_map, busy_map), ("lists of ten maps", idle_list, busy_list)]
 }
 
 /// How long so many workers take for the jobs, a slot and a thread each.
