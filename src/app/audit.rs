@@ -4,33 +4,40 @@ use uuid::Uuid;
 
 use super::{App, AppError, Caller};
 use crate::records::AuditRecord;
-use crate::store::now;
-
-/// A change as it was answered.
-#[derive(Debug, Clone)]
-pub struct AnsweredChange {
-    /// The `operationId`.
-    pub operation: String,
-    /// Path of what it was about, or of what was made.
-    pub resource: String,
-    /// HTTP status; 499 where the client did not wait for one.
-    pub status: u16,
-    /// Id of the request.
-    pub request: String,
-}
+use crate::store::{now, with_entry};
 
 impl App {
-    /// Records that a caller changed something, or tried to. Where it cannot be written, it is in the log of the process: what
-    /// was changed is changed.
-    pub async fn record_change(&self, caller: &Caller, change: AnsweredChange) {
-        if !self.needs_keys() {
-            return;
-        }
-        let AnsweredChange { operation, resource, status, request } = change;
-        let (tenant, caller) = (caller.tenant().clone(), caller.name().to_owned());
-        let entry =
-            AuditRecord { id: Uuid::now_v7(), tenant, time: now(), caller, operation, resource, status, request };
-        if let Err(error) = self.store.audit().record(&entry).await {
+    /// The entry of a change that somebody asks for and that is not answered yet: by its `operationId`, the path of what it is
+    /// about, and the id of its request. `None` where no log is kept.
+    #[must_use]
+    pub fn entry_of(
+        &self,
+        caller: &Caller,
+        operation: String,
+        resource: String,
+        request: String,
+    ) -> Option<AuditRecord> {
+        self.needs_keys().then(|| AuditRecord {
+            id: Uuid::now_v7(),
+            tenant: caller.tenant().clone(),
+            time: now(),
+            caller: caller.name().to_owned(),
+            operation,
+            resource,
+            status: AuditRecord::NOT_ANSWERED,
+            request,
+        })
+    }
+
+    /// Carries out a change: what it writes and its entry are stored together.
+    pub async fn carry_out<T>(&self, entry: &AuditRecord, change: impl Future<Output = T>) -> T {
+        with_entry(entry.clone(), change).await
+    }
+
+    /// Records how a change was answered. Where that cannot be written, it is in the log of the process: what was changed is
+    /// changed, and in the log of changes without its answer.
+    pub async fn record_answer(&self, entry: &AuditRecord) {
+        if let Err(error) = self.store.audit().record(entry).await {
             tracing::error!(%error, ?entry, "an entry of the log of changes could not be written");
         }
     }

@@ -76,7 +76,6 @@ pub use crate::records::{
     AnalysisRecord, AnalysisTicket, CorrectionId, JobFilter, JobRecord, JobState, MapPatch, MapRecord, NewMap,
     RuleSetRecord, SemanticsOrigin, SemanticsRecord, StageReport,
 };
-pub use audit::AnsweredChange;
 pub use caller::Caller;
 pub use comparisons::{LocationComparison, MapComparison, PairAlignment, ReadingComparison};
 pub use corrections::check_corrections;

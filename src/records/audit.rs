@@ -12,7 +12,7 @@ pub struct AuditRecord {
     pub id: Uuid,
     /// Whose thing it is.
     pub tenant: Tenant,
-    /// When it was answered.
+    /// When it was asked for.
     pub time: Timestamp,
     /// Who: the id of a key, the subject of a token, or `command line`.
     pub caller: String,
@@ -20,8 +20,13 @@ pub struct AuditRecord {
     pub operation: String,
     /// Path of what it was about, or of what was made.
     pub resource: String,
-    /// HTTP status of the answer.
+    /// HTTP status of the answer; [`Self::NOT_ANSWERED`] where none arrived.
     pub status: u16,
     /// Id of the request; empty where there was none.
     pub request: String,
+}
+
+impl AuditRecord {
+    /// The status where no answer reached the client: it did not wait for one, or the process died meanwhile. That of nginx.
+    pub const NOT_ANSWERED: u16 = 499;
 }

@@ -25,6 +25,7 @@
 //! - The queue hands a job to one worker at a time, and only the newest claim can finish it (see [`queue`]).
 //! - Whatever is asked under a [`Tenant`](crate::records::Tenant) reads and writes rows of that tenant only: the id of
 //!   another tenant's row is an id without a row.
+//! - A change and its entry in the log of changes ([`with_entry`]) are there together, or neither is.
 //! - No call reads a clock but [`Store::clock`]: the caller passes the time.
 
 mod analyses;
@@ -61,7 +62,7 @@ use crate::config::{Config, DatabaseAddress};
 use sql::SqlStore;
 
 pub use analyses::{Analyses, MapState, NewAnalysis, Outdated, Request, Snapshot};
-pub use audit::AuditLog;
+pub use audit::{AuditLog, with_entry};
 pub use backup::{BackupContents, BackupError, CopyProgress, back_up, check_backup, restore};
 pub use blobs::{Blob, BlobId, Blobs, LocalBlobs, Stored};
 pub use capacity::{Capacity, Full, Quotas};

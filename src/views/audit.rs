@@ -14,7 +14,7 @@ use crate::records::AuditRecord;
 #[serde(rename_all = "camelCase")]
 pub struct AuditEntryView {
     id: Id,
-    /// When it was answered.
+    /// When it was asked for.
     #[schema(value_type = String, format = DateTime)]
     time: Timestamp,
     /// Who: the id of a key, or `command line`.
@@ -26,7 +26,8 @@ pub struct AuditEntryView {
     /// Path of what it was about, or of what was made.
     #[schema(example = "/v1/maps/019ab3c2-0000-7000-8000-000000000000")]
     resource: String,
-    /// HTTP status of the answer; 499 where the client did not wait for it.
+    /// HTTP status of the answer; 499 where none arrived: the client did not wait for it, or the service died
+    /// meanwhile.
     #[schema(example = 200)]
     status: u16,
     /// Id of the request (`X-Request-Id`).

@@ -2,6 +2,7 @@
 
 use std::net::SocketAddr;
 use std::path::{Path, PathBuf};
+use std::process::Command;
 use std::sync::Arc;
 
 use tempfile::TempDir;
@@ -86,6 +87,15 @@ impl Deployment {
             Some(bucket) => bucket.object(&format!("blobs/{}/{blob}", &blob[..2])),
             None => std::fs::read(self.blob_file(blob)).ok(),
         }
+    }
+
+    /// Makes a key with these scopes, as operators do.
+    pub fn new_key(&self, scopes: &str) -> String {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_stillage"));
+        command.args(["key", "create", "--tenant", "local", "--scopes", scopes, "--data"]).arg(self.folder());
+        let output = command.output().expect("it runs");
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        String::from_utf8(output.stdout).expect("is text").trim().to_owned()
     }
 
     /// What the environment is told of it.

@@ -2,6 +2,8 @@
 
 use std::time::{Duration, Instant};
 
+use serde_json::Value;
+
 use crate::audit::{self, Ledger};
 use crate::deployment::Deployment;
 use crate::server::{self, Server, map_message};
@@ -38,6 +40,31 @@ fn dies_with_an_upload_in_its_hands() {
     dies_and_recovers("after-upload-blob");
     dies_and_recovers("before-upload-commit");
     dies_and_recovers("after-upload-commit");
+}
+
+#[test]
+fn what_was_changed_before_a_crash_is_in_the_log_of_changes() {
+    for (point, maps) in [("before-upload-commit", 0), ("after-upload-commit", 1)] {
+        let folder = Deployment::embedded();
+        let arguments = ["--keys", "required"];
+        let key = format!("Bearer {}", folder.new_key("read,write,admin"));
+        let mut server = Server::start(&folder, Some(point), &arguments).expect("nothing to die of yet");
+        let upload = ureq::post(format!("{}/v1/maps", server.address())).header("authorization", &key);
+        assert!(upload.send_json(map_message(0)).is_err(), "it dies before it answers");
+        assert_eq!(server.wait_for_death(PATIENCE), Some(9), "{point}");
+
+        let server = Server::start(&folder, None, &arguments).expect("the next process starts");
+        let list = |path: &str, name: &str| {
+            let asked = ureq::get(format!("{}{path}", server.address())).header("authorization", &key);
+            let list: Value = asked.call().expect("it answers").body_mut().read_json().expect("is JSON");
+            list[name].as_array().expect("a list").clone()
+        };
+        let mut entries = list("/v1/audit-log", "entries");
+        entries.retain(|entry| entry["operation"] == "createMap");
+        assert_eq!((list("/v1/maps", "maps").len(), entries.len()), (maps, maps), "{point}: {entries:?}");
+        assert!(entries.iter().all(|entry| entry["status"] == 499), "nobody was answered: {entries:?}");
+        server.stop();
+    }
 }
 
 #[test]

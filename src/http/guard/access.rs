@@ -14,14 +14,12 @@ use utoipa::openapi::path::Operation;
 use super::observe::RequestId;
 use super::sign_in::NotSignedIn;
 use crate::access::Scope;
-use crate::app::{AnsweredChange, App, Caller};
+use crate::app::{App, Caller};
 use crate::http::dashboard;
 use crate::http::docs::openapi::operations;
 use crate::http::docs::security;
 use crate::http::problem::Problem;
-
-/// What is recorded as the status where the client did not wait for one: that of nginx.
-const NOT_AWAITED: u16 = 499;
+use crate::records::AuditRecord;
 
 /// Routes beside the document that need no key: the same bytes for everybody.
 const OPEN_ROUTES: [&str; 3] = [dashboard::ASSET_PATH, "/docs", "/docs/{*rest}"];
@@ -80,44 +78,54 @@ pub async fn allowed(
         let reason = extensions.get::<NotSignedIn>().map(|reason| reason.0.clone());
         return reason.unwrap_or_else(Problem::key_required).into_response();
     };
-    let pending = (scope == Scope::Write).then(|| PendingChange::new(&guard.app, &caller, operation, &request));
-    let response =
-        if caller.may(scope) { next.run(request).await } else { Problem::missing_scope(scope).into_response() };
-    if let Some(pending) = pending {
-        pending.answered(response.status().as_u16(), made(&response)).await;
+    if scope != Scope::Write {
+        return if caller.may(scope) { next.run(request).await } else { Problem::missing_scope(scope).into_response() };
     }
+    let pending = PendingChange::new(&guard.app, &caller, operation, &request);
+    let response = if caller.may(scope) {
+        pending.carry_out(next.run(request)).await
+    } else {
+        Problem::missing_scope(scope).into_response()
+    };
+    pending.answered(response.status().as_u16(), made(&response)).await;
     response
 }
 
 /// A change that is under way. It is recorded, too, where its client does not wait for the answer, whatever became of it.
 struct PendingChange {
     app: Arc<App>,
-    caller: Caller,
-    change: Option<AnsweredChange>,
+    /// `None` where no log is kept, and once the answer is recorded.
+    entry: Option<AuditRecord>,
 }
 
 impl PendingChange {
     fn new(app: &Arc<App>, caller: &Caller, operation: String, request: &Request) -> Self {
-        let id = request.extensions().get::<RequestId>().and_then(|id| id.0.to_str().ok());
-        let (request, resource) = (id.unwrap_or_default().to_owned(), request.uri().path().to_owned());
-        let change = AnsweredChange { operation, resource, status: NOT_AWAITED, request };
-        Self { app: Arc::clone(app), caller: caller.clone(), change: Some(change) }
+        let id = request.extensions().get::<RequestId>().and_then(|id| id.0.to_str().ok()).unwrap_or_default();
+        let entry = app.entry_of(caller, operation, request.uri().path().to_owned(), id.to_owned());
+        Self { app: Arc::clone(app), entry }
+    }
+
+    async fn carry_out(&self, change: impl Future<Output = Response>) -> Response {
+        match &self.entry {
+            Some(entry) => self.app.carry_out(entry, change).await,
+            None => change.await,
+        }
     }
 
     /// Records what was answered, and the path of what was made.
     async fn answered(mut self, status: u16, made: Option<String>) {
-        if let Some(change) = self.change.take() {
-            let resource = made.unwrap_or(change.resource);
-            self.app.record_change(&self.caller, AnsweredChange { resource, status, ..change }).await;
+        if let Some(entry) = self.entry.take() {
+            let resource = made.unwrap_or(entry.resource);
+            self.app.record_answer(&AuditRecord { resource, status, ..entry }).await;
         }
     }
 }
 
 impl Drop for PendingChange {
     fn drop(&mut self) {
-        let (Some(change), Ok(runtime)) = (self.change.take(), Handle::try_current()) else { return };
-        let (app, caller) = (Arc::clone(&self.app), self.caller.clone());
-        runtime.spawn(async move { app.record_change(&caller, change).await });
+        let (Some(entry), Ok(runtime)) = (self.entry.take(), Handle::try_current()) else { return };
+        let app = Arc::clone(&self.app);
+        runtime.spawn(async move { app.record_answer(&entry).await });
     }
 }
 

@@ -44,18 +44,21 @@ pub async fn a_key_is_found_by_its_id_and_revoked_for_good(engine: &impl Engine)
     assert!(log.iter().all(|entry| entry.resource == format!("key {}", ours.id())));
 }
 
-pub async fn the_log_of_changes_is_read_by_its_tenant_and_forgotten_by_age(engine: &impl Engine) {
-    let log = engine.store().audit();
-    let entry = |tenant: &str, seconds: i64| AuditRecord {
+fn entry(tenant: &str, seconds: i64) -> AuditRecord {
+    AuditRecord {
         id: Uuid::now_v7(),
         tenant: Tenant::new(tenant),
         time: later(seconds),
         caller: "5f0c2a9be1d47730".into(),
         operation: "updateMap".into(),
         resource: "/v1/maps/7".into(),
-        status: 200,
+        status: AuditRecord::NOT_ANSWERED,
         request: "r".into(),
-    };
+    }
+}
+
+pub async fn the_log_of_changes_is_read_by_its_tenant_and_forgotten_by_age(engine: &impl Engine) {
+    let log = engine.store().audit();
     let (first, second, theirs) = (entry("ours", 0), entry("ours", 10), entry("theirs", 0));
     for entry in [&first, &second, &theirs] {
         log.record(entry).await.unwrap();
@@ -66,4 +69,19 @@ pub async fn the_log_of_changes_is_read_by_its_tenant_and_forgotten_by_age(engin
     assert_eq!(log.entries(&ours, 9, Some(second.id)).await.unwrap(), [first]);
     assert_eq!(log.forget_before(later(5)).await.unwrap(), 2);
     assert_eq!(log.entries(&ours, 9, None).await.unwrap(), [second]);
+}
+
+pub async fn a_change_and_its_entry_are_there_together_or_neither_is(engine: &impl Engine) {
+    let store = engine.store();
+    let entry = entry("local", 0);
+    let log = async || store.audit().entries(&local(), 9, None).await.unwrap();
+    let refused = with_entry(entry.clone(), try_upload(store, &local(), "a map", None, 0)).await;
+    assert_eq!((refused, log().await), (Upload::Full(Full::Queue), vec![]));
+    with_entry(entry.clone(), async { [upload(store, "a map").await, upload(store, "another").await] }).await;
+    assert_eq!(log().await, std::slice::from_ref(&entry), "once, however often the change writes");
+    let answered = AuditRecord { status: 202, resource: "/v1/jobs/7".into(), ..entry };
+    store.audit().record(&answered).await.unwrap();
+    assert_eq!(log().await, [answered]);
+    upload(store, "a map that nobody asked for").await;
+    assert_eq!(log().await.len(), 1);
 }

@@ -115,6 +115,7 @@ macro_rules! contract {
                 keys {
                     a_key_is_found_by_its_id_and_revoked_for_good
                     the_log_of_changes_is_read_by_its_tenant_and_forgotten_by_age
+                    a_change_and_its_entry_are_there_together_or_neither_is
                 }
                 capacity {
                     a_tenant_has_no_more_than_it_may_and_others_do_not_notice

@@ -8,13 +8,20 @@ use super::columns::SqlRow;
 use super::database::{Database, Transaction};
 use super::statement::query;
 use crate::records::{AuditRecord, Tenant};
+use crate::store::audit::entry_of_change;
 use crate::store::{AuditLog, StoreError};
 
 #[async_trait]
 impl AuditLog for Database {
     async fn record(&self, entry: &AuditRecord) -> Result<(), StoreError> {
-        let mut transaction = self.write().await?;
-        insert_entry(&mut transaction, entry).await?;
+        let mut transaction = self.begin().await?;
+        transaction.add_entry(entry).await?;
+        query("UPDATE audit_log SET resource = $2, status = $3 WHERE id = $1")
+            .bind(entry.id.to_string())
+            .bind(&entry.resource)
+            .bind(i64::from(entry.status))
+            .execute(&mut transaction)
+            .await?;
         transaction.commit().await
     }
 
@@ -40,23 +47,36 @@ impl AuditLog for Database {
     }
 }
 
-/// Adds an entry to a transaction.
-pub(super) async fn insert_entry(transaction: &mut Transaction, entry: &AuditRecord) -> Result<(), StoreError> {
-    query(
-        "INSERT INTO audit_log (id, tenant, time, caller, operation, resource, status, request) \
-         VALUES ($1, $2, $3, $4, $5, $6, $7, $8)",
-    )
-    .bind(entry.id.to_string())
-    .bind(entry.tenant.as_str())
-    .bind(entry.time.as_microsecond())
-    .bind(&entry.caller)
-    .bind(&entry.operation)
-    .bind(&entry.resource)
-    .bind(i64::from(entry.status))
-    .bind(&entry.request)
-    .execute(&mut *transaction)
-    .await?;
-    Ok(())
+impl Database {
+    /// Begins a write, with the entry of the change that it belongs to.
+    pub async fn write(&self) -> Result<Transaction, StoreError> {
+        let mut transaction = self.begin().await?;
+        if let Some(entry) = entry_of_change() {
+            transaction.add_entry(&entry).await?;
+        }
+        Ok(transaction)
+    }
+}
+
+impl Transaction {
+    /// Adds an entry, unless it is there.
+    pub(super) async fn add_entry(&mut self, entry: &AuditRecord) -> Result<(), StoreError> {
+        query(
+            "INSERT INTO audit_log (id, tenant, time, caller, operation, resource, status, request) \
+             VALUES ($1, $2, $3, $4, $5, $6, $7, $8) ON CONFLICT (id) DO NOTHING",
+        )
+        .bind(entry.id.to_string())
+        .bind(entry.tenant.as_str())
+        .bind(entry.time.as_microsecond())
+        .bind(&entry.caller)
+        .bind(&entry.operation)
+        .bind(&entry.resource)
+        .bind(i64::from(entry.status))
+        .bind(&entry.request)
+        .execute(self)
+        .await?;
+        Ok(())
+    }
 }
 
 fn audit_record(row: &SqlRow) -> Result<AuditRecord, StoreError> {

@@ -15,7 +15,9 @@ impl SqlStore {
             Database::Sqlite(engine) => {
                 let gate = engine.blob_gate.clone().read_owned().await;
                 self.blobs.put(blob).await?;
-                Ok(Transaction::Sqlite { transaction: engine.write().await?, gate: Some(gate) })
+                let mut transaction = self.database.write().await?;
+                transaction.keep(gate);
+                Ok(transaction)
             }
             // The lock and the row are in one transaction: whoever loses the connection loses both.
             #[cfg(feature = "postgres")]

@@ -52,8 +52,8 @@ impl Database {
         }
     }
 
-    /// Begins a write.
-    pub async fn write(&self) -> Result<Transaction, StoreError> {
+    /// Begins a transaction that may write.
+    pub async fn begin(&self) -> Result<Transaction, StoreError> {
         Ok(match self {
             Self::Sqlite(engine) => Transaction::Sqlite { transaction: engine.write().await?, gate: None },
             #[cfg(feature = "postgres")]
@@ -95,6 +95,15 @@ impl Database {
 }
 
 impl Transaction {
+    /// Keeps a gate until it ends. A database of its own locks has none.
+    pub fn keep(&mut self, until_the_end: OwnedRwLockReadGuard<()>) {
+        match self {
+            Self::Sqlite { gate, .. } => *gate = Some(until_the_end),
+            #[cfg(feature = "postgres")]
+            Self::Postgres(_) => {}
+        }
+    }
+
     /// Makes all of it last.
     pub async fn commit(self) -> Result<(), StoreError> {
         match self {

@@ -4,7 +4,6 @@ use async_trait::async_trait;
 use jiff::Timestamp;
 use uuid::Uuid;
 
-use super::audit::insert_entry;
 use super::columns::SqlRow;
 use super::database::{Database, Transaction};
 use super::statement::query;
@@ -82,7 +81,7 @@ async fn record(
         status,
         request: String::new(),
     };
-    insert_entry(transaction, &entry).await
+    transaction.add_entry(&entry).await
 }
 
 fn key_record(row: &SqlRow) -> Result<KeyRecord, StoreError> {
