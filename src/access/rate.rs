@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 /// The time that a limit is told for.
 pub const WINDOW: Duration = Duration::from_mins(1);
 
-/// Buckets that are kept. Those that are full again say nothing, and go first.
+/// Buckets that are kept. Those that are full again say nothing, and go first; then the one that is next to full.
 const MOST_BUCKETS: usize = 10_000;
 
 /// Limits requests of many by the same rule.
@@ -59,6 +59,11 @@ impl RateLimiter {
         };
         if buckets.len() >= MOST_BUCKETS && !buckets.contains_key(who) {
             buckets.retain(|_, bucket| tokens(bucket) < most);
+            if buckets.len() >= MOST_BUCKETS {
+                let fullest = buckets.iter().max_by(|one, other| tokens(one.1).total_cmp(&tokens(other.1)));
+                let fullest = fullest.map(|(who, _)| who.clone());
+                fullest.map(|who| buckets.remove(&who));
+            }
         }
         let before = buckets.get(who).map_or(most, tokens);
         let is_allowed = before >= 1.0;
@@ -94,9 +99,10 @@ mod tests {
     #[test]
     fn however_many_ask_the_memory_is_bounded() {
         let (limiter, begin) = (RateLimiter::new(60), Instant::now());
-        for who in 0..MOST_BUCKETS {
+        for who in 0..=MOST_BUCKETS {
             assert!(limiter.take(&who.to_string(), begin).is_allowed);
         }
+        assert_eq!(limiter.buckets().len(), MOST_BUCKETS);
         assert!(limiter.take("late", begin + WINDOW).is_allowed);
         assert_eq!(limiter.buckets().len(), 1, "the others are full again");
     }

@@ -1,5 +1,7 @@
 //! Who asks.
 
+use jiff::Timestamp;
+
 use crate::access::{Scope, Scopes, TokenBearer};
 use crate::records::{KeyRecord, Tenant};
 
@@ -12,6 +14,8 @@ pub struct Caller {
     name: String,
     /// The id of the key, where it is one.
     key: Option<String>,
+    /// When it is nobody any more.
+    end: Option<Timestamp>,
 }
 
 impl Caller {
@@ -24,19 +28,31 @@ impl Caller {
     /// Somebody who may do everything for this tenant.
     #[must_use]
     pub fn of(tenant: Tenant) -> Self {
-        Self { name: tenant.to_string(), tenant, scopes: Scopes::all(), key: None }
+        Self { name: tenant.to_string(), tenant, scopes: Scopes::all(), key: None, end: None }
     }
 
     /// Whoever has this key.
     #[must_use]
     pub fn with_key(key: &KeyRecord) -> Self {
-        Self { tenant: key.tenant.clone(), scopes: key.scopes, name: key.id.clone(), key: Some(key.id.clone()) }
+        Self {
+            tenant: key.tenant.clone(),
+            scopes: key.scopes,
+            name: key.id.clone(),
+            key: Some(key.id.clone()),
+            end: key.expires,
+        }
     }
 
     /// Whoever has this token.
     #[must_use]
-    pub fn with_token(TokenBearer { tenant, scopes, subject }: TokenBearer) -> Self {
-        Self { tenant, scopes, name: format!("sub:{subject}"), key: None }
+    pub fn with_token(TokenBearer { tenant, scopes, subject, end }: TokenBearer) -> Self {
+        Self { tenant, scopes, name: format!("sub:{subject}"), key: None, end: Some(end) }
+    }
+
+    /// The same until a time at the latest.
+    #[must_use]
+    pub fn until(self, end: Timestamp) -> Self {
+        Self { end: Some(self.end.map_or(end, |known| known.min(end))), ..self }
     }
 
     /// The tenant.
@@ -49,6 +65,12 @@ impl Caller {
     #[must_use]
     pub const fn may(&self, scope: Scope) -> bool {
         self.scopes.has(scope)
+    }
+
+    /// Whether what the caller signed in with has ended by itself.
+    #[must_use]
+    pub fn has_ended_at(&self, time: Timestamp) -> bool {
+        self.end.is_some_and(|end| end <= time)
     }
 
     /// The id of the caller's key.

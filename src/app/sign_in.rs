@@ -2,7 +2,7 @@
 
 use super::keyring::Keyring;
 use super::{App, AppError, Caller};
-use crate::access::{ApiKey, KeyHash, SESSION, Session, is_token};
+use crate::access::{ApiKey, KeyHash, SESSION, Scope, Session, is_token};
 use crate::records::KeyRecord;
 use crate::store::now;
 
@@ -29,30 +29,49 @@ impl App {
     pub async fn sign_in(&self, shown: &Credential) -> Result<Caller, AppError> {
         let Some(keyring) = &self.keyring else { return Ok(Caller::local()) };
         let refused = |reason: &str| AppError::Unauthorized(reason.to_owned());
-        let (id, hash) = match shown {
+        let (id, hash, end) = match shown {
             Credential::Key(text) if is_token(text) => {
                 let tokens = keyring.tokens.as_ref().ok_or_else(|| refused("no tokens are taken here: send a key"))?;
                 return tokens.caller(text).await;
             }
             Credential::Key(text) => {
                 let key = ApiKey::read(text).ok_or_else(|| refused("this key is not known here"))?;
-                (key.id().to_owned(), Some(key.hash(&keyring.secret)))
+                (key.id().to_owned(), Some(key.hash(&keyring.secret)), None)
             }
             Credential::Session(text) => {
                 let session = Session::read(text, &keyring.secret, now());
-                (session.ok_or_else(|| refused("the session has ended: sign in again"))?.key, None)
+                let Session { key, end } = session.ok_or_else(|| refused("the session has ended: sign in again"))?;
+                (key, None, Some(end))
             }
         };
         // Two hashes are compared in constant time.
         let found = self.known_key(keyring, &id).await?.filter(|(_, stored)| hash.is_none_or(|hash| hash == *stored));
         let (record, _) = found.ok_or_else(|| refused("this key is not known here"))?;
         if record.is_valid_at(now()) {
-            return Ok(Caller::with_key(&record));
+            let caller = Caller::with_key(&record);
+            return Ok(match end {
+                Some(end) => caller.until(end),
+                None => caller,
+            });
         }
         Err(AppError::Unauthorized(match (record.revoked, record.expires) {
             (None, Some(end)) => format!("key {} ended at {end}: ask for a new one", record.id),
             _ => format!("key {} was revoked", record.id),
         }))
+    }
+
+    /// Whether a caller who signed in a while ago may still do something: keys are revoked, and keys, tokens and sessions end.
+    ///
+    /// # Errors
+    /// When the database does not answer.
+    pub async fn still_may(&self, caller: &Caller, scope: Scope) -> Result<bool, AppError> {
+        let Some(keyring) = &self.keyring else { return Ok(true) };
+        if caller.has_ended_at(now()) || !caller.may(scope) {
+            return Ok(false);
+        }
+        let Some(id) = caller.key() else { return Ok(true) };
+        let found = self.known_key(keyring, id).await?;
+        Ok(found.is_some_and(|(key, _)| key.is_valid_at(now()) && key.scopes.has(scope)))
     }
 
     /// A session for a caller who signed in with a key; `None` for others.

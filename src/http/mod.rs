@@ -156,7 +156,7 @@ fn reading_and_writing() -> OpenApiRouter<Arc<App>> {
         .routes(routes!(ogc::jobs::list))
         .routes(routes!(ogc::jobs::get, ogc::jobs::dismiss))
         .routes(routes!(ogc::jobs::retry))
-        .routes(routes!(ogc::jobs::events))
+        .routes(routes!(ogc::job_events::events))
         .routes(routes!(maps::rule_sets::list, maps::rule_sets::create))
         .routes(routes!(maps::cogency_matrix::get))
         .routes(routes!(maps::rule_sets::get, maps::rule_sets::replace, maps::rule_sets::delete))

@@ -3,13 +3,14 @@
 use std::time::Duration;
 
 use axum::http::{Method, StatusCode};
+use jiff::SignedDuration;
 use serde_json::{Value, json};
 use stillage::access::{ApiKey, Scope, Scopes};
 use stillage::config::KeyRule;
 use stillage::records::KeyRecord;
 use stillage::store::{self, now};
 
-use crate::client::Api;
+use crate::client::{Api, HALL, METADATA, pgm, upload};
 use crate::document::Sent;
 use crate::key_client::{guarded, key, new_key, store_key, with_key};
 
@@ -61,6 +62,52 @@ async fn a_key_that_asks_too_often_is_told_when_to_ask_again() {
     assert_eq!(with_key(&maps, &other).to(&api).await.status, StatusCode::OK, "another key has its own");
     let health = Sent::new(Method::GET, "/health/live");
     assert_eq!(with_key(&health, &busy).to(&api).await.status, StatusCode::OK, "health is always answered");
+}
+
+#[tokio::test]
+async fn a_stream_of_events_ends_with_the_right_to_see_it() {
+    let mut api = guarded().await;
+    let good = key(&api, "ours", [Scope::Read, Scope::Write]).await;
+    api.key = Some(good.clone());
+    let job = api.send(upload(&pgm(HALL), METADATA)).await.header("location").to_owned();
+    let events = Sent::new(Method::GET, format!("{job}/events"));
+    let revoked = key(&api, "ours", [Scope::Read]).await;
+    let (ending, record) = new_key("ours", [Scope::Read].into_iter().collect());
+    store_key(&api, &ending, &KeyRecord { expires: Some(now() + SignedDuration::from_secs(2)), ..record }).await;
+    // Nothing happens to the job, which waits, so that nothing else ends a stream.
+    let patience = Duration::from_secs(20);
+    let stream = async |key: &str| tokio::time::timeout(patience, with_key(&events, key).to(&api)).await.ok();
+    let revocation = async {
+        let keys = store::open_keys(&api.app.config().database).await.expect("beside the service");
+        let id = ApiKey::read(&revoked).expect("a key").id().to_owned();
+        keys.revoke_key(&id, now()).await.expect("it answers").expect("it is there");
+    };
+    let ending = ending.reveal();
+    let (of_revoked, of_ending, of_good, ()) =
+        tokio::join!(stream(&revoked), stream(&ending), stream(&good), revocation);
+    for ended in [of_revoked, of_ending] {
+        let ended = ended.expect("it ends by itself");
+        assert!(ended.text().contains("\"accepted\""), "it was seen: {}", ended.text());
+    }
+    assert!(of_good.is_none(), "the stream of a key that counts goes on");
+}
+
+#[tokio::test]
+async fn many_wrong_keys_from_one_address_are_told_to_wait_and_right_ones_are_not() {
+    let api = guarded().await;
+    let good = key(&api, "ours", [Scope::Read]).await;
+    let maps = Sent::new(Method::GET, "/v1/maps");
+    let wrong = async || with_key(&maps, "stillage_of_another_service").to(&api).await;
+    for _ in 0..30 {
+        wrong().await.problem(401, "invalid-key");
+    }
+    let refused = wrong().await;
+    refused.problem(429, "too-many-requests");
+    assert!((1..=2).contains(&refused.header("retry-after").parse::<u32>().expect("seconds")));
+    assert_eq!(with_key(&maps, &good).to(&api).await.status, StatusCode::OK);
+    maps.to(&api).await.problem(401, "key-required");
+    let ended = maps.clone().with("cookie", "stillage_session=1.2.3").to(&api).await;
+    ended.problem(401, "invalid-key");
 }
 
 #[tokio::test]

@@ -28,7 +28,8 @@ pub(super) fn read(text: &[u8], rules: &TokenRules, now: Timestamp) -> Result<To
         return Err(wrong("it is for another audience (aud)"));
     }
     let end = time_of(&claims, "exp").ok_or_else(|| wrong("it does not say when it ends (exp)"))?;
-    if end.saturating_add(LEEWAY).is_ok_and(|end| end <= now) {
+    let end = end.saturating_add(LEEWAY).unwrap_or(end);
+    if end <= now {
         return Err(wrong("it has ended (exp): ask for a new one"));
     }
     let has_not_begun = |begin: Timestamp| begin.saturating_sub(LEEWAY).is_ok_and(|begin| begin > now);
@@ -39,7 +40,7 @@ pub(super) fn read(text: &[u8], rules: &TokenRules, now: Timestamp) -> Result<To
     let tenant = tenant.ok_or_else(|| wrong(&format!("it names no tenant ({})", rules.tenant_claim)))?;
     let subject = text_of(&claims, "sub").filter(|subject| (1..=MAX_SUBJECT).contains(&subject.chars().count()));
     let subject = subject.ok_or_else(|| wrong("it names no subject (sub)"))?.to_owned();
-    Ok(TokenBearer { tenant, scopes: scopes(&claims), subject })
+    Ok(TokenBearer { tenant, scopes: scopes(&claims), subject, end })
 }
 
 /// The scopes: words with blanks between them (`scope`, RFC 9068, 2.2.3), or a list (`scp`). Words that are no scopes of this

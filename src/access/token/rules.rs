@@ -1,5 +1,7 @@
 //! Which tokens are taken, what they tell, and why others are not.
 
+use jiff::Timestamp;
+
 use crate::access::Scopes;
 use crate::records::Tenant;
 
@@ -23,6 +25,8 @@ pub struct TokenBearer {
     pub scopes: Scopes,
     /// Who it is (`sub`).
     pub subject: String,
+    /// When it opens nothing any more.
+    pub end: Timestamp,
 }
 
 /// Why a token opens nothing.

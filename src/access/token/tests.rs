@@ -90,6 +90,7 @@ fn a_token_of_each_algorithm_names_tenant_scopes_and_subject() {
         tenant: Tenant::new("north"),
         scopes: [Scope::Read, Scope::Write].into_iter().collect(),
         subject: "robot-7".into(),
+        end: Timestamp::from_second(NOW + 360).expect("a time"),
     };
     for (algorithm, id) in [("ES256", "p256"), ("EdDSA", "ed")] {
         let token = provider.token(&json!({"alg": algorithm, "kid": id, "typ": "JWT"}), &claims(), id);

@@ -72,7 +72,7 @@ refusals! {
     /// 428: named by handlers that write only with `If-Match`.
     PreconditionRequired = 428, "If-Match is missing";
     /// 429: of every operation that needs a key.
-    TooManyRequests = 429, "The key asks too often, or its tenant has as many jobs waiting as it may: where keys are required";
+    TooManyRequests = 429, "Where keys are required: too many requests of the key, waiting jobs of its tenant, or wrong keys of the address";
     /// 500: of every operation.
     Internal = 500, "The service failed";
     /// 503: of every operation.

@@ -10,8 +10,13 @@ use axum::response::Response;
 
 use crate::access::{Allowance, RateLimiter, WINDOW};
 use crate::app::{App, Caller, Credential};
+use crate::http::ClientAddress;
 use crate::http::admin::session;
-use crate::http::problem::Problem;
+use crate::http::problem::{Problem, ProblemType};
+
+/// Wrong keys that an address may send in a minute: a program whose key has ended, and that tries again every two seconds, is
+/// told so each time.
+const WRONG_KEYS_PER_WINDOW: u32 = 30;
 
 /// Why a request has no caller.
 #[derive(Debug, Clone)]
@@ -23,6 +28,8 @@ pub struct SignIn {
     app: Arc<App>,
     /// `None` where a key may ask as often as it likes.
     limiter: Option<Arc<RateLimiter>>,
+    /// Counts the wrong keys of an address. Right ones never wait for it.
+    wrong_keys: Arc<RateLimiter>,
 }
 
 impl SignIn {
@@ -31,24 +38,47 @@ impl SignIn {
     pub fn new(app: Arc<App>) -> Self {
         let most = app.config().requests_per_minute;
         let limiter = (app.needs_keys() && most > 0).then(|| Arc::new(RateLimiter::new(most)));
-        Self { app, limiter }
+        Self { app, limiter, wrong_keys: Arc::new(RateLimiter::new(WRONG_KEYS_PER_WINDOW)) }
+    }
+
+    /// Who shows something from an address, or the reason why that is nobody.
+    async fn caller(&self, shown: Result<Credential, Problem>, address: ClientAddress) -> Result<Caller, Problem> {
+        // A session of a browser ends in the course of things.
+        let is_key = matches!(shown, Ok(Credential::Key(_)));
+        let caller = match shown {
+            Ok(shown) => self.app.sign_in(&shown).await.map_err(Problem::from),
+            Err(problem) => Err(problem),
+        };
+        caller.map_err(|problem| {
+            let is_wrong_key = is_key && problem.kind() == ProblemType::InvalidKey;
+            if is_wrong_key { self.after_wrong_key(address, problem) } else { problem }
+        })
+    }
+
+    /// What an address is told that sent a wrong key.
+    fn after_wrong_key(&self, ClientAddress(address): ClientAddress, problem: Problem) -> Problem {
+        let allowance = self.wrong_keys.take(&address.to_string(), Instant::now());
+        if !allowance.is_allowed {
+            return Problem::too_many_wrong_keys(allowance.reset_s);
+        }
+        if allowance.remaining == 0 {
+            tracing::warn!(%address, "sends many wrong keys; further ones are answered 429");
+        }
+        problem
     }
 }
 
-/// Middleware: gives a request its [`Caller`], or the reason why it has none: no key, a wrong one, or too many requests of it.
-/// What needs a caller refuses for that reason ([`super::access`]); what needs none is answered, whatever the request brought.
-/// Answers to a key tell how much it may ask still.
-pub async fn sign_in(State(SignIn { app, limiter }): State<SignIn>, mut request: Request, next: Next) -> Response {
-    if !app.needs_keys() {
+/// Middleware: gives a request its [`Caller`], or the reason why it has none: no key, a wrong one, too many wrong ones of
+/// its address, or too many requests of it. What needs a caller refuses for that reason ([`super::access`]); what needs none is
+/// answered, whatever the request brought. Answers to a key tell how much it may ask still.
+pub async fn sign_in(State(guard): State<SignIn>, mut request: Request, next: Next) -> Response {
+    if !guard.app.needs_keys() {
         request.extensions_mut().insert(Caller::local());
         return next.run(request).await;
     }
-    let caller = match shown(&request) {
-        Ok(shown) => app.sign_in(&shown).await.map_err(Problem::from),
-        Err(problem) => Err(problem),
-    };
     let mut left = HeaderMap::new();
-    let caller = caller.and_then(|caller| match &limiter {
+    let sender = guard.caller(shown(&request), ClientAddress::of(&request)).await;
+    let caller = sender.and_then(|caller| match &guard.limiter {
         Some(limiter) => {
             let allowance = limiter.take(caller.name(), Instant::now());
             left = headers(limiter.per_window(), allowance);

@@ -1,22 +1,16 @@
-//! Jobs in the shape of OGC API Processes, and their progress as server-sent events.
+//! Jobs in the shape of OGC API Processes.
 
-use std::convert::Infallible;
 use std::sync::Arc;
 use std::time::Duration;
 
-use axum::extract::{RawQuery, Request, State};
+use axum::Json;
+use axum::extract::{RawQuery, State};
 use axum::http::{HeaderValue, StatusCode, header};
-use axum::response::sse::{Event, KeepAlive, Sse};
 use axum::response::{IntoResponse, Response};
-use axum::{Extension, Json};
-use futures::{Stream, StreamExt as _};
-use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 use utoipa::{IntoParams, ToSchema};
 
-use super::event_streams::EventStreams;
-use crate::app::{App, AppError, Caller, JobFilter, JobRecord, JobState};
-use crate::http::ClientAddress;
+use crate::app::{App, Caller, JobFilter, JobRecord, JobState};
 use crate::http::docs::refusals::{Conflict, NotFound};
 use crate::http::extract::datetime::Datetime;
 use crate::http::extract::negotiation::Accept;
@@ -29,14 +23,8 @@ use crate::views::id::Id;
 use crate::views::job::{JobStatus, JobView};
 use crate::views::link::Link;
 
-/// How often an idle stream of events says that it is still there.
-const HEARTBEAT: Duration = Duration::from_secs(15);
-
-/// How soon a client comes back to a stream that broke off.
-const RETRY: Duration = Duration::from_secs(2);
-
 /// The job as the client sees it.
-fn view(base: &Base, job: JobRecord) -> JobView {
+pub(super) fn view(base: &Base, job: JobRecord) -> JobView {
     let path = format!("/v1/jobs/{}", job.id);
     let mut links = vec![
         base.link("self", &path, JSON),
@@ -228,106 +216,6 @@ pub async fn retry(
     Path(path): Path<JobPath>,
 ) -> Result<Response, Problem> {
     Ok(accepted(&base, app.retry_job(&caller, path.job_id.0).await?))
-}
-
-/// One event of the stream, field by field.
-#[derive(Debug, ToSchema)]
-#[allow(dead_code, reason = "it describes the lines of the stream")]
-pub struct JobEvent {
-    /// `progress`
-    #[schema(example = "progress")]
-    event: String,
-    /// Ascends with the changes of the job.
-    id: String,
-    /// Milliseconds until a client comes back to a stream that broke off.
-    retry: u32,
-    /// The job, as JSON.
-    data: String,
-}
-
-/// Watch a job
-///
-/// Server-sent events: `progress` with the job as its data and its time of change as its id. The stream ends with the
-/// final state: `dismissed` where the map is deleted. A client that comes back with `Last-Event-ID` is sent what is newer; when nothing more will come, 204
-/// tells it to stay away.
-#[utoipa::path(get, path = "/v1/jobs/{jobId}/events", tag = "jobs", operation_id = "watchJob",
-    params(JobPath, ("Last-Event-ID" = Option<String>, Header, description = "Id of the last event that arrived")),
-    responses((status = 200, description = "The events", body = JobEvent, content_type = "text/event-stream"),
-        (status = 204, description = "The job is over, and the client knows"),
-        NotFound))]
-pub async fn events(
-    State(app): State<Arc<App>>,
-    caller: Caller,
-    base: Base,
-    Path(path): Path<JobPath>,
-    Extension(streams): Extension<Arc<EventStreams>>,
-    request: Request,
-) -> Result<Response, Problem> {
-    let headers = request.headers();
-    let job = app.job(&caller, path.job_id.0).await?;
-    let last = headers.get("last-event-id").and_then(|id| id.to_str().ok()?.parse::<i64>().ok());
-    if job.state.is_final() && last.is_some_and(|last| last >= event_id(&job)) {
-        return Ok(StatusCode::NO_CONTENT.into_response());
-    }
-    let place = streams.take(ClientAddress::of(&request))?;
-    let events = watch(app, caller, base, job, last).inspect(move |_| {
-        // The stream has its place as long as it lives.
-        let _ = &place;
-    });
-    let events = Sse::new(events);
-    // Proxies that buffer would hold the events back.
-    let headers = [("x-accel-buffering", "no"), ("cache-control", "no-store")];
-    Ok((headers, events.keep_alive(KeepAlive::new().interval(HEARTBEAT))).into_response())
-}
-
-/// Ids of events ascend with the changes of the job.
-fn event_id(job: &JobRecord) -> i64 {
-    job.updated.as_microsecond()
-}
-
-/// The states of a job from `last` on, up to the final one.
-fn watch(
-    app: Arc<App>,
-    caller: Caller,
-    base: Base,
-    job: JobRecord,
-    last: Option<i64>,
-) -> impl Stream<Item = Result<Event, Infallible>> {
-    struct Watching {
-        changes: tokio::sync::watch::Receiver<u64>,
-        last: Option<i64>,
-        /// The job as it was read last.
-        job: JobRecord,
-        over: bool,
-    }
-    let start = Watching { changes: app.job_changes(), last, job, over: false };
-    futures::stream::unfold(start, move |mut watching| {
-        let (app, caller, base) = (Arc::clone(&app), caller.clone(), base.clone());
-        async move {
-            while !watching.over && !app.is_stopping() {
-                // Marked before the job is read: a change after the reading wakes again.
-                watching.changes.mark_unchanged();
-                let job = match app.job(&caller, watching.job.id).await {
-                    Ok(job) => job,
-                    Err(AppError::NotFound { .. }) => watching.job.clone().deleted(Timestamp::now()),
-                    Err(_) => return None,
-                };
-                watching.job = job.clone();
-                if watching.last.is_none_or(|last| event_id(&job) > last) {
-                    watching.last = Some(event_id(&job));
-                    watching.over = job.state.is_final();
-                    let event = Event::default().event("progress").id(event_id(&job).to_string()).retry(RETRY);
-                    let event = event.json_data(view(&base, job)).ok()?;
-                    return Some((Ok(event), watching));
-                }
-                watching.over = job.state.is_final();
-                if !watching.over {
-                    watching.changes.changed().await.ok()?;
-                }
-            }
-            None
-        }
-    })
 }
 
 #[cfg(test)]

@@ -12,6 +12,7 @@ pub mod items;
 mod items_answer;
 mod items_format;
 pub mod items_query;
+pub mod job_events;
 pub mod jobs;
 pub mod processes;
 mod profile;

@@ -34,6 +34,15 @@ impl Problem {
         Self::new(ProblemType::MissingScope, detail).challenge(&challenge)
     }
 
+    /// A wrong key from an address that sent many.
+    #[must_use]
+    pub fn too_many_wrong_keys(retry_after_s: u32) -> Self {
+        let detail = format!(
+            "this key opens nothing, and many such came from this address: look at the key, and try again in {retry_after_s} s"
+        );
+        Self::new(ProblemType::TooManyRequests, detail).retry_after(retry_after_s)
+    }
+
     /// A key that asked too often.
     #[must_use]
     pub fn too_many_requests(most: u32, retry_after_s: u32) -> Self {

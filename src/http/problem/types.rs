@@ -83,8 +83,8 @@ problem_types! {
     Invalid = "invalid", UNPROCESSABLE_ENTITY, "The content is invalid";
     /// A write without `If-Match`.
     PreconditionRequired = "precondition-required", PRECONDITION_REQUIRED, "The write needs an If-Match header";
-    /// The key asked too often.
-    TooManyRequests = "too-many-requests", TOO_MANY_REQUESTS, "The key asks too often";
+    /// The key asked too often, or its address sent many wrong ones.
+    TooManyRequests = "too-many-requests", TOO_MANY_REQUESTS, "Too many requests";
     /// As many jobs of the tenant wait as may.
     TooManyJobs = "too-many-jobs", TOO_MANY_REQUESTS, "The tenant has too many jobs waiting";
     /// Something is wrong in the service.
