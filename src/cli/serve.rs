@@ -18,7 +18,7 @@ use crate::app::{App, AppError};
 use crate::config::{Config, DatabaseAddress, KeyRule, Role};
 use crate::core_split::{CoreSplitError, JobCores};
 use crate::ingest::Limits;
-use crate::server::tls::TlsError;
+use crate::server::certificate::CertificateError;
 use crate::server::{self, ConnectionLimits, open_files};
 
 /// Serves the API. Everything can also be set in the environment.
@@ -158,7 +158,7 @@ pub(super) enum ServeError {
     OneKindOfWork,
     /// The files of TLS.
     #[error("--tls-cert and --tls-key: {0}")]
-    Tls(#[from] TlsError),
+    Tls(#[from] CertificateError),
     /// The store does not open.
     #[error("{}", root(.0))]
     App(#[from] AppError),
@@ -247,7 +247,7 @@ async fn serve(args: &ServeArgs, job_cores: Option<JobCores>) -> Result<(), Serv
     let address = args.listen;
     let listener = TcpListener::bind(address).await.map_err(|source| ServeError::Listen { address, source })?;
     let mut signals = StopSignals::listen()?;
-    let tls = args.tls.acceptor()?;
+    let tls = args.tls.open()?;
     let app = App::open(args.config(job_cores)?).await?;
     // Whoever started the service may not listen any more.
     let _ = writeln!(

@@ -2,15 +2,15 @@
 
 use std::path::PathBuf;
 
+use crate::server::certificate::CertificateError;
+use crate::server::tls::Tls;
 use clap::Args;
-use tokio_rustls::TlsAcceptor;
-
-use crate::server::tls::{TlsError, acceptor};
 
 /// TLS of the listener.
 #[derive(Debug, Clone, Args)]
 pub(super) struct TlsArgs {
-    /// Certificate in PEM, with those of its authorities behind it: the service then speaks HTTPS.
+    /// Certificate in PEM, with those of its authorities behind it: the service then speaks HTTPS. A new one is
+    /// used within some ten seconds.
     #[arg(long, env = "STILLAGE_TLS_CERT", value_name = "FILE", requires = "tls_key")]
     tls_cert: Option<PathBuf>,
     /// Private key of the certificate in PEM.
@@ -28,8 +28,8 @@ impl TlsArgs {
     ///
     /// # Errors
     /// Which file is wrong, and why.
-    pub(super) fn acceptor(&self) -> Result<Option<TlsAcceptor>, TlsError> {
+    pub(super) fn open(&self) -> Result<Option<Tls>, CertificateError> {
         let files = self.tls_cert.as_deref().zip(self.tls_key.as_deref());
-        files.map(|(certificate, key)| acceptor(certificate, key)).transpose()
+        files.map(|(certificate, key)| Tls::open(certificate, key)).transpose()
     }
 }

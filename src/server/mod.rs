@@ -9,13 +9,14 @@
 //! | `places` | which connections are open, and which one makes room for a newcomer |
 //! | `waiting` | how long a connection has been waiting for its client |
 //! | `stream` | the bytes of a connection: the pace of clients that take answers |
-//! | `tls` | TLS, from a certificate and its key |
+//! | `tls`, `certificate` | TLS; its certificate and key, from files that may change |
 //! | `heads` | heads of requests that other programs may read differently |
 //! | `body` | bodies of requests, until they are there |
 //! | `refusal` | what a connection without a place is answered |
 //! | `open_files` | how many files and connections the process may have open |
 
 mod body;
+pub mod certificate;
 mod heads;
 pub mod open_files;
 mod places;
@@ -42,6 +43,7 @@ use hyper_util::rt::{TokioIo, TokioTimer};
 use hyper_util::server::graceful::{GracefulShutdown, Watcher};
 use tokio::io::{AsyncRead, AsyncWrite};
 use tokio::net::{TcpListener, TcpStream};
+use tokio::task::JoinSet;
 use tokio::time::Instant;
 use tokio_rustls::TlsAcceptor;
 use tower::ServiceExt as _;
@@ -56,6 +58,7 @@ pub use places::ConnectionLimits;
 use places::{ConnectionPlace, ConnectionPlaces};
 use refusal::Refusals;
 use stream::WatchedStream;
+use tls::{RENEWAL_PERIOD, Tls};
 use waiting::Waiting;
 
 /// How long a client may take to send the head of a request, or stay silent between two.
@@ -72,12 +75,16 @@ const ACCEPT_PAUSE: Duration = Duration::from_millis(100);
 /// back.
 pub async fn serve(
     listener: TcpListener,
-    tls: Option<TlsAcceptor>,
+    tls: Option<Tls>,
     app: Arc<App>,
     limits: ConnectionLimits,
     stop: impl Future<Output = ()>,
 ) {
-    let server = Acceptor::new(Arc::clone(&app), limits, tls);
+    let server = Acceptor::new(Arc::clone(&app), limits, tls.as_ref().map(Tls::acceptor));
+    let mut renewal = JoinSet::new();
+    if let Some(tls) = tls {
+        renewal.spawn(tls.renew(RENEWAL_PERIOD));
+    }
     server.accept_until(&listener, stop).await;
     app.announce_stop();
     server.accept_until(&listener, tokio::time::sleep(app.config().shutdown_notice)).await;
