@@ -8,6 +8,8 @@ pub mod hosts;
 pub mod observe;
 pub mod pace;
 pub mod sign_in;
+#[cfg(feature = "otel")]
+mod trace_parent;
 
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;

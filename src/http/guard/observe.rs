@@ -101,6 +101,8 @@ pub async fn observe(State(measures): State<Arc<RequestMeasures>>, mut request: 
     // Of the highest level, so that every line about the request has its id.
     let request_id = id.to_str().unwrap_or_default();
     let span = tracing::error_span!("request", request_id, %method, path = request.uri().path());
+    #[cfg(feature = "otel")]
+    super::trace_parent::take_over(&span, request.headers());
     let mut response = next.run(request).instrument(span.clone()).await;
     let (status, seconds) = (response.status().as_u16(), began.elapsed().as_secs_f64());
     span.in_scope(|| tracing::debug!(status, seconds, "answered"));
