@@ -15,7 +15,7 @@ use super::map_states::MapStates;
 use super::mending::Mending;
 use crate::config::Config;
 use crate::jobs::processes::{AnalysisProcess, Processes};
-use crate::jobs::{Signals, Worker, forget_old_entries};
+use crate::jobs::{Signals, Worker, forget_old_entries, measure_old_blobs};
 use crate::measures::Measures;
 use crate::store::{self, Capacity, Full, Outdated, Store, StoreError, now};
 
@@ -76,6 +76,7 @@ impl App {
         if keyring.is_some() {
             background.spawn(forget_old_entries(Arc::clone(&store), config.keep_audit));
         }
+        background.spawn(measure_old_blobs(Arc::clone(&store)));
         let contexts = ContextCache::new(config.cached_maps);
         let decoders = Semaphore::new(config.compute_threads.max(1));
         Arc::new(Self {

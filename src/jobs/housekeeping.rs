@@ -44,3 +44,14 @@ pub async fn forget_old_entries(store: Arc<dyn Store>, keep: Duration) {
 async fn forget(store: &dyn Store, keep: Duration) -> Result<u64, StoreError> {
     store.audit().forget_before(kept_since(keep, store.clock().await?)).await
 }
+
+/// Fills in the lengths of what an earlier release stored without them. Where that cannot be done, the next start tries again.
+pub async fn measure_old_blobs(store: Arc<dyn Store>) {
+    match store.measure_unmeasured_blobs().await {
+        Ok(0) => {}
+        Ok(measured) => tracing::info!(measured, "uploads and results of an earlier release count to quotas now"),
+        Err(error) => {
+            tracing::warn!(%error, "some uploads and results of an earlier release do not count to quotas yet")
+        }
+    }
+}

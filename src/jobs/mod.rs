@@ -23,7 +23,7 @@ mod signals;
 mod tests;
 mod worker;
 
-pub use housekeeping::{delete_hidden, forget_old_entries, kept_since};
+pub use housekeeping::{delete_hidden, forget_old_entries, kept_since, measure_old_blobs};
 pub use retry::backoff;
 pub use signals::Signals;
 pub use worker::Worker;

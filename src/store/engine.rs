@@ -89,6 +89,13 @@ pub trait Store:
     /// When the database or the blobs do not answer.
     async fn sweep_blobs(&self, age: Duration) -> Result<usize, StoreError>;
 
+    /// Fills in the lengths of uploads and results that an earlier release stored without, so that they count to the quotas of
+    /// their tenants. Answers how many there were.
+    ///
+    /// # Errors
+    /// When the database or the blobs do not answer; what is left is for the next call.
+    async fn measure_unmeasured_blobs(&self) -> Result<u64, StoreError>;
+
     /// Closes the connections; pending writes end first.
     async fn close(&self);
 }

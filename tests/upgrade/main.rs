@@ -11,7 +11,7 @@ use stillage::app::{App, AppError, Caller, JobFilter, JobRecord, JobState, MapPa
 use stillage::config::Config;
 use stillage::coordinates::Georeference;
 use stillage::records::Tenant;
-use stillage::store::{self, IdempotencyKey, Upload};
+use stillage::store::{self, Capacity, Full, IdempotencyKey, Quotas, Upload};
 use stillage_core::AnalysisOptions;
 use stillage_core::spec::VehicleWidth;
 use tempfile::TempDir;
@@ -130,4 +130,19 @@ async fn idempotency_keys_are_remembered() {
         let seen = store.seen_upload(&Tenant::local(), &key, job.created).await.expect("it answers");
         assert_eq!(seen, Some(Upload::KeyReused), "the key is known, with other content than none");
     }
+}
+
+#[tokio::test]
+async fn what_is_stored_counts_to_the_quota_of_its_tenant() {
+    let folder = old_folder();
+    let store = store::open(&config(&folder)).await.expect("the folder is upgraded");
+    assert_eq!(store.measure_unmeasured_blobs().await.expect("they are measured"), 6, "four maps, two analyses");
+    let blobs = std::fs::read_dir(folder.path().join("blobs")).expect("a folder").flatten();
+    let files = blobs.flat_map(|part| std::fs::read_dir(part.path()).expect("a folder").flatten());
+    let stored: u64 = files.map(|file| file.metadata().expect("a file").len()).sum();
+    let full = async |bytes| {
+        let capacity = Capacity { of_tenant: Quotas { bytes, ..Quotas::UNLIMITED }, ..Capacity::UNLIMITED };
+        store.full(&Tenant::local(), &capacity).await.expect("it answers")
+    };
+    assert_eq!((full(stored).await, full(stored + 1).await), (Some(Full::Bytes), None));
 }

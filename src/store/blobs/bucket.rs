@@ -10,7 +10,7 @@ use futures::TryStreamExt;
 use object_store::aws::{AmazonS3, AmazonS3Builder};
 use object_store::{BackoffConfig, ObjectMeta, ObjectStore, ObjectStoreExt, PutPayload, RetryConfig};
 
-use super::reading::{is_there, location, read_whole};
+use super::reading::{length, location, read_whole};
 use super::transport::Transport;
 use super::{Blob, BlobId, Blobs};
 use crate::store::StoreError;
@@ -63,8 +63,8 @@ impl Blobs for BucketBlobs {
         read_whole(&self.bucket, &location(&self.prefix, id), id).await
     }
 
-    async fn contains(&self, id: &BlobId) -> Result<bool, StoreError> {
-        is_there(&self.bucket, &location(&self.prefix, id)).await
+    async fn length(&self, id: &BlobId) -> Result<Option<u64>, StoreError> {
+        length(&self.bucket, &location(&self.prefix, id)).await
     }
 
     async fn remove(&self, id: &BlobId) -> Result<(), StoreError> {

@@ -7,7 +7,7 @@ use async_trait::async_trait;
 use object_store::local::LocalFileSystem;
 use object_store::{ObjectStore, ObjectStoreExt, PutMode, PutOptions, PutPayload};
 
-use super::reading::{is_there, location, read_whole};
+use super::reading::{length, location, read_whole};
 use super::{Blob, BlobId, Blobs};
 use crate::blocking::off_the_runtime;
 use crate::store::StoreError;
@@ -62,8 +62,8 @@ impl Blobs for LocalBlobs {
         read_whole(&self.files, &location("", id), id).await
     }
 
-    async fn contains(&self, id: &BlobId) -> Result<bool, StoreError> {
-        is_there(&self.files, &location("", id)).await
+    async fn length(&self, id: &BlobId) -> Result<Option<u64>, StoreError> {
+        length(&self.files, &location("", id)).await
     }
 
     async fn remove(&self, id: &BlobId) -> Result<(), StoreError> {

@@ -28,14 +28,14 @@ pub async fn read_whole(store: &dyn ObjectStore, place: &Path, id: &BlobId) -> R
     if blob.id() == id { Ok(blob) } else { Err(damaged("its bytes do not have its hash")) }
 }
 
-/// Whether there is something at a place.
+/// How long what is at a place is, bytes; `None` where nothing is.
 ///
 /// # Errors
 /// When the store does not answer.
-pub async fn is_there(store: &dyn ObjectStore, place: &Path) -> Result<bool, StoreError> {
+pub async fn length(store: &dyn ObjectStore, place: &Path) -> Result<Option<u64>, StoreError> {
     match store.head(place).await {
-        Ok(_) => Ok(true),
-        Err(object_store::Error::NotFound { .. }) => Ok(false),
+        Ok(found) => Ok(Some(found.size)),
+        Err(object_store::Error::NotFound { .. }) => Ok(None),
         Err(error) => Err(error.into()),
     }
 }

@@ -25,11 +25,11 @@ pub trait Blobs: fmt::Debug + Send + Sync {
     /// [`StoreError::Damaged`] when it is missing or not what was written.
     async fn get(&self, id: &BlobId) -> Result<Blob, StoreError>;
 
-    /// Whether there is such a blob, whole or not.
+    /// The length of a blob in bytes, whole or not; `None` where there is none.
     ///
     /// # Errors
     /// When nobody knows.
-    async fn contains(&self, id: &BlobId) -> Result<bool, StoreError>;
+    async fn length(&self, id: &BlobId) -> Result<Option<u64>, StoreError>;
 
     /// Removes a blob; a missing one is no error.
     ///

@@ -53,6 +53,27 @@ pub async fn what_is_stored_of_a_tenant_counts_upload_and_result(engine: &impl E
     );
 }
 
+pub async fn what_an_earlier_release_stored_counts_once_it_is_measured(engine: &impl Engine) {
+    let store = engine.store();
+    let (first, second) = (upload(store, "a map").await, upload(store, "another map").await);
+    finish(store, &claim(store, now()).await.unwrap()).await.unwrap();
+    engine.sql().run("UPDATE maps SET bytes = 0").await;
+    engine.sql().run("UPDATE analyses SET bytes = 0").await;
+    let full = async |bytes| {
+        let capacity = Capacity { of_tenant: Quotas { bytes, ..Quotas::UNLIMITED }, ..Capacity::UNLIMITED };
+        store.full(&local(), &capacity).await.unwrap()
+    };
+    assert_eq!(full(1).await, None, "nothing counts");
+
+    let lost = store.map_source(&local(), second.map).await.unwrap().unwrap();
+    engine.damage(&lost, None);
+    assert_eq!(store.measure_unmeasured_blobs().await.unwrap(), 2);
+    let upload = Blob::encode(&MapSource::Message(b"a map".to_vec())).bytes().len();
+    let stored = (upload + format!("result of {}", first.id).len()) as u64;
+    assert_eq!((full(stored).await, full(stored + 1).await), (Some(Full::Bytes), None));
+    assert_eq!(store.measure_unmeasured_blobs().await.unwrap(), 0, "what is lost has no length");
+}
+
 pub async fn tenants_are_served_in_turn(engine: &impl Engine) {
     let store = engine.store();
     for name in ["first", "second", "third"] {

@@ -24,6 +24,7 @@ use stillage_core::semantics::RuleSetDraft;
 use uuid::Uuid;
 
 use super::queue::{Claim, JobResult, Terms};
+use super::sql::SqlStore;
 use super::*;
 use crate::ingest::MapSource;
 use crate::records::{JobFilter, JobRecord, JobState, Tenant};
@@ -37,6 +38,9 @@ pub trait Engine: Sized {
 
     /// The store.
     fn store(&self) -> &Arc<dyn Store>;
+
+    /// The store by its type.
+    fn sql(&self) -> &SqlStore;
 
     /// The file of a blob.
     fn blob_file(&self, blob: &BlobId) -> PathBuf;
@@ -120,6 +124,7 @@ macro_rules! contract {
                 capacity {
                     a_tenant_has_no_more_than_it_may_and_others_do_not_notice
                     what_is_stored_of_a_tenant_counts_upload_and_result
+                    what_an_earlier_release_stored_counts_once_it_is_measured
                     tenants_are_served_in_turn
                     a_tenant_runs_no_more_jobs_than_it_may
                 }

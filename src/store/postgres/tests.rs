@@ -19,6 +19,7 @@ use crate::store::{BlobId, Store, now};
 /// A store on a database of its own.
 pub struct OnServer {
     store: Arc<dyn Store>,
+    sql: Arc<SqlStore>,
     config: Config,
     folder: TempDir,
 }
@@ -29,12 +30,16 @@ impl Engine for OnServer {
         let folder = tempfile::tempdir().expect("a temporary folder");
         let database = DatabaseAddress::Postgres(address);
         let config = Config { database, min_free_bytes: 0, job_slots: 0, ..Config::new(folder.path()) };
-        let store = SqlStore::open(&config).await.expect("the store opens");
-        Some(Self { store: Arc::new(store), config, folder })
+        let sql = Arc::new(SqlStore::open(&config).await.expect("the store opens"));
+        Some(Self { store: Arc::<SqlStore>::clone(&sql), sql, config, folder })
     }
 
     fn store(&self) -> &Arc<dyn Store> {
         &self.store
+    }
+
+    fn sql(&self) -> &SqlStore {
+        &self.sql
     }
 
     fn blob_file(&self, blob: &BlobId) -> std::path::PathBuf {

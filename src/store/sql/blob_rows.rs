@@ -27,7 +27,7 @@ impl SqlStore {
                 let mut transaction = self.database.write().await?;
                 transaction.keep_blob(blob.id()).await?;
                 // It may have been removed before it was kept.
-                if !self.blobs.contains(blob.id()).await? {
+                if self.blobs.length(blob.id()).await?.is_none() {
                     self.blobs.put(blob).await?;
                 }
                 Ok(transaction)
@@ -67,6 +67,27 @@ impl SqlStore {
             removed += usize::from(self.remove_unreferenced(&id).await?);
         }
         Ok(removed)
+    }
+
+    /// Fills in the lengths of blobs that an earlier release stored without. One that is missing stays without.
+    pub(super) async fn measure_unmeasured(&self) -> Result<u64, StoreError> {
+        let rows =
+            query("SELECT source AS blob FROM maps WHERE bytes = 0 UNION SELECT blob FROM analyses WHERE bytes = 0");
+        let mut measured = 0;
+        for row in rows.fetch_all(&self.database).await? {
+            let blob = row.blob("blob")?;
+            let Some(length) = self.blobs.length(&blob).await? else { continue };
+            let mut transaction = self.database.write().await?;
+            for sql in [
+                "UPDATE maps SET bytes = $2 WHERE source = $1 AND bytes = 0",
+                "UPDATE analyses SET bytes = $2 WHERE blob = $1 AND bytes = 0",
+            ] {
+                query(sql).bind(blob.as_str()).bind(length as i64).execute(&mut transaction).await?;
+            }
+            transaction.commit().await?;
+            measured += 1;
+        }
+        Ok(measured)
     }
 
     /// The caller has seen to it that no row begins to name the blob.

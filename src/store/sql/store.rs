@@ -131,11 +131,25 @@ impl Store for SqlStore {
         self.remove_orphans(age).await
     }
 
+    async fn measure_unmeasured_blobs(&self) -> Result<u64, StoreError> {
+        self.measure_unmeasured().await
+    }
+
     async fn close(&self) {
         match &self.database {
             Database::Sqlite(engine) => engine.close().await,
             #[cfg(feature = "postgres")]
             Database::Postgres(engine) => engine.close().await,
         }
+    }
+}
+
+#[cfg(test)]
+impl SqlStore {
+    /// Changes rows behind the store's back.
+    pub async fn run(&self, sql: &'static str) {
+        let mut transaction = self.database.begin().await.expect("it begins");
+        query(sql).execute(&mut transaction).await.expect("it is SQL");
+        transaction.commit().await.expect("it ends");
     }
 }

@@ -41,17 +41,23 @@ impl Fixture {
 /// The engine under the contract.
 pub struct Embedded {
     store: Arc<dyn Store>,
+    sql: Arc<SqlStore>,
     fixture: Fixture,
 }
 
 impl Engine for Embedded {
     async fn empty() -> Option<Self> {
         let fixture = Fixture::new();
-        Some(Self { store: fixture.open().await, fixture })
+        let sql = fixture.open().await;
+        Some(Self { store: Arc::<SqlStore>::clone(&sql), sql, fixture })
     }
 
     fn store(&self) -> &Arc<dyn Store> {
         &self.store
+    }
+
+    fn sql(&self) -> &SqlStore {
+        &self.sql
     }
 
     fn blob_file(&self, blob: &BlobId) -> PathBuf {
