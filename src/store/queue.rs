@@ -92,7 +92,8 @@ pub enum JobResult {
 pub trait Queue {
     /// Ends the claims whose lease has run out, then takes a job that is due, if there is one: of the tenant that was served
     /// longest ago, so that nobody waits for all the jobs of another; and of its jobs with the fewest attempts the one that waits
-    /// longest, so that a job which kills its workers does not hold up the others.
+    /// longest, so that a job which kills its workers does not hold up the others. Attempts that ended ten minutes ago do not
+    /// put a job behind others any more.
     ///
     /// Where the asking worker was in touch with the database ([`Terms::in_touch_since`]) from the last sign of life of a claim
     /// until its lease ran out, that worker alone was gone, and the attempt counts. Otherwise all may have been, with the machine

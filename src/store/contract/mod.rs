@@ -85,6 +85,7 @@ macro_rules! contract {
                     a_job_that_kills_its_process_fails_after_the_last_attempt
                     where_all_may_have_died_only_deaths_in_one_stage_count
                     a_job_that_was_cut_off_waits_behind_the_others
+                    a_job_that_was_cut_off_waits_ten_minutes_behind_fresh_ones
                     a_job_that_failed_or_was_dismissed_runs_once_more
                     a_waiting_job_is_dismissed_at_once_a_running_one_is_asked_to_stop
                     a_full_queue_takes_no_more

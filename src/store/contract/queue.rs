@@ -117,6 +117,17 @@ pub async fn a_job_that_was_cut_off_waits_behind_the_others(engine: &impl Engine
     assert_eq!(claim(store, now()).await.unwrap().job, first.id);
 }
 
+pub async fn a_job_that_was_cut_off_waits_ten_minutes_behind_fresh_ones(engine: &impl Engine) {
+    let store = engine.store();
+    let first = upload(store, "first").await;
+    let cut_off = claim(store, now()).await.unwrap();
+    store.requeue(&cut_off, cut_off.attempt, Duration::ZERO, "a fault", now()).await.unwrap();
+    let fresh = [upload(store, "second").await, upload(store, "third").await, upload(store, "fourth").await];
+    assert_eq!(claim(store, now()).await.unwrap().job, fresh[0].id);
+    assert_eq!(claim(store, later(590)).await.unwrap().job, fresh[1].id);
+    assert_eq!(claim(store, later(610)).await.unwrap().job, first.id);
+}
+
 pub async fn a_job_that_failed_or_was_dismissed_runs_once_more(engine: &impl Engine) {
     let store = engine.store();
     let job = upload(store, "map").await;
