@@ -107,6 +107,33 @@ fn a_database_that_crashes_loses_nothing_and_is_never_an_error_of_the_service() 
 }
 
 #[test]
+fn metrics_and_readiness_say_that_the_database_is_away() {
+    let Some(deployment) = Deployment::shared() else { return };
+    let proxy = Proxy::before(deployment.database_server());
+    let server = Server::start(&deployment.through(proxy.address()), None, &[]).expect("it starts");
+    let figure = |name: &str| {
+        let metrics = server.ask("/metrics").expect("it answers");
+        assert_eq!(metrics.status, 200, "{metrics:?}");
+        let line = metrics.text.lines().find_map(|line| line.strip_prefix(name)).expect("it is there");
+        line.trim().parse::<f64>().expect("a number")
+    };
+    assert_eq!((figure("database_up "), figure("jobs_oldest_waiting_seconds ")), (1.0, 0.0));
+    for fault in [Fault::Outage, Fault::Partition] {
+        proxy.set(fault);
+        assert_eq!(figure("database_up "), 0.0, "{fault:?}");
+        assert!(figure("jobs{state=\"accepted\"} ").is_nan() && figure("jobs_oldest_waiting_seconds ").is_nan());
+        assert!(figure("database_busy_total ") > 0.0, "{fault:?}");
+        let ready = server.ask("/health/ready").expect("it answers");
+        assert!(ready.status == 503 && ready.says_when_to_come_back, "{ready:?}");
+        assert_eq!(server.ask("/health/live").expect("it answers").status, 200, "a restart would bring nothing back");
+        proxy.set(Fault::None);
+        back_after(&server);
+        assert_eq!((figure("database_up "), figure("jobs_oldest_waiting_seconds ")), (1.0, 0.0), "{fault:?} is over");
+    }
+    server.stop();
+}
+
+#[test]
 fn who_is_cut_off_from_the_database_changes_nothing_when_it_is_back() {
     let seconds = setting("STILLAGE_PARTITION_S", 10);
     let Some(deployment) = Deployment::shared() else { return };
