@@ -3,7 +3,7 @@
 //! | file | what it holds |
 //! | --- | --- |
 //! | `rate` | how fast somebody may ask |
-//! | `session` | what a browser has in place of a key |
+//! | `session` | what a browser has in place of a key or token |
 //! | `token` | tokens of an identity provider |
 //! | `scope` | what a key is good for |
 //! | `api_key` | a key as people carry it |

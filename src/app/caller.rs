@@ -2,7 +2,7 @@
 
 use jiff::Timestamp;
 
-use crate::access::{Scope, Scopes, TokenBearer};
+use crate::access::{Scope, Scopes, Session, TokenBearer};
 use crate::records::{KeyRecord, Tenant};
 
 /// Who asks for a use case. Everything is read and written for the caller's tenant: what belongs to another one is not
@@ -12,10 +12,19 @@ pub struct Caller {
     tenant: Tenant,
     scopes: Scopes,
     name: String,
-    /// The id of the key, where it is one.
-    key: Option<String>,
+    shown: Shown,
     /// When it is nobody any more.
     end: Option<Timestamp>,
+}
+
+/// What a caller signed in with.
+#[derive(Debug, Clone, PartialEq, Eq)]
+enum Shown {
+    Nothing,
+    /// A key of this id.
+    Key(String),
+    /// A token about this subject.
+    Token(String),
 }
 
 impl Caller {
@@ -28,7 +37,7 @@ impl Caller {
     /// Somebody who may do everything for this tenant.
     #[must_use]
     pub fn of(tenant: Tenant) -> Self {
-        Self { name: tenant.to_string(), tenant, scopes: Scopes::all(), key: None, end: None }
+        Self { name: tenant.to_string(), tenant, scopes: Scopes::all(), shown: Shown::Nothing, end: None }
     }
 
     /// Whoever has this key.
@@ -38,7 +47,7 @@ impl Caller {
             tenant: key.tenant.clone(),
             scopes: key.scopes,
             name: key.id.clone(),
-            key: Some(key.id.clone()),
+            shown: Shown::Key(key.id.clone()),
             end: key.expires,
         }
     }
@@ -46,13 +55,13 @@ impl Caller {
     /// Whoever has this token.
     #[must_use]
     pub fn with_token(TokenBearer { tenant, scopes, subject, end }: TokenBearer) -> Self {
-        Self { tenant, scopes, name: format!("sub:{subject}"), key: None, end: Some(end) }
+        Self { tenant, scopes, name: format!("sub:{subject}"), shown: Shown::Token(subject), end: Some(end) }
     }
 
-    /// The same until a time at the latest.
+    /// The same until a time at the latest, where there is one.
     #[must_use]
-    pub fn until(self, end: Timestamp) -> Self {
-        Self { end: Some(self.end.map_or(end, |known| known.min(end))), ..self }
+    pub fn until(self, end: Option<Timestamp>) -> Self {
+        Self { end: self.end.into_iter().chain(end).min(), ..self }
     }
 
     /// The tenant.
@@ -76,7 +85,25 @@ impl Caller {
     /// The id of the caller's key.
     #[must_use]
     pub fn key(&self) -> Option<&str> {
-        self.key.as_deref()
+        match &self.shown {
+            Shown::Key(id) => Some(id),
+            Shown::Nothing | Shown::Token(_) => None,
+        }
+    }
+
+    /// A session in place of what the caller signed in with, which ends at the latest when that does; `None` where nothing was
+    /// needed.
+    #[must_use]
+    pub fn session(&self, end: Timestamp) -> Option<Session> {
+        let end = self.end.map_or(end, |own| own.min(end));
+        match &self.shown {
+            Shown::Nothing => None,
+            Shown::Key(id) => Some(Session::OfKey { key: id.clone(), end }),
+            Shown::Token(subject) => {
+                let (tenant, scopes, subject) = (self.tenant.clone(), self.scopes, subject.clone());
+                Some(Session::OfToken(TokenBearer { tenant, scopes, subject, end }))
+            }
+        }
     }
 
     /// Who it is, as the log of changes has it: the id of the key, or `sub:` and the subject of the token.

@@ -39,20 +39,19 @@ impl App {
                 (key.id().to_owned(), Some(key.hash(&keyring.secret)), None)
             }
             Credential::Session(text) => {
-                let session = Session::read(text, &keyring.secret, now());
-                let Session { key, end } = session.ok_or_else(|| refused("the session has ended: sign in again"))?;
-                (key, None, Some(end))
+                let ended = || refused("the session has ended: sign in again");
+                match Session::read(text, &keyring.secret, now()).ok_or_else(ended)? {
+                    Session::OfKey { key, end } => (key, None, Some(end)),
+                    Session::OfToken(bearer) if keyring.tokens.is_some() => return Ok(Caller::with_token(bearer)),
+                    Session::OfToken(_) => return Err(ended()),
+                }
             }
         };
         // Two hashes are compared in constant time.
         let found = self.known_key(keyring, &id).await?.filter(|(_, stored)| hash.is_none_or(|hash| hash == *stored));
         let (record, _) = found.ok_or_else(|| refused("this key is not known here"))?;
         if record.is_valid_at(now()) {
-            let caller = Caller::with_key(&record);
-            return Ok(match end {
-                Some(end) => caller.until(end),
-                None => caller,
-            });
+            return Ok(Caller::with_key(&record).until(end));
         }
         Err(AppError::Unauthorized(match (record.revoked, record.expires) {
             (None, Some(end)) => format!("key {} ended at {end}: ask for a new one", record.id),
@@ -74,12 +73,12 @@ impl App {
         Ok(found.is_some_and(|(key, _)| key.is_valid_at(now()) && key.scopes.has(scope)))
     }
 
-    /// A session for a caller who signed in with a key; `None` for others.
+    /// A session for a caller who signed in; `None` where nobody has to.
     #[must_use]
     pub fn session(&self, caller: &Caller) -> Option<String> {
         let keyring = self.keyring.as_ref()?;
         let end = now().checked_add(SESSION).ok()?;
-        Some(Session { key: caller.key()?.to_owned(), end }.seal(&keyring.secret))
+        Some(caller.session(end)?.seal(&keyring.secret))
     }
 
     async fn known_key(&self, keyring: &Keyring, id: &str) -> Result<Option<(KeyRecord, KeyHash)>, AppError> {

@@ -88,6 +88,22 @@ async fn tokens_of_the_identity_provider_are_taken_and_no_others() {
     with_key(&Sent::new(Method::POST, "/v1/maps"), &good).to(&api).await.problem(403, "missing-scope");
     let log = with_key(&Sent::new(Method::GET, "/v1/audit-log"), &good).to(&api).await.json();
     assert_eq!(log["entries"][0]["caller"], "sub:anna");
+    let sign_in = Sent::new(Method::POST, "/v1/session");
+    // A token counts a minute beyond its end.
+    let soon = token(&provider, &header, &with("exp", json!(now().as_second() - 55)));
+    let mut cookies = Vec::new();
+    for token in [&good, &soon] {
+        let cookie = with_key(&sign_in, token).to(&api).await.header("set-cookie").to_owned();
+        let pair = cookie.split(';').next().expect("name and value").to_owned();
+        assert!(pair.starts_with("stillage_session=sub:"), "{pair}");
+        assert_eq!(maps.clone().with("cookie", &pair).to(&api).await.status, StatusCode::OK);
+        cookies.push(pair);
+    }
+    tokio::time::sleep(Duration::from_millis(5_100)).await;
+    assert_eq!(maps.clone().with("cookie", &cookies[0]).to(&api).await.status, StatusCode::OK);
+    maps.clone().with("cookie", &cookies[1]).to(&api).await.problem(401, "invalid-key");
+    let log = Sent::new(Method::GET, "/v1/audit-log").with("cookie", &cookies[0]).to(&api).await.json();
+    assert_eq!(log["entries"][0]["operation"], "createMap", "with the same scopes as before");
     let unsigned = good.rsplit_once('.').map(|(signed, _)| format!("{signed}.")).expect("a signature");
     for wrong in [
         token(&stranger, &header, &claims),

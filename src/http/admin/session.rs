@@ -1,4 +1,4 @@
-//! Browsers sign in with a key and then have a cookie, which goes with pictures, streams of events and links, too.
+//! Browsers sign in with a key or a token and then have a cookie, which goes with pictures, streams of events and links, too.
 
 use std::sync::Arc;
 
@@ -15,9 +15,9 @@ const COOKIE: &str = "stillage_session";
 
 /// Sign in
 ///
-/// For browsers: answers a key (`Authorization: Bearer`) with a cookie that stands for it for 12 hours, or until the browser is
-/// closed or the key revoked. Scripts cannot read it, and it is not sent from pages of other sites. A service without keys
-/// answers no cookie.
+/// For browsers: answers a key or a token (`Authorization: Bearer`) with a cookie that stands for it for 12 hours, or until the
+/// browser is closed, the key is revoked, or key or token have ended. Scripts cannot read it, and it is not sent from pages of
+/// other sites. A service without keys answers no cookie.
 #[utoipa::path(post, path = "/v1/session", tag = "service", operation_id = "signIn", security(("key" = ["read"]), ()),
     responses((status = 204, description = "Signed in",
         headers(("Set-Cookie" = Option<String>, description = "The session")))))]

@@ -10,10 +10,10 @@ export const everywhereTexts = {
   signInTitle: ["This service needs a key", "Dieser Dienst braucht einen Schlüssel"],
   signIn: ["Sign in", "Anmelden"],
   signOut: ["Sign out", "Abmelden"],
-  key: ["Key", "Schlüssel"],
+  key: ["Key or token", "Schlüssel oder Token"],
   keyMeaning: [
-    "It begins with stillage_ and comes from whoever runs the service. You stay signed in for twelve hours, or until you sign out.",
-    "Er beginnt mit stillage_ und kommt von denen, die den Dienst betreiben. Sie bleiben zwölf Stunden angemeldet, oder bis Sie sich abmelden.",
+    "A key begins with stillage_ and comes from whoever runs the service; a token (JWT) comes from your sign-in elsewhere. You stay signed in for twelve hours, until the token ends, or until you sign out.",
+    "Ein Schlüssel beginnt mit stillage_ und kommt von denen, die den Dienst betreiben; ein Token (JWT) kommt von Ihrer Anmeldung anderswo. Sie bleiben zwölf Stunden angemeldet, bis das Token endet, oder bis Sie sich abmelden.",
   ],
   cancel: ["Cancel", "Abbrechen"],
   keep: ["Keep", "Behalten"],
