@@ -19,8 +19,13 @@ impl From<sqlx::Error> for StoreError {
 impl StoreError {
     fn of(error: sqlx::Error) -> Self {
         match &error {
-            // The server is gone, or starts. SQLite's disk errors come as errors of the database.
-            sqlx::Error::Io(_) | sqlx::Error::PoolTimedOut | sqlx::Error::PoolClosed => Self::Busy,
+            // The server is gone, or starts; a proxy before it closes connections instead of answering. SQLite's disk errors
+            // come as errors of the database.
+            sqlx::Error::Io(_)
+            | sqlx::Error::Protocol(_)
+            | sqlx::Error::Tls(_)
+            | sqlx::Error::PoolTimedOut
+            | sqlx::Error::PoolClosed => Self::Busy,
             sqlx::Error::Database(fault) => match meaning(&**fault) {
                 Meaning::Busy => Self::Busy,
                 Meaning::Full => Self::NoSpace,
