@@ -59,10 +59,11 @@ impl RateLimiter {
         };
         if buckets.len() >= MOST_BUCKETS && !buckets.contains_key(who) {
             buckets.retain(|_, bucket| tokens(bucket) < most);
-            if buckets.len() >= MOST_BUCKETS {
-                let fullest = buckets.iter().max_by(|one, other| tokens(one.1).total_cmp(&tokens(other.1)));
-                let fullest = fullest.map(|(who, _)| who.clone());
-                fullest.map(|who| buckets.remove(&who));
+            let fullest = buckets.iter().max_by(|one, other| tokens(one.1).total_cmp(&tokens(other.1)));
+            if buckets.len() >= MOST_BUCKETS
+                && let Some(fullest) = fullest.map(|(who, _)| who.clone())
+            {
+                buckets.remove(&fullest);
             }
         }
         let before = buckets.get(who).map_or(most, tokens);

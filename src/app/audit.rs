@@ -4,7 +4,7 @@ use uuid::Uuid;
 
 use super::{App, AppError, Caller};
 use crate::records::AuditRecord;
-use crate::store::{now, with_entry};
+use crate::store::now;
 
 impl App {
     /// The entry of a change that somebody asks for and that is not answered yet: by its `operationId`, the path of what it is
@@ -27,11 +27,6 @@ impl App {
             status: AuditRecord::NOT_ANSWERED,
             request,
         })
-    }
-
-    /// Carries out a change: what it writes and its entry are stored together.
-    pub async fn carry_out<T>(&self, entry: &AuditRecord, change: impl Future<Output = T>) -> T {
-        with_entry(entry.clone(), change).await
     }
 
     /// Records how a change was answered. Where that cannot be written, it is in the log of the process: what was changed is

@@ -76,6 +76,7 @@ pub use crate::records::{
     AnalysisRecord, AnalysisTicket, CorrectionId, JobFilter, JobRecord, JobState, MapPatch, MapRecord, NewMap,
     RuleSetRecord, SemanticsOrigin, SemanticsRecord, StageReport,
 };
+pub use crate::store::with_entry;
 pub use caller::Caller;
 pub use comparisons::{LocationComparison, MapComparison, PairAlignment, ReadingComparison};
 pub use corrections::check_corrections;

@@ -14,7 +14,7 @@ use utoipa::openapi::path::Operation;
 use super::observe::RequestId;
 use super::sign_in::NotSignedIn;
 use crate::access::Scope;
-use crate::app::{App, Caller};
+use crate::app::{App, Caller, with_entry};
 use crate::http::dashboard;
 use crate::http::docs::openapi::operations;
 use crate::http::docs::security;
@@ -105,9 +105,10 @@ impl PendingChange {
         Self { app: Arc::clone(app), entry }
     }
 
+    /// What it writes and its entry are stored together.
     async fn carry_out(&self, change: impl Future<Output = Response>) -> Response {
         match &self.entry {
-            Some(entry) => self.app.carry_out(entry, change).await,
+            Some(entry) => with_entry(entry.clone(), change).await,
             None => change.await,
         }
     }

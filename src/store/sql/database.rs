@@ -52,7 +52,7 @@ impl Database {
         }
     }
 
-    /// Begins a transaction that may write.
+    /// Begins a transaction that may write; changes begin by [`Self::write`].
     pub async fn begin(&self) -> Result<Transaction, StoreError> {
         Ok(match self {
             Self::Sqlite(engine) => Transaction::Sqlite { transaction: engine.write().await?, gate: None },
