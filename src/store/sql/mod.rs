@@ -10,6 +10,8 @@
 //! | `locks` | SQLite's writers come one after another; PostgreSQL's wait for those that write the same |
 //! | `blob_rows` | a blob is written before its row, and removed when no row names it |
 //!
+//! Every write begins by `Database::write`, which adds the entry of its change to the log of changes (`audit`).
+//!
 //! `copying` moves all rows to another database. The other files have the rows of what they are named for.
 
 mod analyses;
