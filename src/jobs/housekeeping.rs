@@ -50,8 +50,6 @@ pub async fn measure_old_blobs(store: Arc<dyn Store>) {
     match store.measure_unmeasured_blobs().await {
         Ok(0) => {}
         Ok(measured) => tracing::info!(measured, "uploads and results of an earlier release count to quotas now"),
-        Err(error) => {
-            tracing::warn!(%error, "some uploads and results of an earlier release do not count to quotas yet")
-        }
+        Err(error) => tracing::warn!(%error, "what an earlier release stored does not all count to quotas yet"),
     }
 }
