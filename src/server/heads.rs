@@ -10,7 +10,7 @@ const LINE_BYTES: usize = 128;
 
 /// Follows the bytes of a connection.
 #[derive(Debug, Default)]
-pub(super) struct HeadWatch {
+pub struct HeadWatch {
     place: StreamPosition,
     /// The beginning of the line that is being read.
     line: Vec<u8>,
@@ -49,7 +49,7 @@ enum Framing {
 
 impl HeadWatch {
     /// Looks at the bytes that come next. O(bytes), of bodies O(1).
-    pub(super) fn pass(&mut self, mut bytes: &mut [u8]) {
+    pub fn pass(&mut self, mut bytes: &mut [u8]) {
         while !bytes.is_empty() && self.place != StreamPosition::Lost {
             let taken = match self.place {
                 StreamPosition::Body(left) | StreamPosition::Chunk(left) => {

@@ -54,6 +54,7 @@ use crate::measures::{HTTP_CONNECTIONS, HTTP_SHED, Present};
 use crate::pace::PaceLimits;
 
 use body::AwaitedBody;
+pub use heads::HeadWatch;
 pub use places::ConnectionLimits;
 use places::{ConnectionPlace, ConnectionPlaces};
 use refusal::Refusals;

@@ -5,6 +5,8 @@
 
 mod backup;
 mod framing;
+mod image_files;
+mod images;
 mod logs;
 mod metrics;
 mod server;

@@ -15,6 +15,9 @@ const PATIENCE: Duration = Duration::from_secs(30);
 /// Longest wait for jobs, on a busy machine and by a debug build.
 const IDLE_PATIENCE: Duration = Duration::from_mins(3);
 
+/// Name of the log of a server that is watched.
+const LOG: &str = "log";
+
 /// A running server on a folder of its own. Killed when dropped.
 pub struct Server {
     process: Child,
@@ -47,6 +50,22 @@ impl Server {
         BufReader::new(output).read_line(&mut line).expect("its output is text");
         let address = line.trim().strip_prefix("listening on http://").expect("it listens").parse();
         Self { process, address: address.expect("is an address"), folder: None }
+    }
+
+    /// The same on a folder of its own, with a log of errors to be read.
+    pub fn start_watched(arguments: &[&str]) -> Self {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let log = std::fs::File::create(folder.path().join(LOG)).expect("can be made");
+        let arguments = [&["--log", "error"], arguments].concat();
+        let mut server = Self::start_with(&folder.path().join("data"), &arguments, log.into());
+        server.folder = Some(folder);
+        server
+    }
+
+    /// Its errors and panics so far, where it was started to be watched.
+    pub fn logged(&self) -> String {
+        let folder = self.folder.as_ref().expect("it has one of its own");
+        std::fs::read_to_string(folder.path().join(LOG)).expect("is text")
     }
 
     /// A connection on which something was sent.
@@ -103,8 +122,22 @@ impl Server {
 
     /// Memory of the process, bytes.
     pub fn memory(&self) -> u64 {
+        self.bytes_of("VmRSS:")
+    }
+
+    /// The most memory that the process had since it began, or since [`Self::forget_peak`], bytes.
+    pub fn peak(&self) -> u64 {
+        self.bytes_of("VmHWM:")
+    }
+
+    pub fn forget_peak(&self) {
+        std::fs::write(format!("/proc/{}/clear_refs", self.process.id()), "5").expect("it is ours");
+    }
+
+    /// What Linux tells of the memory of the process.
+    fn bytes_of(&self, name: &str) -> u64 {
         let status = std::fs::read_to_string(format!("/proc/{}/status", self.process.id())).expect("it runs");
-        let line = status.lines().find_map(|line| line.strip_prefix("VmRSS:")).expect("Linux tells it");
+        let line = status.lines().find_map(|line| line.strip_prefix(name)).expect("Linux tells it");
         let kibibytes: u64 = line.trim().trim_end_matches(" kB").parse().expect("a number");
         kibibytes << 10
     }
@@ -193,4 +226,10 @@ pub fn hall(index: u64) -> String {
 pub fn status(answer: &str) -> u16 {
     let status = answer.strip_prefix("HTTP/1.1 ").and_then(|rest| rest.get(..3)?.parse().ok());
     status.unwrap_or_else(|| panic!("no answer: {answer:?}"))
+}
+
+/// The statuses of all answers on a connection.
+pub fn statuses(answers: &str) -> Vec<u16> {
+    let behind = answers.split("HTTP/1.1 ").skip(1);
+    behind.map(|answer| answer.get(..3).and_then(|status| status.parse().ok()).expect("a status")).collect()
 }
