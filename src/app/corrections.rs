@@ -16,6 +16,7 @@ use super::carrying::{DecisionGround, carried_overrides};
 use super::error::FieldProblem;
 use super::geometric_level::{AppliedCorrections, GeometricLevel};
 use super::{App, AppError, Caller, CorrectionId, MapContext, SemanticsChange, SemanticsRecord, WantedCorrection};
+use crate::excerpt::excerpt;
 use crate::records::LostDecision;
 
 /// Problems that are told at most.
@@ -181,10 +182,8 @@ pub(super) fn check_labels(corrections: &AppliedCorrections, rule_set: &RuleSet)
 
 fn check_label(correction: &Correction, rule_set: &RuleSet) -> Result<(), CorrectionProblem> {
     let Some(label) = correction.label().filter(|label| rule_set.find(label).is_none()) else { return Ok(()) };
-    /// Characters of a wrong label that are repeated.
-    const TOLD: usize = 40;
     let known: Vec<&str> = rule_set.labels().iter().map(|label| label.id.as_str()).collect();
-    let label: String = label.chars().take(TOLD).collect();
+    let label = excerpt(label);
     let message = format!("the rule set has no label {label:?}: it has {}", known.join(", "));
     Err(CorrectionProblem { pointer: "/label".to_owned(), message })
 }

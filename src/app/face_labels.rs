@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use super::context::read_rule_set;
 use super::{App, AppError, Caller, MapContext, SemanticsChange};
+use crate::excerpt::excerpt;
 
 impl App {
     /// Gives a face a label of its own, or takes it away (`None`): a new version of the labels, as long as the map has those
@@ -20,8 +21,8 @@ impl App {
         if let Some(label) = label.as_ref().filter(|label| rule_set.find(label).is_none()) {
             let known: Vec<&str> = rule_set.labels().iter().map(|label| label.id.as_str()).collect();
             let of = &seen.semantics.rule_set;
-            let short: String = label.chars().take(40).collect();
-            let detail = format!("the rule set {of} has no label {short:?}: it has {}", known.join(", "));
+            let label = excerpt(label);
+            let detail = format!("the rule set {of} has no label {label:?}: it has {}", known.join(", "));
             return Err(AppError::invalid("/label", detail));
         }
         if seen.semantics.assignment.overrides.get(&face) == label.as_ref() {

@@ -2,7 +2,7 @@
 
 use geo::{CoordsIter as _, MapCoords as _};
 
-use super::error::{FilterError, excerpt};
+use super::error::FilterError;
 use super::evaluation::condition::{Condition, Operand};
 use super::evaluation::folding::Folding;
 use super::evaluation::pattern::LikePattern;
@@ -13,6 +13,7 @@ use super::limits::{MAX_POSITIONS, MAX_SPATIAL};
 use super::operator::Operator;
 use super::value::{FilterValue, Queryable, ValueType};
 use crate::did_you_mean::did_you_mean;
+use crate::excerpt::excerpt;
 
 /// The coordinates of the shapes of a filter.
 #[derive(Clone, Copy)]

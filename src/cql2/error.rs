@@ -20,9 +20,6 @@ enum FaultPlace {
     Pointer(String),
 }
 
-/// Most characters of a filter that an error repeats.
-const EXCERPT: usize = 24;
-
 impl FilterError {
     /// The detail names the culprit itself.
     pub(super) fn new(detail: impl Into<String>) -> Self {
@@ -47,13 +44,5 @@ impl fmt::Display for FilterError {
             FaultPlace::Pointer(pointer) if !pointer.is_empty() => write!(formatter, "{pointer}: {}", self.detail),
             FaultPlace::Pointer(_) | FaultPlace::Named => formatter.write_str(&self.detail),
         }
-    }
-}
-
-/// The beginning of a text, short enough to be repeated in an error.
-pub(super) fn excerpt(text: &str) -> String {
-    match text.char_indices().nth(EXCERPT) {
-        Some((end, _)) => format!("{}...", &text[..end]),
-        None => text.to_owned(),
     }
 }

@@ -10,6 +10,7 @@ use stillage_core::{GridFrame, Point};
 use super::IngestError;
 use super::document::{self, Fields, Node};
 use super::verdict::{Mode, Thresholds};
+use crate::excerpt::excerpt;
 
 /// Where the metadata lies in an upload.
 const POINTER: &str = "/metadata";
@@ -49,7 +50,8 @@ pub(super) fn parse(bytes: &[u8], warnings: &mut Vec<Diagnostic>) -> Result<Meta
     let negate = negate(&fields)?;
     let mode = mode(&fields)?;
     for key in fields.keys().filter(|key| !KNOWN_KEYS.contains(key)) {
-        warnings.push(Diagnostic::new("unknown-key", format!("the metadata key `{key}` is not known and was ignored")));
+        let message = format!("the metadata key `{}` is not known and was ignored", excerpt(key));
+        warnings.push(Diagnostic::new("unknown-key", message));
     }
     Ok(Metadata { frame: GridFrame { resolution, origin, yaw }, mode, negate, thresholds })
 }
@@ -77,7 +79,10 @@ fn warn_of_image_path(path: &str, warnings: &mut Vec<Diagnostic>) {
         || path.contains(":\\")
         || path.split(['/', '\\']).any(|component| component == "..");
     if elsewhere {
-        let message = format!("`image` names a file elsewhere (\"{path}\"): the image of this upload was used instead");
+        let message = format!(
+            "`image` names a file elsewhere (\"{}\"): the image of this upload was used instead",
+            excerpt(path)
+        );
         warnings.push(Diagnostic::new("image-path", message));
     }
 }

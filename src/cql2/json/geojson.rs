@@ -3,8 +3,9 @@
 use geo::{Coord, Geometry, GeometryCollection};
 use serde_json::{Map, Value};
 
-use crate::cql2::error::{FilterError, excerpt};
+use crate::cql2::error::FilterError;
 use crate::cql2::shape::{self, Positions, ShapeType};
+use crate::excerpt::excerpt;
 
 /// Reads a geometry.
 ///

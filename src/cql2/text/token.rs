@@ -2,7 +2,8 @@
 
 use std::fmt;
 
-use crate::cql2::error::{FilterError, excerpt};
+use crate::cql2::error::FilterError;
+use crate::excerpt::excerpt;
 
 /// A word with its place.
 #[derive(Debug, Clone, PartialEq)]

@@ -5,6 +5,7 @@ use stillage_core::analysis::Diagnostic;
 use super::node::Node;
 use super::numpy;
 use super::odd_numbers::notation;
+use crate::excerpt::excerpt;
 use crate::ingest::IngestError;
 
 /// The entries of a mapping, with their pointer.
@@ -23,7 +24,8 @@ impl<'a> Fields<'a> {
         let fields = Self { pointer, entries };
         for (index, (key, _)) in entries.iter().enumerate() {
             if entries[..index].iter().any(|(earlier, _)| earlier == key) {
-                return Err(fields.wrong(key, format!("`{key}` is given twice: keep one of them")));
+                let message = format!("`{}` is given twice: keep one of them", excerpt(key));
+                return Err(fields.wrong(&excerpt(key), message));
             }
         }
         Ok(fields)
@@ -87,7 +89,7 @@ pub(in crate::ingest) fn number(
         Node::Text(text) => match text.trim().parse::<f64>() {
             Ok(value) if value.is_finite() => {
                 let message =
-                    format!("{name} is a text, \"{text}\": it was read as the number {value}; remove the quotes");
+                    format!("{name} is a text, {}: it was read as the number {value}; remove the quotes", node.brief());
                 warnings.push(Diagnostic::new("quoted-number", message));
                 Ok(value)
             }

@@ -4,8 +4,7 @@ use std::fmt;
 
 use serde::de::{Deserialize, Deserializer, MapAccess, SeqAccess, Visitor};
 
-/// Characters of a text that a complaint repeats.
-const BRIEF: usize = 40;
+use crate::excerpt::excerpt;
 
 /// A value of a document.
 #[derive(Debug, Clone, PartialEq)]
@@ -36,10 +35,7 @@ impl Node {
     pub(in crate::ingest) fn brief(&self) -> String {
         match self {
             Self::Number(value) => value.to_string(),
-            Self::Text(text) if text.chars().count() > BRIEF => {
-                format!("\"{}...\"", text.chars().take(BRIEF).collect::<String>())
-            }
-            Self::Text(text) => format!("\"{text}\""),
+            Self::Text(text) => format!("\"{}\"", excerpt(text)),
             other => other.kind().to_owned(),
         }
     }
