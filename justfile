@@ -32,6 +32,10 @@ web-test:
     cargo build --release
     web/tests/run
 
+# Look for bytes that make a reader fail, each target for so many seconds (nightly toolchain, cargo-fuzz).
+fuzz SECONDS="180":
+    fuzz/run {{SECONDS}}
+
 # Every stage on a part of a site, then the paper's size beside the exact march.
 bench:
     cargo bench

@@ -23,7 +23,6 @@ pub mod records;
 mod blocking;
 pub mod cql2;
 mod did_you_mean;
-mod excerpt;
 mod fail_point;
 mod pace;
 

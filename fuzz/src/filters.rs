@@ -4,8 +4,8 @@ use std::borrow::Cow;
 
 use geo::{BoundingRect as _, Geometry, Point, Rect};
 use stillage::cql2::{
-    Expression, Filter, FilterCoordinates, FilterError, FilterValue, Filterable, Located, Queryable, ValueType, read_json,
-    read_text,
+    Expression, Filter, FilterCoordinates, FilterError, FilterValue, Filterable, Located, Queryable, ValueType,
+    read_json, read_text,
 };
 
 use super::check_refusal;

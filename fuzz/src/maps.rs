@@ -9,7 +9,8 @@ use super::check_refusal;
 const LIMITS: Limits = Limits { max_bytes: 1 << 20, max_cells: 1 << 20, max_side: 4_096 };
 /// Longest pointer to what is wrong, bytes.
 const LONGEST_POINTER: usize = 100;
-const METADATA: &[u8] = b"image: map.png\nresolution: 0.05\norigin: [0, 0, 0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n";
+const METADATA: &[u8] =
+    b"image: map.png\nresolution: 0.05\norigin: [0, 0, 0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n";
 /// Three pixels: occupied, unknown, free.
 const IMAGE: &[u8] = b"P5\n3 1\n255\n\x00\xcd\xfe";
 

@@ -34,7 +34,10 @@ static KEYS: LazyLock<TokenKeySet> = LazyLock::new(|| {
 /// A token of an identity provider, whose key nobody here has: none opens anything.
 pub fn token(bytes: &[u8]) {
     let Ok(text) = std::str::from_utf8(bytes) else { return };
-    let rules =
-        TokenRules { issuer: "https://login.example".into(), audience: "stillage".into(), tenant_claim: "tenant".into() };
+    let rules = TokenRules {
+        issuer: "https://login.example".into(),
+        audience: "stillage".into(),
+        tenant_claim: "tenant".into(),
+    };
     check_refusal(&verify_token(text, &KEYS, &rules, Timestamp::UNIX_EPOCH).expect_err("nobody signed it"));
 }

@@ -9,6 +9,7 @@ use std::sync::Arc;
 
 use stillage_core::arrangement::FaceId;
 use stillage_core::corrections::{Correction, CorrectionProblem, Outcome};
+use stillage_core::excerpt;
 use stillage_core::semantics::RuleSet;
 use uuid::Uuid;
 
@@ -16,7 +17,6 @@ use super::carrying::{DecisionGround, carried_overrides};
 use super::error::FieldProblem;
 use super::geometric_level::{AppliedCorrections, GeometricLevel};
 use super::{App, AppError, Caller, CorrectionId, MapContext, SemanticsChange, SemanticsRecord, WantedCorrection};
-use crate::excerpt::excerpt;
 use crate::records::LostDecision;
 
 /// Problems that are told at most.

@@ -3,9 +3,10 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use stillage_core::excerpt;
+
 use super::context::read_rule_set;
 use super::{App, AppError, Caller, MapContext, SemanticsChange};
-use crate::excerpt::excerpt;
 
 impl App {
     /// Gives a face a label of its own, or takes it away (`None`): a new version of the labels, as long as the map has those

@@ -2,6 +2,8 @@
 
 use geo::{CoordsIter as _, MapCoords as _};
 
+use stillage_core::excerpt;
+
 use super::error::FilterError;
 use super::evaluation::condition::{Condition, Operand};
 use super::evaluation::folding::Folding;
@@ -13,7 +15,6 @@ use super::limits::{MAX_POSITIONS, MAX_SPATIAL};
 use super::operator::Operator;
 use super::value::{FilterValue, Queryable, ValueType};
 use crate::did_you_mean::did_you_mean;
-use crate::excerpt::excerpt;
 
 /// The coordinates of the shapes of a filter.
 #[derive(Clone, Copy)]

@@ -5,12 +5,12 @@
 //! (thresholds out of order, NaN), and keys that mean nothing are pointed out.
 
 use stillage_core::analysis::Diagnostic;
+use stillage_core::excerpt;
 use stillage_core::{GridFrame, Point};
 
 use super::IngestError;
 use super::document::{self, Fields, Node};
 use super::verdict::{Mode, Thresholds};
-use crate::excerpt::excerpt;
 
 /// Where the metadata lies in an upload.
 const POINTER: &str = "/metadata";

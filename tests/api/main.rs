@@ -22,6 +22,7 @@ mod feature_writes;
 mod features;
 mod filters;
 mod graph_report;
+mod injection;
 mod jobs;
 mod key_client;
 mod keys;

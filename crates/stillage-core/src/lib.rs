@@ -42,6 +42,7 @@ pub mod vectors;
 mod components;
 mod digital_lines;
 mod distance_transform;
+mod excerpt;
 mod fourier;
 mod morphology;
 mod runs;
@@ -122,6 +123,7 @@ pub mod whereabouts;
 mod test_maps;
 
 pub use analysis::{Analysis, analyze};
+pub use excerpt::excerpt;
 pub use geometry::{Point, Vector};
 pub use grid::{GridFrame, Occupancy, OccupancyGrid};
 pub use site_map::{SiteCells, SiteMap};

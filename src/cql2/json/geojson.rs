@@ -3,9 +3,10 @@
 use geo::{Coord, Geometry, GeometryCollection};
 use serde_json::{Map, Value};
 
+use stillage_core::excerpt;
+
 use crate::cql2::error::FilterError;
 use crate::cql2::shape::{self, Positions, ShapeType};
-use crate::excerpt::excerpt;
 
 /// Reads a geometry.
 ///

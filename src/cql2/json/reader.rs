@@ -2,6 +2,8 @@
 
 use serde_json::{Map, Value};
 
+use stillage_core::excerpt;
+
 use super::geojson;
 use crate::cql2::error::FilterError;
 use crate::cql2::expression::Expression;
@@ -9,7 +11,6 @@ use crate::cql2::instant::{Instant, IntervalEnd};
 use crate::cql2::limits::{MAX_DEPTH, check_length};
 use crate::cql2::operator::Operator;
 use crate::cql2::shape;
-use crate::excerpt::excerpt;
 
 /// Reads a filter in `cql2-json`. O(length).
 ///

@@ -1,11 +1,12 @@
 //! Days, moments and intervals in `cql2-text`.
 
+use stillage_core::excerpt;
+
 use super::cursor::Cursor;
 use super::token::Word;
 use crate::cql2::error::FilterError;
 use crate::cql2::expression::Expression;
 use crate::cql2::instant::{Instant, IntervalEnd};
-use crate::excerpt::excerpt;
 
 /// `DATE('2026-01-31')` or `TIMESTAMP('2026-01-31T12:30:00Z')`, at its name.
 ///

@@ -2,8 +2,9 @@
 
 use std::fmt;
 
+use stillage_core::excerpt;
+
 use crate::cql2::error::FilterError;
-use crate::excerpt::excerpt;
 
 /// A word with its place.
 #[derive(Debug, Clone, PartialEq)]

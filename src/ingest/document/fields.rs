@@ -1,11 +1,11 @@
 //! Members of a document, read with a complaint about whatever is wrong.
 
 use stillage_core::analysis::Diagnostic;
+use stillage_core::excerpt;
 
 use super::node::Node;
 use super::numpy;
 use super::odd_numbers::notation;
-use crate::excerpt::excerpt;
 use crate::ingest::IngestError;
 
 /// The entries of a mapping, with their pointer.

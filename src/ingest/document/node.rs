@@ -4,7 +4,7 @@ use std::fmt;
 
 use serde::de::{Deserialize, Deserializer, MapAccess, SeqAccess, Visitor};
 
-use crate::excerpt::excerpt;
+use stillage_core::excerpt;
 
 /// A value of a document.
 #[derive(Debug, Clone, PartialEq)]

@@ -4,10 +4,10 @@
 
 use serde_json::Value;
 use stillage_core::Point;
+use stillage_core::excerpt;
 use stillage_core::geometry::ring_area;
 
 use super::row::{NameRow, NameTarget, NamedCollection, gather};
-use crate::excerpt::excerpt;
 use crate::ingest::IngestError;
 use crate::ingest::geojson::{Coordinates, area, features};
 

@@ -5,9 +5,9 @@
 //! this service writes may stay in it. Empty cells say nothing. Rows count as spreadsheets count them: the header is row 1.
 
 use stillage_core::Point;
+use stillage_core::excerpt;
 
 use super::row::{NameRow, NameTarget, gather};
-use crate::excerpt::excerpt;
 use crate::ingest::IngestError;
 use crate::ingest::geojson::Coordinates;
 

@@ -14,6 +14,7 @@ use super::semantic_map::{Place, SemanticMap};
 use crate::analysis::Analysis;
 use crate::annotation::{EdgeAnnotation, FaceAnnotation};
 use crate::arrangement::FaceId;
+use crate::excerpt::excerpt;
 use crate::geometry::DisjointSets;
 
 /// Share of the length of an edge above which the cells along it count for the whole edge: the majority, as in the
@@ -152,7 +153,7 @@ fn look_up(rule_set: &RuleSet, id: &str, pointer: &str, problems: &mut Vec<Assig
     let found = rule_set.find(id);
     if found.is_none() {
         let known: Vec<&str> = rule_set.labels().iter().map(|label| label.id.as_str()).collect();
-        let message = format!("no label has the id {id:?}; there are {}", known.join(", "));
+        let message = format!("no label has the id {:?}; there are {}", excerpt(id), known.join(", "));
         problems.push(AssignmentProblem { pointer: pointer.to_owned(), message });
     }
     found

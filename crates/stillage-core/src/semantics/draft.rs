@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::cogency::CogencyRule;
 use super::label::{Label, LabelId};
+use crate::excerpt::excerpt;
 
 /// Most labels of a rule set: a legend cannot show more, and the table of cogency stays small.
 const MAX_LABELS: usize = 32;
@@ -86,16 +87,22 @@ fn check_label(labels: &[Label], index: usize, problems: &mut Problems) {
     let at = |field: &str| format!("/labels/{index}/{field}");
     let is_id_character = |character: char| matches!(character, 'a'..='z' | '0'..='9' | '-');
     let well_formed = (1..=MAX_ID).contains(&label.id.len()) && label.id.chars().all(is_id_character);
-    problems
-        .unless(well_formed, &at("id"), || format!("{:?} is not 1 to {MAX_ID} characters of a-z, 0-9 and -", label.id));
+    problems.unless(well_formed, &at("id"), || {
+        format!("{:?} is not 1 to {MAX_ID} characters of a-z, 0-9 and -", excerpt(&label.id))
+    });
     let namesake = labels[..index].iter().position(|earlier| earlier.id == label.id);
-    problems.unless(namesake.is_none(), &at("id"), || format!("{:?} is the id of an earlier label", label.id));
+    problems
+        .unless(namesake.is_none(), &at("id"), || format!("{:?} is the id of an earlier label", excerpt(&label.id)));
     let named = !label.name.trim().is_empty() && label.name.chars().count() <= MAX_NAME;
     problems.unless(named, &at("name"), || format!("a name has 1 to {MAX_NAME} characters"));
-    problems.unless(is_color(&label.color), &at("color"), || format!("{:?} is not a colour like #56b4e9", label.color));
+    problems.unless(is_color(&label.color), &at("color"), || {
+        format!("{:?} is not a colour like #56b4e9", excerpt(&label.color))
+    });
     for (position, other) in label.connects_to.iter().enumerate() {
         let known = labels.iter().any(|label| label.id == *other);
-        problems.unless(known, &at(&format!("connectsTo/{position}")), || format!("no label has the id {other:?}"));
+        problems.unless(known, &at(&format!("connectsTo/{position}")), || {
+            format!("no label has the id {:?}", excerpt(other))
+        });
     }
 }
 
@@ -107,7 +114,7 @@ fn check_rules(draft: &RuleSetDraft, problems: &mut Problems) {
         for (position, id) in rule.when.iter().enumerate() {
             let known = id == CogencyRule::ANY || draft.knows(id);
             problems.unless(known, &format!("/cogency/{index}/when/{position}"), || {
-                format!("no label has the id {id:?}; * stands for any")
+                format!("no label has the id {:?}; * stands for any", excerpt(id))
             });
         }
     }
@@ -152,6 +159,7 @@ mod tests {
                 draft.labels[1].id = "pc".into();
                 draft.labels[1].name = " ".into();
                 draft.labels[2].color = "green".into();
+                draft.labels[3].color = "green".repeat(1_000);
                 draft.labels[3].connects_to = vec!["pc".into(), "shelf".into()];
                 draft.cogency = Some(vec![CogencyRule { when: ["*".into(), "bin".into()], then: Cogency::Cogent }]);
             },
@@ -165,6 +173,7 @@ mod tests {
                 /labels/2/id: "pc" is the id of an earlier label
                 /labels/2/color: "green" is not a colour like #56b4e9
                 /labels/2/connectsTo/0: no label has the id "co"
+                /labels/3/color: "greengreengreengreengreengreengreengreen..." is not a colour like #56b4e9
                 /labels/3/connectsTo/1: no label has the id "shelf"
                 /cogency/0/when/1: no label has the id "bin"; * stands for any"#]],
         );

@@ -4,6 +4,7 @@
 const LONGEST: usize = 40;
 
 /// The beginning of a text, short enough to be repeated.
+#[must_use]
 pub fn excerpt(text: &str) -> String {
     match text.char_indices().nth(LONGEST) {
         Some((end, _)) => format!("{}...", &text[..end]),
