@@ -26,6 +26,8 @@ pub fn rule_set(bytes: &[u8]) {
 pub fn options(bytes: &[u8]) {
     let Ok(RequestedOptions(options)) = serde_json::from_slice(bytes) else { return };
     if let Err(problems) = options.check() {
-        problems.iter().for_each(|problem| check_refusal(&problem.message));
+        for problem in problems {
+            check_refusal(&problem.message);
+        }
     }
 }

@@ -75,7 +75,9 @@ fn select(expression: Result<Expression, FilterError>) {
     ];
     match bound {
         Ok((filter, opposite)) => {
-            places.iter().for_each(|place| assert!(!(filter.selects(place) && opposite.selects(place))));
+            for place in &places {
+                assert!(!(filter.selects(place) && opposite.selects(place)));
+            }
         }
         Err(error) => check_refusal(&error),
     }

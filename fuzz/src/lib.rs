@@ -18,8 +18,11 @@ pub use maps::{map_image, map_message, map_metadata};
 pub use protocol::{heads, token};
 pub use service::request;
 
+/// Reads bytes.
+type Reader = fn(&[u8]);
+
 /// The functions by their names, which are those of their folders in `corpus`.
-pub const TARGETS: [(&str, fn(&[u8])); 13] = [
+pub const TARGETS: [(&str, Reader); 13] = [
     ("corrections", corrections),
     ("filter_json", filter_json),
     ("filter_text", filter_text),

@@ -16,21 +16,21 @@ const IMAGE: &[u8] = b"P5\n3 1\n255\n\x00\xcd\xfe";
 
 /// The picture of a map.
 pub fn map_image(bytes: &[u8]) {
-    check(read(MapSource::Image { image: bytes.to_vec(), metadata: METADATA.to_vec() }));
+    check(read(&MapSource::Image { image: bytes.to_vec(), metadata: METADATA.to_vec() }));
 }
 
 /// The metadata beside a picture.
 pub fn map_metadata(bytes: &[u8]) {
-    check(read(MapSource::Image { image: IMAGE.to_vec(), metadata: bytes.to_vec() }));
+    check(read(&MapSource::Image { image: IMAGE.to_vec(), metadata: bytes.to_vec() }));
 }
 
 /// An `OccupancyGrid` message, as JSON or as YAML.
 pub fn map_message(bytes: &[u8]) {
-    check(read(MapSource::Message(bytes.to_vec())));
+    check(read(&MapSource::Message(bytes.to_vec())));
 }
 
-fn read(source: MapSource) -> Result<DecodedMap, IngestError> {
-    decode(&source, &GridOptions::default(), &LIMITS)
+fn read(source: &MapSource) -> Result<DecodedMap, IngestError> {
+    decode(source, &GridOptions::default(), &LIMITS)
 }
 
 fn check(answer: Result<DecodedMap, IngestError>) {

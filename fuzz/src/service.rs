@@ -63,7 +63,7 @@ impl Service {
         assert_eq!(status, 202, "{answer}");
         app.run_until_empty().await.expect("the queue can be worked on");
         let job: serde_json::Value = serde_json::from_str(&answer).expect("is JSON");
-        service.map = job["mapId"].as_str().expect("an id").to_owned();
+        service.map += job["mapId"].as_str().expect("an id");
         service
     }
 
