@@ -33,8 +33,9 @@ pub fn pgm(behind: &[u8]) -> Vec<u8> {
 pub fn zeros(mebibytes: usize) -> Vec<u8> {
     let mut block = Vec::with_capacity(64 << 10);
     let mut compress = Compress::new(Compression::best(), false);
-    compress.compress_vec(&[0; 1 << 20], &mut block, FlushCompress::Full).expect("there is room");
-    let sum = (((mebibytes << 20) % 65_521) as u32) << 16 | 1;
+    compress.compress_vec(&vec![0; 1 << 20], &mut block, FlushCompress::Full).expect("there is room");
+    // Adler-32 of zeros: their number, and 1.
+    let sum = ((((mebibytes << 20) % 65_521) as u32) << 16) | 1;
     [&[0x78, 0x9c], block.repeat(mebibytes).as_slice(), &[0x03, 0x00], &sum.to_be_bytes()].concat()
 }
 
