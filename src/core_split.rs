@@ -49,7 +49,9 @@ impl JobCores {
         };
         let set = |cores: &[usize]| {
             let mut set = CpuSet::new();
-            cores.iter().for_each(|&core| set.set(core));
+            for &core in cores {
+                set.set(core);
+            }
             set
         };
         let (of_requests, of_jobs) = cores.split_at(requests);
