@@ -107,6 +107,40 @@ fn a_process_that_wakes_after_its_job_was_done_changes_nothing() {
     assert_eq!(audit::interrupted(&deployment), 1, "the heir began it again");
 }
 
+/// Waits until a job is in another stage than `last`: in which.
+fn another_stage(server: &Server, job: &str, last: Option<&str>) -> String {
+    let begun = Instant::now();
+    loop {
+        let job = server.get(job);
+        match job["stage"].as_str() {
+            Some(stage) if Some(stage) != last => return stage.to_owned(),
+            _ => assert!(begun.elapsed() < PATIENCE, "no other stage than {last:?}: {job}"),
+        }
+    }
+}
+
+#[test]
+fn a_machine_that_dies_with_all_its_processes_is_no_fault_of_its_jobs() {
+    let Some(deployment) = Deployment::shared() else { return };
+    // The second death would fail the job, if it counted.
+    let start = || Server::start(&deployment, None, &["--max-attempts", "2"]).expect("it starts");
+    let mut ledger = Ledger::default();
+    let mut processes = [start(), start()];
+    let job = processes[0].upload(&hall_message(1_000, 600), "hall").expect("accepted");
+    ledger.accepted("hall", &job);
+    let job = &job[job.find("/v1/").expect("a path")..];
+    let mut stages: Vec<String> = Vec::new();
+    for _ in 0..3 {
+        stages.push(another_stage(&processes[0], job, stages.last().map(String::as_str)));
+        processes.iter_mut().for_each(Server::kill);
+        processes = [start(), start()];
+    }
+    processes[0].wait_until_idle(PATIENCE);
+    processes.into_iter().for_each(Server::stop);
+    ledger.check_exactly(&deployment);
+    println!("the machine died in the stages {stages:?}");
+}
+
 /// Every claim of a job has the same token, its end does not end it, and it may have two results.
 const TAKE_THE_FENCE_AWAY: &[&str] = &[
     "CREATE FUNCTION forget() RETURNS trigger LANGUAGE plpgsql AS $$ BEGIN \
