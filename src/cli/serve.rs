@@ -51,8 +51,8 @@ pub(super) struct ServeArgs {
     pub(super) compute_threads: Option<usize>,
     /// Cores that requests have for themselves while jobs have all others: answers come as fast as without jobs, and jobs take
     /// as much longer as they have fewer cores. All do without.
-    #[arg(long, env = "STILLAGE_REQUEST_CORES", value_name = "N")]
-    pub(super) request_cores: Option<NonZero<usize>>,
+    #[arg(long, env = "STILLAGE_REQUEST_CORES", value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    pub(super) request_cores: Option<u16>,
     /// Jobs that may wait; further uploads are answered 503.
     #[arg(long, env = "STILLAGE_MAX_QUEUED_JOBS", default_value_t = 1_000, value_name = "N")]
     pub(super) max_queued_jobs: u64,
@@ -239,7 +239,8 @@ pub(super) fn run(args: &ServeArgs) -> Result<(), ServeError> {
     }
     let _logging = args.logging.start()?;
     // Before the threads of the runtime, which stay on the cores of this one.
-    let job_cores = args.request_cores.map(JobCores::beside_requests).transpose()?;
+    let request_cores = args.request_cores.map(usize::from).and_then(NonZero::new);
+    let job_cores = request_cores.map(JobCores::beside_requests).transpose()?;
     tokio::runtime::Builder::new_multi_thread().enable_all().build()?.block_on(serve(args, job_cores))
 }
 
