@@ -22,7 +22,7 @@ use crate::surroundings::{self, PaintedGround};
 use crate::watch::{Stage, Stopped, Watch};
 
 /// Version of the algorithms: part of the address of a stored analysis, raised whenever results change.
-pub const ALGORITHM_VERSION: u32 = 12;
+pub const ALGORITHM_VERSION: u32 = 13;
 
 /// What the geometric level finds in a map. Immutable; addressed by grid, options and [`ALGORITHM_VERSION`].
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
